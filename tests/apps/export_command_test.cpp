@@ -324,7 +324,7 @@ TEST_F(ExportCommand, FilesThatDoNotFitAndWrongUsage) {
           "w.npy: has weights of 4 points, but 3d/limb_model.obj has 3352");
   const auto bare = file("bare.obj", "v 0.25 0.25 0.25\nl 1 1\n");
   refused(bare + weights + cage + output, 2, "bare.obj: its");
-  const auto torn = file("torn.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/7 2/7 3/7\n");
+  const auto torn = file("torn.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n");
   refused(torn + weights + cage + output, 2, "torn.obj:4: the index 7 is out of range");
   const auto outside = file("outside.obj", "v 0.5 0.5 0.25\nv 0 0 0\nv 0 1 0\nf 1 2 3\n");
   refused(outside + " --weights " + linear_weights(points_of(outside)) + cage + output, 2,

@@ -49,14 +49,6 @@ TEST(CageIo, VerticesInsideOfAPlanarMeshAreNoControlPoints) {
   EXPECT_EQ(outline.polygons, (std::vector<std::vector<Index>>{{0, 1, 2, 3}}));
 }
 
-TEST(CageIo, PolygonsOfTwoVerticesAreEdges) {
-  auto soup = square();
-  soup.polygons = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
-  const auto cage = std::get<Cage<2>>(to_cage(soup, "square.off"));
-  EXPECT_EQ(cage.facets.cols(), 4);
-  EXPECT_TRUE(find_defects(cage).empty());
-}
-
 TEST(CageIo, AnotherPlaneIsNamed) {
   auto soup = square();
   soup.polygons = {{0, 1, 2, 3}};

@@ -328,6 +328,73 @@ TEST_F(ModelFileTest, DamagedFiles) {
   }
 }
 
+// What other programs write and read.
+TEST_F(ModelFileTest, FacesOfTwoVerticesAreEdges) {
+  const std::vector<std::vector<Index>> edges{{0, 1}, {1, 2}, {2, 0}};
+  const std::vector<std::pair<std::string, std::string>> files{
+      {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 2 3\nf 3 1\n"},
+      {"a.off", "OFF\n3 3 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n2 1 2\n2 2 0\n"},
+      {"a.ply",
+       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+       "element face 3\nproperty list uchar int vertex_indices\nend_header\n"
+       "0 0\n1 0\n0 1\n2 0 1\n2 1 2\n2 2 0\n"}};
+  for (const auto& [name, bytes] : files) {
+    SCOPED_TRACE(name);
+    const auto soup = open(name, bytes).model().soup;
+    EXPECT_EQ(soup.polylines, edges);
+    EXPECT_TRUE(soup.polygons.empty());
+  }
+}
+
+TEST_F(ModelFileTest, LinesMayEndWithACarriageReturn) {
+  const std::string text =
+      "ply\rformat ascii 1.0\relement vertex 3\rproperty float x\rproperty float y\r"
+      "element face 1\rproperty list uchar int vertex_indices\rend_header\r"
+      "0 0\r1 0\r0 1\r3 0 1 2\r";
+  EXPECT_EQ(open("a.ply", text).model().soup.polygons.size(), 1u);
+  const auto file = open("a.obj", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r");
+  std::ostringstream out;
+  PointList<3> moved(3, 3);
+  moved << 5, 1, 0, 0, 0, 1, 0, 0, 0;
+  file.write<3>(out, moved);
+  EXPECT_EQ(out.str(), "v 5 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r");
+}
+
+TEST_F(ModelFileTest, AttributesThatAreNotInTheFileAreLeftOut) {
+  const auto file = open("a.obj",
+                         "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n"
+                         "f 1/1/1 2/9/-4 3//7\n");
+  const auto& model = file.model();
+  ASSERT_EQ(model.attributes.corners.size(), 1u);
+  const auto& corners = model.attributes.corners[0];
+  EXPECT_EQ(corners[0].texture_coordinate, 0);
+  EXPECT_EQ(corners[0].normal, 0);
+  for (const int k : {1, 2}) {
+    EXPECT_EQ(corners[k].texture_coordinate, -1);
+    EXPECT_EQ(corners[k].normal, -1);
+  }
+  EXPECT_EQ(model.others,
+            std::vector<std::string>{
+                "references to texture coordinates or normals that are not in the file"});
+}
+
+TEST_F(ModelFileTest, ColorsThatAreNoNumbersAreMissing) {
+  const auto file = open("a.obj", "v 0 0 0 nan nan nan\nv 1 0 0 1 0 0\nv 0 1 0 0 inf 0\nf 1 2 3\n");
+  EXPECT_EQ(file.model().attributes.colors.cols(), 0);
+  EXPECT_EQ(file.model().soup.points.size(), 3u);
+}
+
+// OpenMesh marks colors of unsigned bytes as floating but not signed.
+TEST_F(ModelFileTest, ColorsOfBytesInOmFiles) {
+  std::string bytes("OMT\x22\1\0\0\0\0\0\0\0\0\0\0\0", 16);
+  bytes += std::string("\x00\x16", 2) + std::string(12, '\0');  // coordinates: 3 floats
+  bytes += std::string("\x80\x14\xff\x00\x33", 5);              // colors: 3 bytes
+  const auto file = open("a.om", bytes);
+  const auto& colors = file.model().attributes.colors;
+  ASSERT_EQ(colors.cols(), 1);
+  EXPECT_EQ(colors.col(0), Vector<3>(1, 0, 0.2));
+}
+
 TEST_F(ModelFileTest, DefectsAreNamed) {
   const auto refuse = [&](const std::string& name, const std::string& bytes,
                           const std::string& text) {
@@ -343,6 +410,14 @@ TEST_F(ModelFileTest, DefectsAreNamed) {
          ":8: expected a number, found \"a\"");
   refuse("b.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n",
          "the vertices have no x and y");
+  const std::string point = "property float x\nproperty float y\nproperty float z\n";
+  const std::string splats = "ply\nformat ascii 1.0\nelement vertex 1\n" + point;
+  refuse("c.ply", splats + "property float scale_0\nproperty float f_dc_0\nend_header\n0 0 0 1 1\n",
+         "the vertices have \"f_dc_0\" but no \"f_dc_1\"");
+  refuse("d.ply",
+         "ply\nformat ascii 1.0\nelement vertex 1\nproperty uint packed_position\n"
+         "property uint packed_rotation\nend_header\n1 2\n",
+         "export them uncompressed");
   refuse("a.om", "OMP\x62" + std::string(12, '\0'), "version 3.2 of the format is not supported");
   refuse("b.om", "liquid", "not an OpenMesh file");
   EXPECT_THROW(ModelFile(path("missing.om")), IoError);

@@ -126,8 +126,10 @@ TEST_F(PolygonFile, MalformedObj) {
           {"v 0 0 --1\n", ":1: ", "expected a number, found \"--1\""},
           {"v 0 0 \x01\xff\n", ":1: ", "expected a number, found \"??\""},
           {"v 0 0 " + std::string(100000, 'z'), ":1: ", std::string(40, 'z') + "...\""},
-          {triangle + "f 1 2\n", ":4: ", "a face needs at least 3 vertices, found 2"},
-          {triangle + "\n# c\nf\n", ":6: ", "a face needs at least 3 vertices, found 0"},
+          {triangle + "f 1\n", ":4: ", "a face needs at least 2 vertices, found 1"},
+          {triangle + "\n# c\nf\n", ":6: ", "a face needs at least 2 vertices, found 0"},
+          {triangle + "curv 0 1 1 2 3\n", ":4: ", "export polygons"},
+          {triangle + "cstype bezier\nsurf 0 1 0 1 1 \\\n2 3\n", ":5: ", "export polygons"},
           {triangle + "l 1\n", ":4: ", "a polyline needs at least 2 vertices, found 1"},
           {triangle + "f 1 2 4\n",
            ":4: ", "the index 4 is out of range; vertices are numbered 1 to 3"},
@@ -139,7 +141,7 @@ TEST_F(PolygonFile, MalformedObj) {
           {triangle + "f 1 2 x\n", ":4: ", "expected a vertex index, found \"x\""},
           {triangle + "f 1 2 3/1/1/1\n", ":4: ", "expected a vertex index, found \"3/1/1/1\""},
           {triangle + "f 1 \\\n 2 \\\n x\n", ":6: ", "expected a vertex index, found \"x\""},
-          {triangle + "f 1 \\\n 2 \\\n\nf 1 2 3 4\n", ":4: ", "at least 3 vertices, found 2"},
+          {triangle + "f 1 \\\n \\\n\nf 1 2 3 4\n", ":4: ", "at least 2 vertices, found 1"},
       });
 }
 
@@ -156,6 +158,9 @@ TEST_F(PolygonFile, OffVariants) {
       "STOFF\n4 2 0\n0 0 0 .1 .2\n1 0 0 0 0\n1 1 0 0 1\n0 1 0 0 1\n" + faces,
       "STCNOFF\n4 2 0\n0 0 0 1 1 1\n1 0 0 1 1 1\n1 1 0 1 1 1\n0 1 0 1 1 1\n" + faces,
       "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 0.5 0.5 0.5\n3 2 1 0 7\n",
+      "OFF4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n" + faces,
+      "4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n" + faces,
+      "OFF\r4 2 0\r0 0 0\r1 0 0\r1 1 0\r0 1 0\r4 0 1 2 3\r3 2 1 0\r",
   };
   for (const std::string& variant : variants) {
     const PolygonSoup soup = off(variant);
@@ -171,7 +176,10 @@ TEST_F(PolygonFile, MalformedOff) {
       {
           {"", ":1: ", "it is empty"},
           {std::string("\0\xff\xfe\x01 garbage\n", 13), ": ", "it looks like a binary file"},
-          {"3 1 0\n0 0 0\n", ":1: ", "expected OFF, found \"3\""},
+          {"3 1 0\n0 0 0    \n1 0 0   \n", ":3: ", "the file ends after 2 of 3 vertices"},
+          {"ON\n", ":1: ", "expected OFF, found \"ON\""},
+          {"OFFX 3 1 0\n", ":1: ", "expected OFF, found \"OFFX\""},
+          {"ST3 1 0\n", ":1: ", "expected OFF, found \"ST3\""},
           {"4OFF\n", ":1: ", "\"4OFF\" is not supported"},
           {"OFF BINARY\n1234", ":1: ", "binary OFF"},
           {"OFF\n", ":1: ", "the file ends before the number of vertices"},
@@ -186,7 +194,7 @@ TEST_F(PolygonFile, MalformedOff) {
           {"OFF\n3 1 0\n0 0 0   \n1 0 0   \n", ":4: ", "the file ends after 2 of 3 vertices"},
           {"OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", ":4: ", "expected a number, found the end"},
           {head, ":5: ", "the file ends after 0 of 1 faces"},
-          {head + "2 0 1\n", ":6: ", "at least 3 vertices, found 2"},
+          {head + "1 0\n", ":6: ", "at least 2 vertices, found 1"},
           {head + "3 0 1\n", ":6: ", "expected an integer, found the end"},
           {head + "3 0 1 3\n", ":6: ", "the index 3 is out of range; vertices are numbered 0 to 2"},
           {head + "1000000000 0 1 2\n", ":6: ", "1000000000 corners are declared, but the file"},

@@ -42,6 +42,10 @@ class GmshReader {
           read_elements_2();
         }
         expect_end("$EndElements");
+      } else if (name == "$ParametricNodes") {
+        reader_.fail(
+            "the section $ParametricNodes is not supported; save the file without "
+            "parametric coordinates");
       } else {
         skip_to("$End" + name.substr(1));
       }

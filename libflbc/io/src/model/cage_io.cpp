@@ -33,8 +33,7 @@ Edges boundary_edges(const std::vector<Polygon>& polygons) {
   std::map<std::pair<Index, Index>, int> uses;  // by the smaller end
   const auto for_edges = [&](const auto& use) {
     for (const auto& polygon : polygons) {
-      const auto count = polygon.size() == 2 ? 1 : polygon.size();
-      for (std::size_t k = 0; k < count; ++k) {
+      for (std::size_t k = 0; k < polygon.size(); ++k) {
         use(polygon[k], polygon[(k + 1) % polygon.size()]);
       }
     }

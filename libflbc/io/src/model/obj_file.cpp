@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "model/model_scan.h"
@@ -32,9 +33,13 @@ class ObjReader {
       reader_.fail("the file ends without a vertex (\"v\" line)");
     }
     vertices_.check(reader_, model_.soup.points.size());
+    if (curve_line_ > 0 && model_.soup.polygons.empty()) {
+      reader_.fail_at(curve_line_,
+                      "curves and free-form surfaces (\"curv\", \"surf\") are not "
+                      "supported; export polygons");
+    }
     if (!reads_attributes_) return;
-    to_texture_coordinates_.check(reader_, texture_coordinates_.size());
-    to_normals_.check(reader_, normals_.size());
+    drop_dangling_references();
     model_.attributes.texture_coordinates = to_matrix<2>(texture_coordinates_);
     model_.attributes.normals = to_matrix<3>(normals_);
     finish_colors();
@@ -47,9 +52,12 @@ class ObjReader {
     if (keyword == "v") {
       read_vertex();
     } else if (keyword == "f") {
-      read_corners("a face", 3, model_.soup.polygons.emplace_back());
+      read_corners(true);
     } else if (keyword == "l") {
-      read_corners("a polyline", 2, model_.soup.polylines.emplace_back());
+      read_corners(false);
+    } else if (keyword == "curv" || keyword == "curv2" || keyword == "surf") {
+      if (curve_line_ == 0) curve_line_ = reader_.line();
+      add_other(model_, "lines with " + in_quotes(keyword));
     } else if (keyword == "mtllib" || keyword == "usemtl") {
       // Always read, because it may continue on the next line.
       read_material(keyword, rest_of_line(reader_));
@@ -99,16 +107,16 @@ class ObjReader {
     add(numbers.places, TripleKind::kPoint, model_.soup.points.size());
     model_.soup.points.push_back(numbers.values);
     std::vector<double> others;
-    while (reader_.has_word()) others.push_back(reader_.number());
+    while (reader_.has_word()) others.push_back(reader_.any_number());
     if (others.size() == 3 || others.size() == 4) {
       colors_.emplace_back(others[0], others[1], others[2]);
     }
     most_others_ = std::max(most_others_, others.size());
   }
 
-  void read_corners(const char* element, std::size_t at_least, std::vector<Index>& vertices) {
+  void read_corners(bool is_face) {
     const std::int64_t line = reader_.line();
-    const bool is_face = at_least == 3;
+    std::vector<Index> vertices;
     std::vector<CornerReferences> references;
     while (reader_.has_word()) {
       const std::string_view word = reader_.word();
@@ -125,19 +133,48 @@ class ObjReader {
         add_other(model_, "texture coordinates of polylines");
       }
     }
-    if (vertices.size() < at_least) {
-      reader_.fail_at(line, std::string(element) + " needs at least " + std::to_string(at_least) +
-                                " vertices, found " + std::to_string(vertices.size()));
+    if (vertices.size() < 2) {
+      reader_.fail_at(line, std::string(is_face ? "a face" : "a polyline") +
+                                " needs at least 2 vertices, found " +
+                                std::to_string(vertices.size()));
     }
+    // A face of two vertices is an edge.
+    is_face &= vertices.size() > 2;
+    (is_face ? model_.soup.polygons : model_.soup.polylines).push_back(std::move(vertices));
     if (!reads_attributes_ || !is_face) return;
     model_.attributes.corners.push_back(std::move(references));
     polygon_materials_.push_back(material_);
   }
 
-  CornerReferences resolve(const ObjCorner& corner) {
-    return {to_texture_coordinates_.resolve(reader_, corner.texture_coordinate,
-                                            texture_coordinates_.size()),
-            to_normals_.resolve(reader_, corner.normal, normals_.size())};
+  CornerReferences resolve(const ObjCorner& corner) const {
+    // The lists may follow in the file, so what is not there is found at its end.
+    const auto index = [](std::int64_t number, std::size_t seen) {
+      constexpr Index kMissing = std::numeric_limits<Index>::max();
+      const auto result = number >= 0 ? number - 1 : static_cast<std::int64_t>(seen) + number;
+      const bool is_missing = number != 0 && (result < 0 || result > kMissing);
+      return is_missing ? kMissing : static_cast<Index>(result);
+    };
+    return {index(corner.texture_coordinate, texture_coordinates_.size()),
+            index(corner.normal, normals_.size())};
+  }
+
+  // Files that were cut from others refer to attributes that are not there.
+  void drop_dangling_references() {
+    bool are_dangling = false;
+    const auto check = [&](Index& reference, std::size_t count) {
+      if (reference < static_cast<std::int64_t>(count)) return;
+      reference = -1;
+      are_dangling = true;
+    };
+    for (auto& polygon : model_.attributes.corners) {
+      for (auto& corner : polygon) {
+        check(corner.texture_coordinate, texture_coordinates_.size());
+        check(corner.normal, normals_.size());
+      }
+    }
+    if (are_dangling) {
+      add_other(model_, "references to texture coordinates or normals that are not in the file");
+    }
   }
 
   void read_texture_coordinate() {
@@ -175,6 +212,7 @@ class ObjReader {
   Model& model_;
   bool reads_attributes_;
   TextReader reader_;
+  std::int64_t curve_line_ = 0;  // of the first curve or free-form surface; 0 = none
   std::size_t most_others_ = 0;  // numbers after the coordinates of a vertex
   std::vector<Vector<2>> texture_coordinates_;
   std::vector<Vector<3>> normals_;
@@ -183,8 +221,6 @@ class ObjReader {
   std::vector<Index> polygon_materials_;
   Index material_ = -1;  // of the following polygons
   ObjReferences vertices_{"vertices"};
-  ObjReferences to_texture_coordinates_{"texture coordinates"};
-  ObjReferences to_normals_{"normals"};
 };
 
 void write_corner(TextWriter& writer, Index vertex, const CornerReferences& references) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OFF: the header is [ST][C][N]OFF, and each vertex has its coordinates, normal, color, and texture
-// coordinates in this order.
+// OFF: the header is [ST][C][N]OFF or missing, and each vertex has its coordinates, normal, color,
+// and texture coordinates in this order. Many files, such as those of ModelNet, have no blank
+// between the header and the number of vertices.
 #include <algorithm>
 #include <limits>
 #include <string_view>
@@ -62,7 +63,13 @@ class OffReader {
       reader_.fail("the header " + in_quotes(found) +
                    " is not supported: points must have 3 coordinates");
     }
-    if (rest != "OFF") reader_.fail("not an OFF file: expected OFF, found " + in_quotes(found));
+    const auto is_number = [](std::string_view text) {
+      return text.find_first_not_of("0123456789") == std::string_view::npos;
+    };
+    if ((!take(rest, "OFF") && rest.size() < found.size()) || !is_number(rest)) {
+      reader_.fail("not an OFF file: expected OFF, found " + in_quotes(found));
+    }
+    reader_.put_back(rest.size());
     if (!reader_.next_word_on_any_line()) {
       reader_.fail("the file ends before the number of vertices");
     }
@@ -116,10 +123,11 @@ class OffReader {
 
   void read_polygon(Index num_points) {
     const Index num_corners = reader_.count("corners", 2);
-    if (num_corners < 3) {
-      reader_.fail("a face needs at least 3 vertices, found " + std::to_string(num_corners));
+    if (num_corners < 2) {
+      reader_.fail("a face needs at least 2 vertices, found " + std::to_string(num_corners));
     }
-    std::vector<Index>& corners = model_.soup.polygons.emplace_back(num_corners);
+    auto& elements = num_corners == 2 ? model_.soup.polylines : model_.soup.polygons;
+    std::vector<Index>& corners = elements.emplace_back(num_corners);
     for (Index& corner : corners) corner = reader_.index("vertices", 0, num_points);
     if (reads_attributes_ && reader_.has_word()) add_other(model_, "colors of polygons");
   }

@@ -123,7 +123,8 @@ void OmReader::measure(OmChunk& chunk, unsigned bits) {
   const unsigned logarithm = bits >> 14 & 3;
   chunk.components = (bits >> 11 & 7) + 1;
   chunk.is_signed = (bits >> 9 & 1) != 0;
-  chunk.is_floating = (bits >> 10 & 1) != 0 && chunk.type != Type::kTopology;
+  // OpenMesh marks vectors of unsigned bytes as floating as well, but only these as unsigned.
+  chunk.is_floating = (bits >> 10 & 1) != 0 && chunk.is_signed && chunk.type != Type::kTopology;
   chunk.bytes_each = std::size_t{chunk.is_floating ? 4u : 1u} << logarithm;
   if (chunk.is_floating && chunk.bytes_each > 8) fail("numbers of 128 bits are not supported");
   if (chunk.type == Type::kStatus) chunk.bytes_each = kStatusBytes;

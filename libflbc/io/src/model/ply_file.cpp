@@ -60,7 +60,8 @@ class PlyScanner {
         read_others(element);
       }
     }
-    for (std::size_t f = 0; f < model_.soup.polygons.size(); ++f) check_polygon(f);
+    check_polygons(model_.soup.polygons, "face ", 3);
+    check_polygons(model_.soup.polylines, "edge ", 2);
     keep_finite<3>(model_, model_.attributes.normals);
     keep_finite<2>(model_, model_.attributes.texture_coordinates);
     keep_finite<3>(model_, scan_.face_normals);
@@ -107,13 +108,31 @@ class PlyScanner {
 
   Slots slots_of_vertex(const PlyElement& element) const {
     Slots slots(element);
+    if (element.find("packed_position") >= 0) {
+      reader_.fail(
+          "compressed Gaussian splats (\"packed_position\") are not supported; export them "
+          "uncompressed");
+    }
     if (!slots.assign(kPoint, {"x", "y"})) reader_.fail("the vertices have no x and y");
+    refuse_incomplete_splats(element);
     slots.assign(kPoint + 2, {"z"});
     slots.assign(kNormal, {"nx", "ny", "nz"});
     if (slots.assign(kColor, {"red", "green", "blue"})) slots.assign(kAlpha, {"alpha"});
     slots.assign(kTexture, {"s", "t"}) || slots.assign(kTexture, {"u", "v"}) ||
         slots.assign(kTexture, {"texture_u", "texture_v"});
     return slots;
+  }
+
+  // They would move as bare points, without turning.
+  void refuse_incomplete_splats(const PlyElement& element) const {
+    for (const char* some : {"f_dc_0", "rot_0", "scale_0"}) {
+      if (element.find(some) < 0) continue;
+      for (const char* name : kSplatProperties) {
+        if (element.find(name) >= 0) continue;
+        reader_.fail("the vertices have " + in_quotes(some) + " but no " + in_quotes(name) +
+                     ": Gaussian splats need both");
+      }
+    }
   }
 
   void allocate(const Slots& slots, Eigen::Index num_points) {
@@ -156,7 +175,11 @@ class PlyScanner {
     Row row;
     for (Index f = 0; f < element.count; ++f) {
       read_row(element, slots, row);
-      if (are_faces) model_.soup.polygons.push_back(row.polygon);
+      // A face of two vertices is an edge, which has no normal.
+      const bool is_edge = row.polygon.size() == 2 && !has_normals;
+      if (are_faces) {
+        (is_edge ? model_.soup.polylines : model_.soup.polygons).push_back(row.polygon);
+      }
       if (!has_normals) continue;
       scan_.face_normals.col(f) = row.three(kNormal);
       add_sites(scan_, places_of(row, kNormal), TripleKind::kFaceNormal, f);
@@ -210,14 +233,19 @@ class PlyScanner {
     }
   }
 
-  void check_polygon(std::size_t f) const {
-    const auto& polygon = model_.soup.polygons[f];
-    const std::string name = path_ + ": face " + std::to_string(f);
-    if (polygon.size() < 3) throw InputError(name + " has fewer than 3 vertices");
-    const Index largest = *std::max_element(polygon.begin(), polygon.end());
-    if (static_cast<std::size_t>(largest) < model_.soup.points.size()) return;
-    throw InputError(name + " names vertex " + std::to_string(largest) + ", but there are " +
-                     std::to_string(model_.soup.points.size()) + " vertices");
+  void check_polygons(const std::vector<std::vector<Index>>& polygons, const char* kind,
+                      std::size_t fewest) const {
+    for (std::size_t f = 0; f < polygons.size(); ++f) {
+      const auto& polygon = polygons[f];
+      const std::string name = path_ + ": " + kind + std::to_string(f);
+      if (polygon.size() < fewest) {
+        throw InputError(name + " has fewer than " + std::to_string(fewest) + " vertices");
+      }
+      const Index largest = *std::max_element(polygon.begin(), polygon.end());
+      if (static_cast<std::size_t>(largest) < model_.soup.points.size()) continue;
+      throw InputError(name + " names vertex " + std::to_string(largest) + ", but there are " +
+                       std::to_string(model_.soup.points.size()) + " vertices");
+    }
   }
 
   const std::string& path_;

@@ -53,13 +53,13 @@ void PlyReader::fail(const std::string& message) const {
   std::string place = ": at byte " + std::to_string(position_);
   if (is_in_header_ || !is_binary_) {
     const auto end = content_.begin() + static_cast<std::ptrdiff_t>(position_);
-    place = ":" + std::to_string(1 + std::count(content_.begin(), end, '\n'));
+    place = ":" + std::to_string(1 + std::count(content_.begin(), end, line_end_));
   }
   throw InputError(path_ + place + ": " + message);
 }
 
 std::string PlyReader::header_line() {
-  const std::size_t end = content_.find('\n', position_);
+  const std::size_t end = content_.find(line_end_, position_);
   if (end == std::string::npos) fail("the header of the PLY file has no end");
   return content_.substr(position_, end - position_);
 }
@@ -73,6 +73,7 @@ const PlyType* PlyReader::type_of(const std::string& name) const {
 
 void PlyReader::read_header() {
   std::string word;
+  if (content_.compare(0, 4, "ply\r") == 0 && content_.compare(4, 1, "\n") != 0) line_end_ = '\r';
   for (bool is_first = true; word != "end_header"; is_first = false) {
     const std::string text = header_line();
     std::istringstream line(text);

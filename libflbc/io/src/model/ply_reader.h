@@ -27,6 +27,11 @@ struct PlyProperty {
   const PlyType* count_type = nullptr;  //!< of lists
 };
 
+//! The properties that make a vertex a Gaussian splat.
+constexpr const char* kSplatProperties[] = {"x",      "y",       "z",       "f_dc_0", "f_dc_1",
+                                            "f_dc_2", "opacity", "rot_0",   "rot_1",  "rot_2",
+                                            "rot_3",  "scale_0", "scale_1", "scale_2"};
+
 //! Elements with the same properties.
 struct PlyElement {
   std::string name{};
@@ -82,6 +87,7 @@ class PlyReader {
   const std::string& content_;
   std::size_t position_ = 0;
   bool is_in_header_ = true;
+  char line_end_ = '\n';  // of the header
   bool is_binary_ = false;
   bool is_big_endian_ = false;
   bool has_comments_ = false;

@@ -28,10 +28,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr const char* kNeeded[] = {"x",      "y",       "z",       "f_dc_0", "f_dc_1",
-                                   "f_dc_2", "opacity", "rot_0",   "rot_1",  "rot_2",
-                                   "rot_3",  "scale_0", "scale_1", "scale_2"};
-
 // The rotation of the polar decomposition, by Newton's method where J is far from singular.
 Matrix3d rotation_of(const Matrix3d& j) {
   const double scale = std::cbrt(std::abs(j.determinant()));
@@ -123,7 +119,7 @@ SplatFile::Content::Content(const std::string& path) : text(read_file(path)) {
     if (type.kind != 'f' || type.bytes != 4) fail("property " + in_quotes(name) + " is not float");
     return offsets[k];
   };
-  for (const char* name : kNeeded) find(name);
+  for (const char* name : kSplatProperties) find(name);
   center = {find("x"), find("y"), find("z")};
   scale = {find("scale_0"), find("scale_1"), find("scale_2")};
   rotation = {find("rot_0"), find("rot_1"), find("rot_2"), find("rot_3")};
@@ -220,9 +216,9 @@ bool is_splat_file(const std::string& path) {
     if (line == "end_header") break;
     if (line.rfind("property ", 0) == 0) names.push_back(line.substr(line.rfind(' ') + 1));
   }
-  return std::all_of(std::begin(kNeeded), std::end(kNeeded), [&](const char* name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  });
+  return std::all_of(
+      std::begin(kSplatProperties), std::end(kSplatProperties),
+      [&](const char* name) { return std::find(names.begin(), names.end(), name) != names.end(); });
 }
 
 SplatFile::SplatFile(const std::string& path) : content_(std::make_unique<Content>(path)) {

@@ -66,6 +66,7 @@ TextReader::TextReader(const std::string& path, std::string text, Syntax syntax,
       line_(first_line) {
   // The UTF-8 byte order mark.
   if (text_.compare(0, 3, "\xEF\xBB\xBF") == 0) position_ = 3;
+  if (text_.find('\n') == std::string::npos) std::replace(text_.begin(), text_.end(), '\r', '\n');
 }
 
 bool TextReader::skip_continuation() {
@@ -163,6 +164,13 @@ double TextReader::number_out_of_range(std::string_view word) const {
 }
 
 double TextReader::number() {
+  const auto word = peek();
+  const double value = any_number();
+  if (!std::isfinite(value)) fail_expected("a finite number", word);
+  return value;
+}
+
+double TextReader::any_number() {
   const std::string_view found = word();
   const std::string_view digits = without_plus(found);
   double value = 0;
@@ -171,7 +179,6 @@ double TextReader::number() {
     fail_expected("a number", found);
   }
   if (parsed.ec == std::errc::result_out_of_range) return number_out_of_range(digits);
-  if (!std::isfinite(value)) fail_expected("a finite number", found);
   return value;
 }
 

@@ -12,7 +12,8 @@
 
 namespace flbc::io {
 
-//! A cursor over a text. Words are separated by blanks; a line ends with LF or CRLF. All errors are
+//! A cursor over a text. Words are separated by blanks; a line ends with LF, CRLF, or, if the text
+//! has no LF, CR. All errors are
 //! InputErrors that start with "FILE:LINE: ". Numbers do not depend on the locale.
 class TextReader {
  public:
@@ -46,8 +47,14 @@ class TextReader {
   //! The word that word() would return, without moving on.
   std::string_view peek();
 
+  //! Puts back the last characters of the word that was read last.
+  void put_back(std::size_t characters) { position_ -= characters; }
+
   //! The next word on this line as a finite number; one too small for a double counts as 0.
   double number();
+
+  //! The same, but infinity and NaN are numbers, too.
+  double any_number();
 
   //! The next three words on this line as a point.
   Vector<3> point();

@@ -16,9 +16,9 @@ using AnyCage = std::variant<Cage<2>, Cage<3>>;
 
 //! Makes a 3D cage from polygons, a 2D cage from polylines, or a 2D cage from points alone as one
 //! closed polyline. Polygons in a plane z = const are replaced by the polylines, or by their common
-//! boundary if there are no polylines; vertices inside of it are left out, and polygons of two
-//! vertices are edges. Polygons with more than three vertices are triangulated as by cut_polygon(),
-//! because the coordinates are linear on triangles. The cage is not validated.
+//! boundary if there are no polylines; vertices inside of it are left out. Polygons with more than
+//! three vertices are triangulated as by cut_polygon(), because the coordinates are linear on
+//! triangles. The cage is not validated.
 //! \param name  of the file, for messages
 //! \throws InputError if a 2D cage is not in a plane z = const, or if polylines occur together with
 //! polygons that are not in such a plane
