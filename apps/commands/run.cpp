@@ -22,8 +22,8 @@ namespace flbc::app {
 namespace {
 
 void check_arguments(const RunArguments& arguments) {
-  validate(arguments.settings.options);
-  if (arguments.settings.options.method == Method::kBiharmonic) {
+  validate_settings(arguments.settings);
+  if (arguments.settings.coordinates == Coordinates::kBiharmonic) {
     throw OptionError(
         "--method bbw: flbc run needs weights that reproduce the model, which bounded biharmonic "
         "weights do not; use flbc solve and flbc deform --relative, or flbc compare");
@@ -174,9 +174,10 @@ int run_model(const CLI::App& command, RunArguments& arguments) {
   }
   const bool is_picture = io::extension_of(settings.cage) == "png";
   const bool is_splats = io::is_splat_file(settings.cage);
-  auto& file = is_picture ? arguments.picture : is_splats ? arguments.splats : settings.model;
-  file = std::exchange(settings.cage, kCage);
-  if (is_picture) refuse_unread_options(command, settings);
+  const std::string file = std::exchange(settings.cage, kCage);
+  (is_picture ? arguments.picture : settings.model) = file;
+  refuse_unread_options(command, settings);
+  if (is_splats) arguments.splats = std::exchange(settings.model, "");
   require_model_to_embed(settings);
   const auto run_in_cage = [&](const auto& model) {
     const auto start = std::chrono::steady_clock::now();
@@ -192,7 +193,7 @@ int run_model(const CLI::App& command, RunArguments& arguments) {
 int run_as_told(const CLI::App& command, RunArguments& arguments) {
   check_arguments(arguments);
   arguments.settings.needs_domain = true;
-  make_smooth(arguments.settings.options);
+  if (!arguments.settings.coordinates) make_smooth(arguments.settings.options);
   if (arguments.makes_cage) return run_model(command, arguments);
   refuse_unread_options(command, arguments.settings);
   auto& model = arguments.settings.model;

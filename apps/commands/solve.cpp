@@ -151,7 +151,7 @@ void add_solve_command(CLI::App& app, int& exit_status) {
           ->needs(model);
   domain->excludes(vertices)->excludes(embed);
   command->callback([arguments, command, &exit_status] {
-    validate(arguments->settings.options);
+    validate_settings(arguments->settings);
     arguments->settings.needs_domain = !arguments->save_domain.empty();
     refuse_unread_options(*command, arguments->settings);
     check_outputs(*arguments);

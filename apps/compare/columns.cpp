@@ -13,7 +13,6 @@
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/names.h"
-#include "flbc/pointwise.h"
 #include "flbc/solver.h"
 #include "help/wording.h"
 #include "report/properties.h"
@@ -62,26 +61,24 @@ void make_domain(Comparison<Dim>& all) {
 }
 
 template <int Dim>
-SparseWeights weights_of_mesh(const Comparison<Dim>& all, const SolverOptions& options) {
-  if (is_pointwise(options.method)) {
-    return pointwise_coordinates(all.cage, all.domain.points, options.method);
+SparseWeights weights_of_mesh(const Comparison<Dim>& all, const Column<Dim>& column) {
+  const auto& settings = column.settings;
+  if (settings.coordinates && is_pointwise(*settings.coordinates)) {
+    return pointwise_coordinates(all.cage, all.domain.points, *settings.coordinates);
   }
-  ProgressBar bar(all.arguments.quiet, "setting up: boundary values, distances", options);
+  ProgressBar bar(all.arguments.quiet, "setting up: boundary values, distances", settings.options);
   Observer observer;
   observer.progress = [&](const Progress& progress) {
     bar.show(progress);
     return true;
   };
-  return solve(all.cage, all.domain, options, coarse_mesher<Dim>(all.made_by), observer).weights;
+  return compute_weights(all.cage, all.domain, settings, all.made_by, observer).weights;
 }
 
 template <int Dim>
 SparseWeights weights_of_shape(const Comparison<Dim>& all, const Column<Dim>& column) {
   if (all.arguments.model.empty()) return column.of_mesh;
-  if (is_pointwise(column.options.method)) {
-    return pointwise_coordinates(all.cage, all.placement, column.options);
-  }
-  return weights_at(all.cage, all.domain, column.of_mesh, all.placement);
+  return weights_of_points(all.cage, all.domain, column.of_mesh, all.placement, column.settings);
 }
 
 // \return seconds for the vertices of the mesh
@@ -106,8 +103,9 @@ double reproduction_error(const Comparison<Dim>& all, const MovedBy<Dim>& moved)
 
 template <int Dim>
 void measure(const Comparison<Dim>& all, double seconds, Column<Dim>& column) {
-  column.facts = {{"method", name_of(resolve(column.options).method)},
-                  {"smoothness", column.options.smoothness.value_or(0)}};
+  column.facts = {
+      {"method", name_of_method(column.settings, resolve(column.settings.options).method)},
+      {"smoothness", column.settings.options.smoothness.value_or(0)}};
   column.facts.update(properties_of(check_weights(all.cage, all.domain, column.of_mesh)));
   if (column.has_normals()) {
     column.facts["reproduction_error"] = reproduction_error(all, column.moved);
@@ -124,10 +122,10 @@ template <int Dim>
 void solve_column(const Comparison<Dim>& all, Column<Dim>& column) {
   if (column.has_normals()) return measure(all, solve_green(all, column), column);
   const auto start = std::chrono::steady_clock::now();
-  column.of_mesh = weights_of_mesh(all, column.options);
+  column.of_mesh = weights_of_mesh(all, column);
   const double seconds = seconds_since(start);
   column.rows = weights_of_shape(all, column);
-  column.moved = column.options.method == Method::kBiharmonic
+  column.moved = column.settings.coordinates == Coordinates::kBiharmonic
                      ? by_displacements(column.rows, all.cage.points, all.points())
                      : by_control_points<Dim>(column.rows);
   measure(all, seconds, column);
@@ -150,15 +148,15 @@ std::vector<Column<Dim>> columns_of(const std::vector<std::string>& methods) {
     if (!(methods.empty() ? is_possible : is_given)) continue;
     Column<Dim> column{name, title};
     if (name != std::string(kLocal)) {
-      column.options.method = *value_named<Method>(name);
+      column.settings.coordinates = value_named<Coordinates>(name);
       columns.push_back(column);
       continue;
     }
-    column.options.smoothness = 0;
+    column.settings.options.smoothness = 0;
     columns.push_back(column);
     column.name = "local_smooth";
     column.title = "local, smooth";
-    column.options.smoothness = kDeformationSmoothness;
+    column.settings.options.smoothness = kDeformationSmoothness;
     columns.push_back(column);
   }
   return columns;

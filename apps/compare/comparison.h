@@ -9,10 +9,10 @@
 
 #include "files/upright.h"
 #include "flbc/meshing.h"
-#include "flbc/options.h"
 #include "poses/moved_by.h"
 #include "run/folder.h"
 #include "run/inputs.h"
+#include "solve/solve_settings.h"
 
 namespace flbc::app {
 
@@ -33,19 +33,19 @@ struct CompareArguments {
 //! A kind of coordinates with its results.
 template <int Dim>
 struct Column {
-  std::string name;   //!< also in names of files
-  std::string title;  //!< in pictures
-  SolverOptions options{};
-  std::string failure{};    //!< if there are no results
-  SparseWeights of_mesh{};  //!< of the vertices of the mesh
-  SparseWeights rows{};     //!< the same of the shape's points
-  MovedBy<Dim> moved{};     //!< how they move
+  std::string name;          //!< also in names of files
+  std::string title;         //!< in pictures
+  SolveSettings settings{};  //!< coordinates, or options of local ones
+  std::string failure{};     //!< if there are no results
+  SparseWeights of_mesh{};   //!< of the vertices of the mesh
+  SparseWeights rows{};      //!< the same of the shape's points
+  MovedBy<Dim> moved{};      //!< how they move
   nlohmann::ordered_json facts{};
 
   std::string weights_file() const { return "weights_" + name + ".npy"; }
   std::string page_file() const { return "model_" + name + ".html"; }
   //! Green coordinates have further weights, which files and pages have no room for.
-  bool has_normals() const { return options.method == Method::kGreen; }
+  bool has_normals() const { return settings.coordinates == Coordinates::kGreen; }
 };
 
 //! What is compared, and where it goes.

@@ -41,7 +41,7 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
           {"outside", name_of(settings.outside)},
           {"vertices", settings.vertices},
           {"mesher", name_of(settings.meshing.mesher)},
-          {"method", name_of(given.method)},
+          {"method", name_of_method(settings, given.method)},
           {"non_negative", name_of(options.non_negative)},
           {"coarse_to_fine", name_of(options.coarse_to_fine)},
           {"active", name_of(options.active_set)},
@@ -103,9 +103,10 @@ nlohmann::ordered_json report_json(const SolveReport& report, const SolveSetting
   // The penalty has another unit, but other options depend on whether it is set.
   auto given = settings.options;
   given.penalty = settings.penalty;
+  if (settings.coordinates) given.method = Method::kPaper;  // which chooses as little
   const auto options = resolve(given);
   nlohmann::ordered_json json;
-  json["method"] = name_of(report.method);
+  json["method"] = name_of_method(settings, report.method);
   json["dim"] = context.dim;
   json["mesher"] = name_of(context.mesher);
   json["control_points"] = report.control_points;

@@ -66,7 +66,7 @@ void compute_weights(Run<Dim>& run) {
   }
   const auto& report = solver.report();
   Facts facts;
-  facts << name_of(report.method);
+  facts << name_of_method(run.arguments.settings, report.method);
   if (!report.parts.empty()) facts << ", " << report.parts.size() << " parts";
   if (report.iterations > 0) facts << ", " << describe_iterations(report);
   if (report.status != SolveStatus::kConverged) facts << " (not converged)";

@@ -15,7 +15,6 @@
 #include "flbc/errors.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/names.h"
-#include "flbc/pointwise.h"
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
 #include "report/report_json.h"
@@ -25,19 +24,6 @@
 
 namespace flbc::app {
 namespace {
-
-// Starts from coarser meshes where that pays and a mesher was built in.
-template <int Dim>
-Solution solve_domain(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, SolverOptions options,
-                      std::optional<double> penalty, Mesher made_by, const Observer& observer) {
-  const auto mesher = coarse_mesher<Dim>(made_by);
-  if (options.coarse_to_fine == CoarseToFine::kOn && !mesher) {
-    throw OptionError("--coarse-to-fine on: this flbc was built without a mesher for " +
-                      std::to_string(Dim) + "D");
-  }
-  if (penalty) options.penalty = published_penalty(cage, domain, options.method, *penalty);
-  return solve(cage, domain, options, mesher, observer);
-}
 
 template <int Dim>
 const PointBeside<Dim>& farthest(const std::vector<PointBeside<Dim>>& points) {
@@ -96,6 +82,38 @@ nlohmann::ordered_json parts_json(const Cage<Dim>& cage, const std::vector<Solve
 }  // namespace
 
 template <int Dim>
+Solution compute_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
+                         const SolveSettings& settings, Mesher made_by, const Observer& observer) {
+  auto options = settings.options;
+  if (settings.coordinates) {
+    return compute_coordinates(cage, domain, *settings.coordinates,
+                               {options.non_negative, options.threads}, observer);
+  }
+  // Starts from coarser meshes where that pays and a mesher was built in.
+  const auto mesher = coarse_mesher<Dim>(made_by);
+  if (options.coarse_to_fine == CoarseToFine::kOn && !mesher) {
+    throw OptionError("--coarse-to-fine on: this flbc was built without a mesher for " +
+                      std::to_string(Dim) + "D");
+  }
+  if (settings.penalty) {
+    options.penalty = published_penalty(cage, domain, options.method, *settings.penalty);
+  }
+  return flbc::solve(cage, domain, options, mesher, observer);
+}
+
+template <int Dim>
+SparseWeights weights_of_points(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
+                                const SparseWeights& of_domain, const Placement<Dim>& placement,
+                                const SolveSettings& settings) {
+  const auto& options = settings.options;
+  if (settings.coordinates && is_pointwise(*settings.coordinates)) {
+    return pointwise_coordinates(cage, placement, *settings.coordinates,
+                                 {options.non_negative, options.threads});
+  }
+  return weights_at(cage, domain, of_domain, placement);
+}
+
+template <int Dim>
 CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
                             const SolveSettings& settings)
     : cage_(cage), model_(model), settings_(settings) {
@@ -151,7 +169,7 @@ void CageSolver<Dim>::announce() const {
   const auto method = resolve(settings_.options).method;
   const auto estimate =
       estimate_solve(Dim, cage_.size(), domain_.num_vertices(), settings_.options);
-  if (method != Method::kValue || !is_long(estimate)) return;
+  if (settings_.coordinates || method != Method::kValue || !is_long(estimate)) return;
   std::cerr << "flbc: solving for " << cage_.size() << " control points and "
             << domain_.num_vertices() << " vertices; this may take " << describe(estimate) << '\n';
 }
@@ -161,7 +179,6 @@ void CageSolver<Dim>::solve_without_mesh() {
   const auto start = std::chrono::steady_clock::now();
   rows_ = weights_of_model();
   auto& report = solution_.report;
-  report.method = settings_.options.method;
   report.control_points = cage_.size();
   report.objective = std::numeric_limits<double>::quiet_NaN();
   report.seconds.solve =
@@ -185,9 +202,8 @@ void CageSolver<Dim>::solve(bool quiet) {
     return true;
   };
   observer.stage = [&](Stage stage, double done) { bar.show(name_of(stage), done); };
-  solution_ = naming(settings_.domain.empty() ? settings_.cage : settings_.domain, [&] {
-    return solve_domain(cage_, domain_, options, settings_.penalty, mesher_, observer);
-  });
+  solution_ = naming(settings_.domain.empty() ? settings_.cage : settings_.domain,
+                     [&] { return compute_weights(cage_, domain_, settings_, mesher_, observer); });
   if (settings_.history) history_ = recorder.finished(report());
   if (!settings_.model.empty()) rows_ = weights_of_model();
 }
@@ -200,11 +216,9 @@ const PointList<Dim>& CageSolver<Dim>::points() const {
 
 template <int Dim>
 SparseWeights CageSolver<Dim>::weights_of_model() const {
-  if (is_pointwise(settings_.options.method)) {
-    return naming(settings_.model,
-                  [&] { return pointwise_coordinates(cage_, placement_, settings_.options); });
-  }
-  auto rows = weights_at(cage_, domain_, domain_weights(), placement_);
+  auto rows = naming(settings_.model, [&] {
+    return weights_of_points(cage_, domain_, domain_weights(), placement_, settings_);
+  });
   if (!settings_.embed) return rows;
   return SparseWeights::of(cage_.size(), rows.num_points(), [&](Index p) {
     const Index number = embedded_.number[p];  // exactly those of the vertex
@@ -270,9 +284,16 @@ bool tell_convergence(const SolveReport& report, const SolveSettings& settings) 
   return false;
 }
 
-template class CageSolver<2>;
-template class CageSolver<3>;
-template std::string describe(const Placement<2>&, double);
-template std::string describe(const Placement<3>&, double);
+#define FLBC_INSTANTIATE(Dim)                                                           \
+  template Solution compute_weights(const Cage<Dim>&, const DomainMesh<Dim>&,           \
+                                    const SolveSettings&, Mesher, const Observer&);     \
+  template SparseWeights weights_of_points(const Cage<Dim>&, const DomainMesh<Dim>&,    \
+                                           const SparseWeights&, const Placement<Dim>&, \
+                                           const SolveSettings&);                       \
+  template class CageSolver<Dim>;                                                       \
+  template std::string describe(const Placement<Dim>&, double);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
 
 }  // namespace flbc::app

@@ -19,6 +19,18 @@
 
 namespace flbc::app {
 
+//! Computes the coordinates of the settings, or solves with their options.
+//! \param made_by  what made the mesh, and makes coarser ones
+template <int Dim>
+Solution compute_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
+                         const SolveSettings& settings, Mesher made_by, const Observer& observer);
+
+//! Their weights at placed points. \param of_domain  not used for pointwise coordinates
+template <int Dim>
+SparseWeights weights_of_points(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
+                                const SparseWeights& of_domain, const Placement<Dim>& placement,
+                                const SolveSettings& settings);
+
 //! The steps of a solve, to be taken in this order: make_domain(), solve(). Errors name the files.
 template <int Dim>
 class CageSolver {

@@ -3,13 +3,23 @@
 
 #include "flbc/errors.h"
 #include "flbc/names.h"
-#include "flbc/pointwise.h"
 #include "help/options.h"
 
 namespace flbc::app {
 
 bool is_meshless(const SolveSettings& settings) {
-  return is_pointwise(settings.options.method) && !settings.model.empty() && !settings.needs_domain;
+  return settings.coordinates && is_pointwise(*settings.coordinates) && !settings.model.empty() &&
+         !settings.needs_domain;
+}
+
+void validate_settings(const SolveSettings& settings) {
+  const auto& options = settings.options;
+  if (!settings.coordinates) return validate(options);
+  validate(*settings.coordinates, {options.non_negative, options.threads});
+}
+
+const char* name_of_method(const SolveSettings& settings, Method method) {
+  return settings.coordinates ? name_of(*settings.coordinates) : name_of(method);
 }
 
 void add_mesher_options(CLI::App& command, MesherSettings& settings) {
@@ -33,11 +43,12 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
       throw OptionError(option + ": " + reason + "; leave out this option");
   };
   const Method method = settings.options.method;
-  const std::string name = std::string("the method ") + name_of(method);
-  if (!is_local(method)) {
-    for (const char* option : {"--phi", "--smoothness", "--distances", "--linear-solver",
-                               "--precision", "--coarse-to-fine", "--active", "--tolerance",
-                               "--gap", "--max-iterations", "--penalty", "--relaxation"}) {
+  const auto name = std::string("the method ") + name_of_method(settings, method);
+  if (settings.coordinates) {
+    for (const char* option :
+         {"--phi", "--smoothness", "--distances", "--linear-solver", "--precision",
+          "--coarse-to-fine", "--active", "--tolerance", "--gap", "--max-iterations", "--penalty",
+          "--relaxation", "--certify"}) {
       refuse(option, name + " does not use it");
     }
   }
@@ -60,8 +71,14 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
 void add_solver_options(CLI::App& command, SolveSettings& settings) {
   auto& options = settings.options;
   command.option_defaults()->group("Solver");
+  auto methods = names_of<Method>();
+  for (const auto& name : names_of<Coordinates>()) methods.push_back(name);
+  const auto take = [&settings](const std::string& name) {
+    settings.coordinates = value_named<Coordinates>(name);
+    settings.options.method = value_named<Method>(name).value_or(Method::kAuto);
+  };
   auto* method =
-      add_choice(command, "--method", options.method,
+      add_choice(command, "--method", methods, take,
                  "solver method (default: auto, which is value, the weight-splitting ADMM)");
   // Green coordinates are refused with the reason, so help does not offer them.
   const auto offered = method->get_type_name();

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "flbc/options.h"
+#include "flbc/coordinates.h"
 #include "flbc/placement.h"
 #include "solve/make_domain.h"
 
@@ -26,7 +26,15 @@ struct SolveSettings {
   bool history = false;             //!< the report tells how the iteration came nearer to its end
   std::optional<double> penalty{};  //!< as published (flbc/published_penalty.h)
   SolverOptions options{};          //!< but for the penalty, which depends on the mesh
+  std::optional<Coordinates> coordinates{};  //!< instead of the method of the options, of which
+                                             //!< they read threads and non_negative
 };
+
+//! Checks what --method names, and its options. \throws OptionError
+void validate_settings(const SolveSettings& settings);
+
+//! The name of the coordinates, or of a method without them.
+const char* name_of_method(const SolveSettings& settings, Method method);
 
 //! Whether the weights are those of a model by a method that needs no mesh, and none is made.
 bool is_meshless(const SolveSettings& settings);

@@ -7,6 +7,7 @@
 #include "flbc/bounding_box.h"
 #include "flbc/cell_locator.h"
 #include "flbc/check.h"
+#include "flbc/coordinates.h"
 #include "flbc/deform.h"
 #include "flbc/interpolate.h"
 #include "problem/unit_scale.h"
@@ -77,10 +78,10 @@ Rows measure(Setting<Dim> setting) {
                        .add("default_seconds", seconds_of(report)));
     add_quality(rows.back(), setting, optimum);
   }
-  usual.smoothness = 0;
-  usual.method = Method::kHarmonic;
   rows.push_back(mesh_row(setting).add("smoothness", "harmonic"));
-  add_quality(rows.back(), setting, solve(problem, usual));
+  add_quality(rows.back(), setting,
+              compute_coordinates(problem.cage, problem.mesh, Coordinates::kHarmonic,
+                                  {NonNegative::kAuto, setting.context.threads}));
   return rows;
 }
 

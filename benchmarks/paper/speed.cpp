@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "experiments.h"
+#include "flbc/coordinates.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/model_file.h"
 #include "problems.h"
@@ -32,11 +33,8 @@ Row measure(const Context& context, const Model& model, const Cage<Dim>& cage, I
   SolverOptions options;
   options.threads = context.threads;
   options.tolerance = way.tolerance;
-  const auto by = [&](const SolverOptions& chosen) {
-    return fastest(way.repetitions,
-                   [&] { return solve(cage, mesh, chosen, coarse_mesher<Dim>()); });
-  };
-  const auto solution = by(options);
+  const auto solution =
+      fastest(way.repetitions, [&] { return solve(cage, mesh, options, coarse_mesher<Dim>()); });
   const auto& report = solution.report;
   auto row = mesh_row(model.name, cage, mesh).add("mesh_seconds", mesh_seconds);
   add_run(row, report.seconds.setup, report);
@@ -45,9 +43,11 @@ Row measure(const Context& context, const Model& model, const Cage<Dim>& cage, I
       .add("reproduction_error", report.quality.max_reproduction_error)
       .add("mean_influences", report.quality.mean_influences);
   if (way.with_harmonic) {
-    options.method = Method::kHarmonic;
-    options.tolerance = {};
-    const auto harmonic = by(options).report;
+    const auto compute = [&] {
+      return compute_coordinates(cage, mesh, Coordinates::kHarmonic,
+                                 {NonNegative::kAuto, context.threads});
+    };
+    const auto harmonic = fastest(way.repetitions, compute).report;
     row.add("harmonic_seconds", seconds_of(harmonic))
         .add("harmonic_influences", harmonic.quality.mean_influences);
   }

@@ -78,11 +78,6 @@ Binding<Dim> bind_points(const BindInput<Dim>& input, const BindOptions& options
         "outside cannot be extend unless max_influences is 0: negative weights cannot be reduced");
   }
   validate(options.solver);
-  if (options.solver.method == Method::kBiharmonic) {
-    throw OptionError(
-        "a binding needs weights that reproduce the model, which bounded biharmonic weights do "
-        "not; choose another method");
-  }
   validate(input.cage);
   const ThreadScope threads(options.solver.threads);
   Binding<Dim> binding;

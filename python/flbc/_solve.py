@@ -47,9 +47,10 @@ class SolverOptions(TypedDict, total=False):
 
 OPTIONS = """\
     method : str, default "auto"
-        "value" (the default method), "gradient", "paper", "lbc2014", and for comparison
-        "harmonic", "meanvalue", "maxentropy", "maxlikelihood", "blended" (2D), or "bbw".
-        Weights by "bbw" do not reproduce points: add weighted displacements to them.
+        "value" (the default method), "gradient", "paper", "lbc2014". For comparison, but not
+        with `Solver`: "harmonic", "meanvalue", "maxentropy", "maxlikelihood", "blended" (2D),
+        or "bbw", which use only `threads` and `non_negative`. Weights by "bbw" do not
+        reproduce points: add weighted displacements to them.
     tolerance : float, optional
         Target for the estimated mean squared error of the weights. Default: 1e-7, for
         "gradient" 1e-6.

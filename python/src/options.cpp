@@ -136,19 +136,40 @@ SolverOptions options_of(const py::dict& keywords) {
   return options;
 }
 
+std::optional<Coordinates> coordinates_of(const py::dict& keywords) {
+  if (!keywords.contains("method")) return {};
+  return value_named<Coordinates>(py::str(keywords["method"]));
+}
+
+CoordinatesOptions coordinates_options_of(const py::dict& keywords) {
+  py::dict used;
+  for (const auto& [key, value] : keywords) {
+    const auto name = key.cast<std::string>();
+    if (name == "method" || value.is_none()) continue;
+    if (name != "threads" && name != "non_negative") {
+      throw OptionError(name + ": the method " + keywords["method"].cast<std::string>() +
+                        " does not use it; leave out this option");
+    }
+    used[key] = value;
+  }
+  const auto options = options_of(used);
+  return {options.non_negative, options.threads};
+}
+
 py::dict as_dict(const SolverOptions& options) {
   py::dict dict;
   for (const auto& field : fields()) dict[field.name] = field.get(options);
   return dict;
 }
 
-py::dict as_dict(const SolveReport& report) {
+py::dict as_dict(const SolveReport& report, const std::optional<Coordinates>& coordinates) {
   using namespace py::literals;
   const auto& seconds = report.seconds;
   const auto& quality = report.quality;
   py::dict dict(
-      "method"_a = name_of(report.method), "control_points"_a = report.control_points,
-      "vertices"_a = report.vertices, "cells"_a = report.cells, "iterations"_a = report.iterations,
+      "method"_a = coordinates ? name_of(*coordinates) : name_of(report.method),
+      "control_points"_a = report.control_points, "vertices"_a = report.vertices,
+      "cells"_a = report.cells, "iterations"_a = report.iterations,
       "converged"_a = report.status == SolveStatus::kConverged, "status"_a = name_of(report.status),
       "criterion"_a = name_of(report.criterion), "primal_residual"_a = report.primal_residual,
       "dual_residual"_a = report.dual_residual, "objective"_a = report.objective,
@@ -170,7 +191,7 @@ py::dict as_dict(const SolveReport& report) {
   }
   if (!report.parts.empty()) {
     py::list parts;
-    for (const auto& part : report.parts) parts.append(as_dict(part));
+    for (const auto& part : report.parts) parts.append(as_dict(part, coordinates));
     dict["parts"] = parts;
   }
   return dict;

@@ -147,19 +147,20 @@ Observer observer_of(const py::object& callback) {
 
 // The smoothness that bind() takes if the options do not set it; none for other coordinates.
 std::optional<double> smoothness_of_bind(const py::dict& keywords) {
+  if (coordinates_of(keywords)) return {};
   auto options = options_of(keywords);
   make_smooth(options);
   return options.smoothness;
 }
 
-SolverOptions options_here(const py::dict& keywords) {
-  auto options = options_of(keywords);
+template <class Options>
+Options here(Options options) {
   if (is_forked) options.threads = 1;
   return options;
 }
 
-py::tuple solved(Solution solution) {
-  const auto report = as_dict(solution.report);
+py::tuple solved(Solution solution, const std::optional<Coordinates>& coordinates = {}) {
+  const auto report = as_dict(solution.report, coordinates);
   return py::make_tuple(as_python(std::move(solution.weights)), report);
 }
 
@@ -169,11 +170,17 @@ py::tuple solve(const Doubles& points, const Indices& facets, const Doubles& ver
     constexpr int kDim = decltype(dim)::value;
     const auto cage = cage_of<kDim>(points, facets);
     const auto domain = mesh_of<kDim>(vertices, cells);
-    const auto options = options_here(keywords);
     const auto observer = observer_of(callback);
-    auto solution = without_gil(
-        [&] { return flbc::solve<kDim>(cage, domain, options, coarse_mesher<kDim>(), observer); });
-    return solved(std::move(solution));
+    if (const auto coordinates = coordinates_of(keywords)) {
+      const auto options = here(coordinates_options_of(keywords));
+      return solved(without_gil([&] {
+                      return compute_coordinates(cage, domain, *coordinates, options, observer);
+                    }),
+                    coordinates);
+    }
+    const auto options = here(options_of(keywords));
+    return solved(without_gil(
+        [&] { return flbc::solve<kDim>(cage, domain, options, coarse_mesher<kDim>(), observer); }));
   });
 }
 
@@ -213,7 +220,7 @@ class AnySolver {
       constexpr int kDim = decltype(dim)::value;
       auto cage = cage_of<kDim>(points, facets);
       auto domain = mesh_of<kDim>(vertices, cells);
-      const auto options = options_here(keywords);
+      const auto options = here(options_of(keywords));
       solver_ = without_gil([&] {
         return std::make_unique<Solver<kDim>>(std::move(cage), std::move(domain), options,
                                               coarse_mesher<kDim>());
@@ -239,7 +246,7 @@ class AnySolver {
     use([](auto& solver) { without_gil([&] { solver.anchor(); }); });
   }
   void set_options(const py::dict& keywords) {
-    use([&](auto& solver) { solver.set_options(options_here(keywords)); });
+    use([&](auto& solver) { solver.set_options(here(options_of(keywords))); });
   }
   void restart() {
     use([](auto& solver) { solver.restart(); });

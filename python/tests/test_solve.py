@@ -64,15 +64,28 @@ def test_results_are_coordinates(flat, solid):
         assert flbc.measure(weights, cage, mesh)["violations"] == []
 
 
-@pytest.mark.parametrize(
-    "method",
-    ["value", "gradient", "paper", "lbc2014"]
-    + ["harmonic", "meanvalue", "maxentropy", "maxlikelihood", "blended"],
-)
+OTHERS = ["harmonic", "meanvalue", "maxentropy", "maxlikelihood", "blended"]
+
+
+@pytest.mark.parametrize("method", ["value", "gradient", "paper", "lbc2014"] + OTHERS)
 def test_every_method(flat, method):
-    solution = flbc.solve(flat.cage, flat.mesh, method=method, tolerance=1e-4)
+    options = {} if method in OTHERS else {"tolerance": 1e-4}
+    solution = flbc.solve(flat.cage, flat.mesh, method=method, **options)
     assert solution.report["method"] == method
     assert abs(flbc.deform(solution.weights, flat.cage.points) - flat.mesh.points).max() < 1e-6
+
+
+@pytest.mark.parametrize("method", OTHERS)
+def test_other_coordinates_refuse_what_they_do_not_use(flat, method):
+    for option in {"tolerance": 1e-4}, {"certify": True}:
+        with pytest.raises(flbc.OptionError, match=f"{[*option][0]}: the method {method}"):
+            flbc.solve(flat.cage, flat.mesh, method=method, **option)
+    with pytest.raises(flbc.OptionError, match="non_negative as a constraint"):
+        flbc.solve(flat.cage, flat.mesh, method=method, non_negative="constraint")
+    with pytest.raises(flbc.OptionError, match=f"value, .* not {method}"):
+        flbc.Solver(flat.cage, flat.mesh, method=method)
+    bound = flbc.bind(flat.mesh.points, None, flat.cage, domain=flat.mesh, method=method)
+    assert bound.report["method"] == method
 
 
 def test_bounded_biharmonic_weights_are_bounded_and_do_not_reproduce(flat):

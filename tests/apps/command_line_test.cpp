@@ -257,7 +257,7 @@ TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
     for (const std::string option :
          {"--tolerance 1e-5", "--penalty 10", "--relaxation 1.5", "--phi linear",
           "--precision single", "--max-iterations 9", "--distances exact", "--coarse-to-fine off",
-          "--linear-solver direct", "--active off"}) {
+          "--linear-solver direct", "--active off", "--gap 1e-3", "--certify"}) {
       const auto name = option.substr(0, option.find(' '));
       expect_refused(solve + "--method " + method + ' ' + option, 1,
                      name + ": the method " + method + " does not use it");
@@ -270,8 +270,10 @@ TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
     }
   }
   expect_refused(solve + "--outside nearest", 1, "--outside: no model is given");
-  expect_refused("run " + cage + " --method harmonic --tolerance 1 -q -o out", 1,
-                 "--tolerance: the method harmonic");
+  for (const std::string way : {"", "--auto-cage "}) {
+    expect_refused("run " + cage + ' ' + way + "--method harmonic --tolerance 1 -q -o out", 1,
+                   "--tolerance: the method harmonic");
+  }
   expect("mesh " + cage + " --vertices 300 -q -o d.obj");
   expect_refused("solve " + cage + " --domain d.obj --mesher cgal -q -o w.npy", 1,
                  "--mesher: --domain gives the mesh");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/biharmonic.h"
 
+#include "flbc/coordinates.h"
 #include "flbc/harmonic.h"
-#include "flbc/solver.h"
 #include "support/cages_of_all_kinds.h"
 #include "support/test.h"
 
@@ -110,14 +110,11 @@ TEST_IN_2D_AND_3D(BiharmonicTest, WithinBoundsWithSumOneAndLinearOnFacets) {
 
 TEST(BiharmonicTest, DoNotDependOnThreadsAndRefuseProjection) {
   const auto sample = make_sample<2>(Shape::kStar, 4);
-  SolverOptions options;
-  options.method = Method::kBiharmonic;
-  options.threads = 1;
-  const auto one = solve(sample.cage, sample.mesh, options).weights.dense();
-  options.threads = 3;
-  EXPECT_EQ(solve(sample.cage, sample.mesh, options).weights.dense(), one);
-  options.non_negative = NonNegative::kProject;
-  EXPECT_THROW(solve(sample.cage, sample.mesh, options), OptionError);
+  const auto weights = [&](const CoordinatesOptions& options) {
+    return compute_coordinates(sample.cage, sample.mesh, Coordinates::kBiharmonic, options).weights;
+  };
+  EXPECT_EQ(weights({NonNegative::kAuto, 3}), weights({NonNegative::kAuto, 1}));
+  EXPECT_THROW(weights({NonNegative::kProject}), OptionError);
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 
 #include <Eigen/QR>
 
+#include "flbc/coordinates.h"
 #include "flbc/deform.h"
-#include "flbc/solver.h"
 #include "support/cages_of_all_kinds.h"
 #include "support/test.h"
 
@@ -121,11 +121,9 @@ TEST_IN_2D_AND_3D(GreenTest, ContinuousUpToTheCageAndRefusedOutside) {
   }
 }
 
-TEST(GreenTest, SolveRefusesThemAndPosesNeedAllControlPoints) {
+TEST(GreenTest, NamesRefuseThemAndPosesNeedAllControlPoints) {
   const auto sample = make_sample<2>(Shape::kStar, 2);
-  SolverOptions options;
-  options.method = Method::kGreen;
-  EXPECT_THROW(solve(sample.cage, sample.mesh, options), OptionError);
+  EXPECT_THROW(compute_coordinates(sample.cage, sample.mesh, Coordinates::kGreen), OptionError);
   EXPECT_THROW(control_points_and_normals<2>(sample.cage, PointList<2>::Zero(2, 3)), InputError);
 }
 

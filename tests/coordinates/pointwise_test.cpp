@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/pointwise.h"
+#include "flbc/coordinates.h"
 
 #include "coordinates/polygon_triangulation.h"
 #include "flbc/blended.h"
@@ -15,9 +15,9 @@ namespace flbc::testing {
 namespace {
 
 template <int Dim>
-std::vector<Method> non_negative_methods() {
-  std::vector<Method> all{Method::kMaxEntropy, Method::kMaxLikelihood};
-  if (Dim == 2) all.push_back(Method::kBlended);
+std::vector<Coordinates> non_negative_coordinates() {
+  std::vector<Coordinates> all{Coordinates::kMaxEntropy, Coordinates::kMaxLikelihood};
+  if (Dim == 2) all.push_back(Coordinates::kBlended);
   return all;
 }
 
@@ -35,10 +35,10 @@ Cage<Dim> regular_cage() {
 
 TEST_IN_2D_AND_3D(PointwiseTest, NonNegativeAndReproduceInEveryCage) {
   for (const auto& sample : cages<Dim>()) {
-    for (const auto method : non_negative_methods<Dim>()) {
-      SCOPED_TRACE(sample.name + ", method " + std::to_string(static_cast<int>(method)));
+    for (const auto coordinates : non_negative_coordinates<Dim>()) {
+      SCOPED_TRACE(sample.name + ", coordinates " + std::to_string(static_cast<int>(coordinates)));
       for (const auto& points : {sample.mesh.points, centers(sample.mesh)}) {
-        const auto weights = pointwise_coordinates(sample.cage, points, method);
+        const auto weights = pointwise_coordinates(sample.cage, points, coordinates);
         const auto quality = measure_quality(sample.cage.points, points, weights);
         EXPECT_LT(quality.max_partition_error, 1e-13);
         EXPECT_LT(quality.max_reproduction_error, 1e-12);
@@ -52,8 +52,8 @@ TEST_IN_2D_AND_3D(PointwiseTest, AreBarycentricInASimplex) {
   const auto sample = make_sample<Dim>(Shape::kSimplex, 6);
   const auto points = centers(sample.mesh);
   const auto expected = barycentric_coordinates<Dim>(sample.cage.points, points);
-  for (const auto method : non_negative_methods<Dim>()) {
-    const auto weights = pointwise_coordinates(sample.cage, points, method);
+  for (const auto coordinates : non_negative_coordinates<Dim>()) {
+    const auto weights = pointwise_coordinates(sample.cage, points, coordinates);
     EXPECT_LT((weights - expected).cwiseAbs().maxCoeff(), 1e-12);
   }
 }
@@ -61,8 +61,9 @@ TEST_IN_2D_AND_3D(PointwiseTest, AreBarycentricInASimplex) {
 TEST_IN_2D_AND_3D(PointwiseTest, EqualAtTheCenterOfARegularCage) {
   const auto cage = regular_cage<Dim>();
   const PointList<Dim> center = PointList<Dim>::Zero(Dim, 1);
-  for (const auto method : {Method::kMeanValue, Method::kMaxEntropy, Method::kMaxLikelihood}) {
-    const auto weights = pointwise_coordinates(cage, center, method);
+  for (const auto coordinates :
+       {Coordinates::kMeanValue, Coordinates::kMaxEntropy, Coordinates::kMaxLikelihood}) {
+    const auto weights = pointwise_coordinates(cage, center, coordinates);
     EXPECT_LT((weights.array() - 1.0 / cage.size()).abs().maxCoeff(), 1e-13);
   }
 }
@@ -70,16 +71,16 @@ TEST_IN_2D_AND_3D(PointwiseTest, EqualAtTheCenterOfARegularCage) {
 TEST_IN_2D_AND_3D(PointwiseTest, LinearOnFacetsAndContinuousTowardThem) {
   for (const auto& sample : cages<Dim>()) {
     const auto& cage = sample.cage;
-    for (const auto method : non_negative_methods<Dim>()) {
-      SCOPED_TRACE(sample.name + ", method " + std::to_string(static_cast<int>(method)));
-      EXPECT_EQ(pointwise_coordinates(cage, cage.points, method),
+    for (const auto coordinates : non_negative_coordinates<Dim>()) {
+      SCOPED_TRACE(sample.name + ", coordinates " + std::to_string(static_cast<int>(coordinates)));
+      EXPECT_EQ(pointwise_coordinates(cage, cage.points, coordinates),
                 WeightMatrix::Identity(cage.size(), cage.size()));
       for (Index f = 0; f < cage.facets.cols(); ++f) {
         Eigen::VectorXd expected = Eigen::VectorXd::Zero(cage.size());
         for (int k = 0; k < Dim; ++k) expected[cage.facets(k, f)] = 1 + 0.37 * k;
         expected /= expected.sum();
         const Vector<Dim> place = cage.points * expected;
-        const auto on_facet = pointwise_coordinates<Dim>(cage, PointList<Dim>(place), method);
+        const auto on_facet = pointwise_coordinates<Dim>(cage, PointList<Dim>(place), coordinates);
         EXPECT_LT((on_facet - expected).cwiseAbs().maxCoeff(), 1e-12);
         for (int k = 3; k <= 11; ++k) {
           for (const double side : {-1.0, 1.0}) {
@@ -98,7 +99,7 @@ TEST_IN_2D_AND_3D(PointwiseTest, LinearOnFacetsAndContinuousTowardThem) {
             const double distance = std::pow(10.0, -k);
             const PointList<Dim> near = place + side * distance * normal.normalized();
             if (k < 6 && !points_outside<Dim>(cage, near).empty()) continue;
-            const auto there = pointwise_coordinates<Dim>(cage, near, method);
+            const auto there = pointwise_coordinates<Dim>(cage, near, coordinates);
             EXPECT_LT((there - expected).cwiseAbs().maxCoeff(), 200 * distance + 1e-11)
                 << "facet " << f << " distance " << side * distance;
           }
@@ -114,15 +115,16 @@ TEST_IN_2D_AND_3D(PointwiseTest, FollowRotationScaleAndOrientation) {
     Eigen::Matrix<double, Dim, Dim> rotation = Eigen::Matrix<double, Dim, Dim>::Identity();
     rotation.template topLeftCorner<2, 2>() = Eigen::Rotation2Dd(0.7).toRotationMatrix();
     // The blend depends on which vertices on a common circle are used.
-    for (const auto method : {Method::kMaxEntropy, Method::kMaxLikelihood}) {
-      const auto weights = pointwise_coordinates(sample.cage, points, method);
+    for (const auto coordinates : {Coordinates::kMaxEntropy, Coordinates::kMaxLikelihood}) {
+      const auto weights = pointwise_coordinates(sample.cage, points, coordinates);
       for (const double scale : {1e-25, 3.0, 1e25}) {
         auto moved = reversed(sample.cage);
         moved.points = scale * (rotation * moved.points);
         const PointList<Dim> moved_points = scale * (rotation * points);
-        EXPECT_LT(
-            (pointwise_coordinates(moved, moved_points, method) - weights).cwiseAbs().maxCoeff(),
-            1e-9)
+        EXPECT_LT((pointwise_coordinates(moved, moved_points, coordinates) - weights)
+                      .cwiseAbs()
+                      .maxCoeff(),
+                  1e-9)
             << sample.name << " at scale " << scale;
       }
     }
@@ -263,18 +265,18 @@ TEST_IN_2D_AND_3D(PointwiseTest, NamesThePointOutside) {
   const auto cage = box_cage<Dim>(1);
   PointList<Dim> points = PointList<Dim>::Zero(Dim, 3);
   points(0, 1) = 1.5;
-  for (const auto method : non_negative_methods<Dim>()) {
-    expect_error<InputError>([&] { pointwise_coordinates(cage, points, method); },
+  for (const auto coordinates : non_negative_coordinates<Dim>()) {
+    expect_error<InputError>([&] { pointwise_coordinates(cage, points, coordinates); },
                              {"point 1 at (1.5, 0"});
   }
 }
 
-TEST_IN_2D_AND_3D(PointwiseTest, RefusesMethodsThatNeedAMesh) {
+TEST_IN_2D_AND_3D(PointwiseTest, RefusesThoseThatNeedAMesh) {
   const auto cage = box_cage<Dim>(1);
   const PointList<Dim> points = PointList<Dim>::Zero(Dim, 1);
-  EXPECT_THROW(pointwise_coordinates(cage, points, Method::kHarmonic), OptionError);
+  EXPECT_THROW(pointwise_coordinates(cage, points, Coordinates::kHarmonic), OptionError);
   if (Dim == 3) {
-    EXPECT_THROW(pointwise_coordinates(cage, points, Method::kBlended), OptionError);
+    EXPECT_THROW(pointwise_coordinates(cage, points, Coordinates::kBlended), OptionError);
   }
 }
 
@@ -284,10 +286,10 @@ TEST_IN_2D_AND_3D(PointwiseTest, PartsHaveWeightsOfTheirOwn) {
   right.points.row(0).array() += 5;
   PointList<Dim> points = PointList<Dim>::Constant(Dim, 2, 0.3);
   points(0, 1) += 5;
-  for (const auto method : {Method::kMeanValue, Method::kMaxEntropy}) {
-    const auto weights = pointwise_coordinates(join(left, right), points, method);
+  for (const auto coordinates : {Coordinates::kMeanValue, Coordinates::kMaxEntropy}) {
+    const auto weights = pointwise_coordinates(join(left, right), points, coordinates);
     const PointList<Dim> first = points.leftCols(1);
-    const auto alone = pointwise_coordinates(left, first, method);
+    const auto alone = pointwise_coordinates(left, first, coordinates);
     EXPECT_EQ(weights.col(0).head(left.size()), alone);
     EXPECT_EQ(weights.col(0).tail(left.size()).cwiseAbs().maxCoeff(), 0);
     EXPECT_EQ(weights.col(1).head(left.size()).cwiseAbs().maxCoeff(), 0);
@@ -299,16 +301,14 @@ TEST_IN_2D_AND_3D(PointwiseTest, PlacedPointsFollowThePolicy) {
   PointList<Dim> points = PointList<Dim>::Constant(Dim, 3, 0.25);
   points(0, 1) = 1.5;
   points(0, 2) = 1 + 1e-8;
-  SolverOptions options;
-  options.method = Method::kMaxEntropy;
   EXPECT_THROW(place_points(cage, points), InputError);
   for (const auto policy : {OutsidePoints::kNearest, OutsidePoints::kExtend}) {
     const auto placement = place_points(cage, points, policy);
     EXPECT_EQ(placement.outside.size(), 1U);
     EXPECT_EQ(placement.on_cage.size(), 1U);
-    const auto weights = pointwise_coordinates(cage, placement, options);
+    const auto weights = pointwise_coordinates(cage, placement, Coordinates::kMaxEntropy, {});
     const PointList<Dim> first = points.leftCols(1);
-    EXPECT_EQ(weights.at(0), pointwise_coordinates(cage, first, options.method).col(0));
+    EXPECT_EQ(weights.at(0), pointwise_coordinates(cage, first, Coordinates::kMaxEntropy).col(0));
     const PointList<Dim> made = cage.points * weights.dense();
     EXPECT_LT((made - placement.points).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_NEAR(placement.points(0, 1), policy == OutsidePoints::kNearest ? 1 : 1.5, 1e-12);
@@ -318,8 +318,9 @@ TEST_IN_2D_AND_3D(PointwiseTest, PlacedPointsFollowThePolicy) {
 TEST_IN_2D_AND_3D(PointwiseTest, SameBitsForAnyNumberOfThreads) {
   const auto sample = make_sample<Dim>(Shape::kStar, 3);
   const auto points = centers(sample.mesh);
-  for (const auto method : non_negative_methods<Dim>()) {
-    expect_same_for_any_threads([&] { return pointwise_coordinates(sample.cage, points, method); });
+  for (const auto coordinates : non_negative_coordinates<Dim>()) {
+    expect_same_for_any_threads(
+        [&] { return pointwise_coordinates(sample.cage, points, coordinates); });
   }
 }
 

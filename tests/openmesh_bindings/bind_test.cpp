@@ -293,9 +293,6 @@ TYPED_TEST(Bind, BadInputIsNamed) {
   this->options_.max_influences = -1;
   expect_refused<Error>("max_influences", bind);
   this->options_.max_influences = 5;
-  this->options_.solver.method = Method::kBiharmonic;
-  expect_refused<Error>("reproduce the model", bind);
-  this->options_.solver.method = Method::kAuto;
   model.request_face_status();
   model.request_edge_status();
   model.request_vertex_status();

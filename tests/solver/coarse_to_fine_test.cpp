@@ -246,8 +246,7 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, OtherMethodsStartAsEver) {
     ++calls;
     return sample_mesher<Dim>(Shape::kCorner)(cage, vertices);
   };
-  for (const auto method :
-       {Method::kGradient, Method::kPaper, Method::kLbc2014, Method::kHarmonic}) {
+  for (const auto method : {Method::kGradient, Method::kPaper, Method::kLbc2014}) {
     SolverOptions options;
     options.method = method;
     options.max_iterations = 30;

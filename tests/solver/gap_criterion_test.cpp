@@ -162,7 +162,7 @@ TEST(GapOption, ATighterToleranceIsMeantAsItIsGiven) {
   EXPECT_EQ(*resolve(resolve(options)).gap, 1e-3);
   options.method = Method::kGradient;
   EXPECT_EQ(*resolve(options).gap, 1e-3);
-  for (const auto method : {Method::kPaper, Method::kLbc2014, Method::kHarmonic}) {
+  for (const auto method : {Method::kPaper, Method::kLbc2014}) {
     options.method = method;
     EXPECT_EQ(*resolve(options).gap, 0);
   }
@@ -184,7 +184,6 @@ TEST(GapOption, RefusesGapsThatProveNothing) {
   refused([](auto& o) { o.gap = std::nan(""); });
   refused([](auto& o) { o.non_negative = NonNegative::kOff; });
   refused([](auto& o) { o.method = Method::kPaper; });
-  refused([](auto& o) { o.method = Method::kHarmonic; });
 }
 
 }  // namespace

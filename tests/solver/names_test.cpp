@@ -9,8 +9,8 @@ namespace {
 template <class Enum>
 class NamesTest : public ::testing::Test {};
 using Enumerations =
-    ::testing::Types<Method, NonNegative, DistanceScheme, Distances, Precision, CoarseToFine,
-                     LinearSolver, SolveStatus, Criterion, OutsidePoints>;
+    ::testing::Types<Method, Coordinates, NonNegative, DistanceScheme, Distances, Precision,
+                     CoarseToFine, LinearSolver, SolveStatus, Criterion, OutsidePoints>;
 TYPED_TEST_SUITE(NamesTest, Enumerations);
 
 TYPED_TEST(NamesTest, GoBothWays) {
@@ -26,6 +26,11 @@ TYPED_TEST(NamesTest, GoBothWays) {
   // Enumerations count from 0, so that none is left out if the largest is as many.
   EXPECT_EQ(static_cast<std::size_t>(*values.rbegin()) + 1, names.size());
   EXPECT_EQ(value_named<TypeParam>(names.front()), TypeParam{});
+}
+
+// Programs choose both by one option.
+TEST(NamesOfCoordinatesTest, AreNotThoseOfMethods) {
+  for (const auto& name : names_of<Coordinates>()) EXPECT_FALSE(value_named<Method>(name)) << name;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Distances from a coarser mesh: when they are taken, and what they change.
-#include "flbc/solver.h"
+#include "flbc/coordinates.h"
 #include "support/coarse_sample_mesher.h"
 #include "support/test.h"
 
@@ -80,47 +80,16 @@ TEST_IN_2D_AND_3D(SetUpTest, OtherMethodsAreExactUnlessTold) {
   EXPECT_EQ(source(Distances::kInterpolated), Distances::kInterpolated);
 }
 
-TEST_IN_2D_AND_3D(SetUpTest, MethodsThatDoNotMinimiseComputeNone) {
+TEST_IN_2D_AND_3D(SetUpTest, OtherCoordinatesNeedNone) {
   const auto sample = corner<Dim>();
-  const CoarseMesher<Dim> never = [](const Cage<Dim>&, Index) -> DomainMesh<Dim> {
-    ADD_FAILURE() << "a coarse mesh was asked for";
-    throw InputError("not needed");
-  };
-  for (const auto method : {Method::kHarmonic, Method::kMeanValue}) {
-    SolverOptions options;
-    options.method = method;
-    options.distances = Distances::kInterpolated;
-    Solver<Dim> solver(sample.cage, sample.mesh, options, never);
-    EXPECT_EQ(solver.problem().phi.size(), 0);
-    const auto solution = solver.solve();
-    EXPECT_EQ(solver.problem().phi.size(), 0);
+  for (const auto coordinates : {Coordinates::kHarmonic, Coordinates::kMeanValue}) {
+    const auto solution = compute_coordinates(sample.cage, sample.mesh, coordinates);
     EXPECT_TRUE(std::isnan(solution.report.objective));
-    EXPECT_TRUE(solve(solver.problem(), options).weights.dense() == solution.weights.dense());
-    // Who has phi gets the objective.
-    const auto problem = make_problem(sample.cage, sample.mesh, options.phi);
-    const auto with_phi = solve(problem, options);
-    EXPECT_TRUE(with_phi.weights.dense() == solution.weights.dense());
-    const double expected =
-        testing::objective(problem.mesh, with_phi.weights.dense(), problem.phi.dense()) /
-        std::pow(problem.scale, Dim - 1);
-    EXPECT_NEAR(with_phi.report.objective, expected, 1e-9 * expected);
+    EXPECT_GT(solution.report.seconds.setup, 0);
+    auto without = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    without.phi = {};
+    EXPECT_THROW(solve(without), InputError);
   }
-}
-
-TEST_IN_2D_AND_3D(SetUpTest, MethodsThatMinimiseFindThemLater) {
-  const auto sample = corner<Dim>();
-  SolverOptions options;
-  options.method = Method::kHarmonic;
-  Solver<Dim> solver(sample.cage, sample.mesh, options);
-  solver.solve();
-  SolverOptions minimise;
-  minimise.max_iterations = 20;
-  EXPECT_THROW(solve(solver.problem(), minimise), InputError);
-  solver.set_options(minimise);
-  const auto expected = solve(sample.cage, sample.mesh, minimise);
-  EXPECT_TRUE(solver.solve().weights.dense() == expected.weights.dense());
-  EXPECT_EQ(solver.solution().report.objective, expected.report.objective);
-  EXPECT_GT(solver.solution().report.seconds.setup, 0);
 }
 
 TEST_IN_2D_AND_3D(SetUpTest, WithoutAMeshTheyAreExactAndWithoutAMesherRefused) {

@@ -3,7 +3,7 @@
 //! Weights on points with edges, to be made sparse.
 #pragma once
 
-#include "flbc/solver.h"
+#include "flbc/coordinates.h"
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "support/feasible_vertices.h"
@@ -46,9 +46,7 @@ PoissonProblem<Dim> problem_on_a_mesh() {
   const auto sample = make_sample<Dim>(Shape::kRing, Dim == 2 ? 9 : 4, 0.1);
   // Harmonic coordinates: with local ones few influences are nearly all there are, and nothing but
   // what the solve leaves would be compared.
-  SolverOptions options;
-  options.method = Method::kHarmonic;
-  const auto solution = solve(sample.cage, sample.mesh, options);
+  const auto solution = compute_coordinates(sample.cage, sample.mesh, Coordinates::kHarmonic);
   return {sample.cage.points, sample.mesh.points, edges_of_cells(sample.mesh),
           solution.weights.dense()};
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "flbc/cage.h"
+#include "flbc/coordinates.h"
 #include "flbc/options.h"
 #include "flbc/placement.h"
 #include "flbc/report.h"
@@ -15,7 +16,7 @@
 namespace flbc {
 
 //! The name of a value, such as "value" or "lbc2014".
-//! \tparam Enum  Method, NonNegative, DistanceScheme, Distances, Precision, ActiveSet,
+//! \tparam Enum  Method, Coordinates, NonNegative, DistanceScheme, Distances, Precision, ActiveSet,
 //! CoarseToFine, LinearSolver, SolveStatus, Criterion, DefectKind, or OutsidePoints
 template <class Enum>
 const char* name_of(Enum value);

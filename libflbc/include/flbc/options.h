@@ -11,23 +11,16 @@
 
 namespace flbc {
 
-//! Solver method, or other coordinates for comparison.
+//! Solver method. Each minimizes the objective of local barycentric coordinates; other coordinates
+//! are in coordinates.h.
 enum class Method {
-  kAuto,        //!< recommended method, currently kValue
-  kValue,       //!< default method: weight-splitting ADMM in the metric of the continuous problem;
-                //!< fastest
-  kGradient,    //!< gradient ADMM of the paper, started from harmonic coordinates, over-relaxed
-  kPaper,       //!< FLBC 2019: gradient ADMM with the parameters of the paper
-                //!< (docs/benchmarks/paper_details.md)
-  kLbc2014,     //!< LBC 2014: the original solver (Zhang et al. 2014; section 3 of the paper)
-  kHarmonic,    //!< harmonic coordinates (Joshi et al. 2007), for comparison
-  kMeanValue,   //!< mean value coordinates (Floater 2003, Ju et al. 2005), for comparison
-  kMaxEntropy,  //!< maximum entropy coordinates (Hormann and Sukumar 2008), for comparison
-  kMaxLikelihood,  //!< maximum likelihood coordinates (Chang et al. 2023), for comparison
-  kBlended,        //!< blended barycentric coordinates (Anisimov et al. 2017), 2D, for comparison
-  kBiharmonic,     //!< bounded biharmonic weights (Jacobson et al. 2011), for comparison
-  kGreen  //!< Green coordinates (Lipman et al. 2008), which also need normals: green.h; solve()
-          //!< refuses them
+  kAuto,      //!< recommended method, currently kValue
+  kValue,     //!< default method: weight-splitting ADMM in the metric of the continuous problem;
+              //!< fastest
+  kGradient,  //!< gradient ADMM of the paper, started from harmonic coordinates, over-relaxed
+  kPaper,     //!< FLBC 2019: gradient ADMM with the parameters of the paper
+              //!< (docs/benchmarks/paper_details.md)
+  kLbc2014    //!< LBC 2014: the original solver (Zhang et al. 2014; section 3 of the paper)
 };
 
 //! Enforcement of w >= 0. Without it, the optimum on a mesh may be negative, in 3D noticeably.
@@ -68,9 +61,8 @@ enum class ActiveSet {
 constexpr double kDeformationSmoothness = 0.003;
 
 //! Options of solve(). The defaults suit every cage. The method chooses options that are not set.
-//! Methods for comparison read only threads and non_negative.
 struct SolverOptions {
-  //! Solver method, or other coordinates for comparison.
+  //! Solver method.
   Method method = Method::kAuto;
 
   //! Growth of the functions phi with distance.
@@ -79,8 +71,8 @@ struct SolverOptions {
   //! Trades locality for smoothness: epsilon / size of the cage (bounding_box_diagonal), >= 0. The
   //! objective gets the term epsilon / 2 |grad w_i|^2, which removes the kinks of total variation
   //! and makes the optimum unique. 0 is the problem of the paper. Useful values are 0.001 to 0.03.
-  //! For kValue and kGradient; an error for other methods that minimize. Default: 0 for solve() and
-  //! Solver; kDeformationSmoothness for openmesh::bind().
+  //! For kValue and kGradient; an error for other methods. Default: 0 for solve() and Solver;
+  //! kDeformationSmoothness for openmesh::bind().
   std::optional<double> smoothness{};
 
   //! Source of the distances for phi when solve() sets up the problem. kAuto interpolates if the
@@ -137,8 +129,7 @@ struct SolverOptions {
   //! Over-relaxation in (0, 2), 1 = none.
   std::optional<double> relaxation{};
 
-  //! Whether to compute a lower bound of the optimal objective; an error for
-  //! methods for comparison.
+  //! Whether to compute a lower bound of the optimal objective.
   bool certify = false;
 
   //! Number of threads, at most 1024; 0 = as many as OpenMP offers, or one if n V < 100,000.
@@ -148,10 +139,6 @@ struct SolverOptions {
 //! Checks options. solve() and Solver call it first.
 //! \throws OptionError naming the field and its valid range
 void validate(const SolverOptions& options);
-
-//! Whether a method minimizes the objective of local barycentric coordinates; if not, it is one for
-//! comparison.
-bool is_local(Method method);
 
 //! Sets the smoothness to kDeformationSmoothness if it is not set and the method supports it.
 void make_smooth(SolverOptions& options);

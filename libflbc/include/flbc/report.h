@@ -21,7 +21,7 @@ enum class SolveStatus {
 
 //! The criterion that a converged run met.
 enum class Criterion {
-  kNone,       //!< the run did not converge, or the method does not iterate
+  kNone,       //!< the run did not converge, or it was compute_coordinates()
   kTolerance,  //!< both residuals, or the estimated error, fell below their thresholds
   kGap         //!< the certified gap is at most SolverOptions::gap
 };
@@ -60,24 +60,24 @@ struct LevelReport {
   double solve_seconds = 0;  //!< start and iteration
 };
 
-//! Report of solve(). If the cage has several parts:
+//! Report of solve() or compute_coordinates(). If the cage has several parts:
 //! - numbers of elements, seconds, objectives, and bounds are sums over the parts;
 //! - iterations, residuals, and phi_error are the maximum over the parts;
 //! - all other fields come from the part with the most iterations.
 struct SolveReport {
-  Method method = Method::kAuto;                 //!< method used, never kAuto
+  Method method = Method::kAuto;                 //!< method used; kAuto for compute_coordinates()
   SolveStatus status = SolveStatus::kConverged;  //!< how the run ended
   Criterion criterion = Criterion::kNone;        //!< the criterion met, if the run converged
   Index control_points = 0;                      //!< n
   Index vertices = 0;                            //!< V
   Index cells = 0;                               //!< F
-  int iterations = 0;                            //!< 0 for methods that do not iterate
+  int iterations = 0;                            //!< 0 for compute_coordinates()
   double primal_residual = 0;    //!< |r_p| or estimated error, divided by its threshold
   double dual_residual = 0;      //!< |r_d| divided by its threshold
   double penalty = 0;            //!< final penalty, in the unit of SolverOptions::penalty
   double published_penalty = 0;  //!< the same in the scale of the literature (published_penalty())
-  //! Objective of the weights, sum_s sum_i phi A |grad w_i|, in units of the mesh^(dim - 1). NaN if
-  //! phi is not available: for methods for comparison, unless the given problem has it.
+  //! Objective of the weights, sum_s sum_i phi A |grad w_i|, in units of the mesh^(dim - 1). NaN
+  //! for compute_coordinates().
   double objective = 0;
   Certificate certificate{};                 //!< if requested or used as the criterion; same units
   double state_scalars_per_cell = 0;         //!< size of the iteration state

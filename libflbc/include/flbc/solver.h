@@ -60,8 +60,7 @@ Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
 
 //! Solves a problem from make_problem(). Several solves with different options may share it.
 //! Parameters and errors are as above.
-//! \param problem  made with options.phi and options.smoothness; methods for
-//! comparison need neither
+//! \param problem  made with options.phi and options.smoothness
 template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {},
                const MesherArgument<Dim>& mesher = {}, const Observer& observer = {});
@@ -104,8 +103,7 @@ class Solver {
   Solver& operator=(Solver&&) noexcept;
 
   //! Solves. The first result is bit-identical to flbc::solve(); later calls resume from the last
-  //! state, and make the iterations that an uninterrupted run makes, bit for bit. Methods that do
-  //! not iterate start over.
+  //! state, and make the iterations that an uninterrupted run makes, bit for bit.
   //! \param budget  of this solve
   //! \return the solution, valid until the next solve. Its report covers only this solve; the
   //! status is kIterationLimit if the budget ended it
@@ -144,7 +142,7 @@ class Solver {
   const Cage<Dim>& cage() const;
   const DomainMesh<Dim>& mesh() const;
 
-  //! The current problem; without phi until the first solve with a method that uses it.
+  //! The current problem.
   const LbcProblem<Dim>& problem() const;
 
   //! The solution of the last solve; without weights before the first.

@@ -53,10 +53,11 @@ std::optional<Enum> value_named(const std::string& name) {
 
 FLBC_NAMES(Method, {Method::kAuto, "auto"}, {Method::kValue, "value"},
            {Method::kGradient, "gradient"}, {Method::kPaper, "paper"},
-           {Method::kLbc2014, "lbc2014"}, {Method::kHarmonic, "harmonic"},
-           {Method::kMeanValue, "meanvalue"}, {Method::kMaxEntropy, "maxentropy"},
-           {Method::kMaxLikelihood, "maxlikelihood"}, {Method::kBlended, "blended"},
-           {Method::kBiharmonic, "bbw"}, {Method::kGreen, "green"})
+           {Method::kLbc2014, "lbc2014"})
+FLBC_NAMES(Coordinates, {Coordinates::kHarmonic, "harmonic"},
+           {Coordinates::kMeanValue, "meanvalue"}, {Coordinates::kMaxEntropy, "maxentropy"},
+           {Coordinates::kMaxLikelihood, "maxlikelihood"}, {Coordinates::kBlended, "blended"},
+           {Coordinates::kBiharmonic, "bbw"}, {Coordinates::kGreen, "green"})
 FLBC_NAMES(NonNegative, {NonNegative::kAuto, "auto"}, {NonNegative::kConstraint, "constraint"},
            {NonNegative::kProject, "project"}, {NonNegative::kOff, "off"})
 FLBC_NAMES(DistanceScheme, {DistanceScheme::kSquare, "square"}, {DistanceScheme::kLinear, "linear"},

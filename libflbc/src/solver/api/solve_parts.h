@@ -16,7 +16,8 @@ template <int Dim>
 using SolvePart = std::function<Solution(const Cage<Dim>&, const DomainMesh<Dim>&, const Reporter&,
                                          bool stopped)>;
 
-//! Solves every part of the mesh with the control points that are its vertices.
+//! Solves every part of the mesh with the control points that are its vertices. If there is one
+//! part, it is the mesh itself.
 //! \throws InputError if the parts of mesh and cage differ
 template <int Dim>
 Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Reporter& reporter,

@@ -49,10 +49,8 @@ void require_valid_setup(const SolverOptions& options, bool has_mesher) {
   }
 }
 
-// A problem for a method that does not minimize has no phi.
 template <int Dim>
 void require_objective(const LbcProblem<Dim>& problem, const plan::Settings& settings) {
-  if (!is_local(settings.method)) return;
   const auto& phi = problem.phi;
   if (phi.rows() != problem.num_control_points() || phi.cols() != problem.mesh.num_cells()) {
     throw InputError("phi is " + std::to_string(phi.rows()) + " x " + std::to_string(phi.cols()) +
@@ -114,8 +112,7 @@ Certificate certify(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run,
 
 template <int Dim>
 void measure(const LbcProblem<Dim>& problem, const SparseWeights& weights, SolveReport& report) {
-  report.objective = problem.phi.size() > 0 ? unscaled(problem, objective(problem, weights))
-                                            : std::numeric_limits<double>::quiet_NaN();
+  report.objective = unscaled(problem, objective(problem, weights));
   report.quality = measure_quality(problem.cage.points, problem.mesh.points, weights);
 }
 
@@ -181,9 +178,7 @@ Solution solve_cage(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const So
     if (stopped) solution.report.status = SolveStatus::kStopped;
     return solution;
   };
-  const Reporter reporter(observer);
-  if (count_parts(mesh) == 1) return solve_connected(cage, mesh, reporter, false);
-  return solve_parts<Dim>(cage, mesh, reporter, solve_connected);
+  return solve_parts<Dim>(cage, mesh, Reporter(observer), solve_connected);
 }
 
 void validate(const Budget& budget) {
@@ -279,7 +274,6 @@ class Solver<Dim>::State {
 
   void solve(const Budget& budget, const Observer& observer) {
     try {
-      complete();
       solve_on(*shape_, nullptr, budget, observer);
     } catch (...) {
       restart();
@@ -356,17 +350,6 @@ class Solver<Dim>::State {
     return budget;
   }
 
-  // Computes phi when a method needs it.
-  void complete() {
-    auto& problem = shape_->problem;
-    const auto settings = plan::settings_of(options_);
-    if (problem.phi.size() > 0 || !is_local(settings.method)) return;
-    const ThreadScope threads(num_threads(problem, settings));
-    Stopwatch watch;
-    set_phi(problem, settings.phi);
-    shape_->setup_seconds += watch.lap();
-  }
-
   // The mesh moved by the control points, not solved yet.
   std::unique_ptr<Shape> moved(const PointList<Dim>& control_points,
                                const plan::Settings& settings) {
@@ -381,7 +364,6 @@ class Solver<Dim>::State {
         make_geometry(shape->cage, shape->mesh, shape_->problem.topology, shape_->problem.boundary);
     problem.smoothness = settings.smoothness;
     shape->run.emplace(problem);
-    if (!is_local(settings.method)) return shape;
     shape->distances = shape_->distances;
     auto distances = moving_distances_ ? (*moving_distances_)(problem, settings, shape->distances)
                                        : distances_for(settings.phi, problem);

@@ -6,10 +6,7 @@
 #include <utility>
 
 #include "base/stopwatch.h"
-#include "flbc/biharmonic.h"
 #include "flbc/errors.h"
-#include "flbc/harmonic.h"
-#include "flbc/pointwise.h"
 #include "mesh/cell_geometry.h"
 #include "solver/methods/active_set/active_set.h"
 #include "solver/methods/gradient/gradient_iteration.h"
@@ -205,9 +202,14 @@ void MethodRun<Dim>::begin(const plan::Settings& settings, const WarmStart<Dim>&
 }
 
 template <int Dim>
-Weights MethodRun<Dim>::iterate(const plan::Settings& given, const Reporter& reporter,
-                                SolveReport& report, WarmStart<Dim> start) {
+Weights MethodRun<Dim>::solve(const plan::Settings& given, const Reporter& reporter,
+                              SolveReport& report, WarmStart<Dim> start) {
   Stopwatch watch;
+  report = {};
+  report.method = given.method;
+  report.control_points = problem_->num_control_points();
+  report.vertices = problem_->mesh.num_vertices();
+  report.cells = problem_->mesh.num_cells();
   auto settings = given;
   if (is_active_ && plan::proves(settings)) iteration_ = nullptr;
   if (!iteration_) {
@@ -228,30 +230,7 @@ Weights MethodRun<Dim>::iterate(const plan::Settings& given, const Reporter& rep
   report.seconds.solve = watch.lap();
   auto weights = iteration_->weights();
   report.seconds.recover = watch.lap();
-  return weights;
-}
-
-template <int Dim>
-Weights MethodRun<Dim>::solve(const plan::Settings& settings, const Reporter& reporter,
-                              SolveReport& report, WarmStart<Dim> start) {
-  Stopwatch watch;
-  report = {};
-  report.method = settings.method;
-  report.control_points = problem_->num_control_points();
-  report.vertices = problem_->mesh.num_vertices();
-  report.cells = problem_->mesh.num_cells();
-  Weights weights;
-  if (settings.method == Method::kHarmonic) {
-    weights.dense = harmonic_coordinates(*problem_);
-  } else if (settings.method == Method::kBiharmonic) {
-    weights.dense = bounded_biharmonic_weights(*problem_);
-  } else if (is_pointwise(settings.method)) {
-    weights.dense = pointwise_coordinates(problem_->cage, problem_->mesh.points, settings.method);
-  } else {
-    weights = iterate(settings, reporter, report, std::move(start));
-  }
   require_finite(weights.is_sparse() || weights.dense.allFinite(), report);
-  if (!iteration_) report.seconds.solve = watch.lap();
   report.published_penalty = report.penalty * published_unit(*problem_, settings.method);
   return weights;
 }

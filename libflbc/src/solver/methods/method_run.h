@@ -51,8 +51,6 @@ class MethodRun {
   Duals<Dim> duals(double least_weight = 0) const;
 
  private:
-  Weights iterate(const plan::Settings& settings, const Reporter& reporter, SolveReport& report,
-                  WarmStart<Dim> start);
   void begin(const plan::Settings& settings, const WarmStart<Dim>& start);
   bool begin_on_active_set(const plan::Settings& settings, const WarmStart<Dim>& start);
   std::unique_ptr<StopRule<Dim>> make_stop_rule(const plan::Settings& settings,

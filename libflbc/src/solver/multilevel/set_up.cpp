@@ -61,7 +61,7 @@ template <int Dim>
 CoarsePlan plan_coarse(const Cage<Dim>& cage, Index vertices, const plan::Settings& settings,
                        bool has_mesher) {
   const plan::Sizes sizes{Dim, cage.size(), vertices};
-  if (!has_mesher || !is_local(settings.method)) return {{}, {false, false}};
+  if (!has_mesher) return {{}, {false, false}};
   auto coarse = plan::coarse_sizes(sizes, settings);
   const bool starts = !coarse.empty();
   const bool interpolates = plan::interpolates_distances(sizes, settings, starts) &&
@@ -115,18 +115,18 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const plan::Settings& se
                         : make_geometry(std::move(cage), std::move(mesh), *topology)};
   auto& [problem, coarse, report, seconds] = result;
   problem.smoothness = settings.smoothness;
-  if (is_local(settings.method)) {
-    coarse = make_coarse_problems(problem, begun_mesher, sizes, settings, use);
+  coarse = make_coarse_problems(problem, begun_mesher, sizes, settings, use);
+  {
     const StageScope scope(reporter.stage(Stage::kDistances));
     set_phi(problem, settings.phi,
             use.distances && !coarse.empty()
                 ? choose_distances(with_places(coarse.back(), problem), problem, settings, report)
                 : distances_for(settings.phi, problem));
-    if (coarsest != nullptr && report.source == Distances::kInterpolated) {
-      *coarsest = with_places(coarse.front(), problem);
-    }
-    if (!use.start) coarse.clear();
   }
+  if (coarsest != nullptr && report.source == Distances::kInterpolated) {
+    *coarsest = with_places(coarse.front(), problem);
+  }
+  if (!use.start) coarse.clear();
   seconds = watch.lap();
   for (const auto& level : coarse) {
     seconds -= level.report.mesh_seconds + level.report.setup_seconds;

@@ -21,7 +21,7 @@ struct SetUp {
 };
 
 //! Sets up a problem as make_problem() does. Distances come from a coarser mesh if the options say
-//! so, and phi is omitted if the method does not need it.
+//! so.
 //!
 //! \param mesher  may be empty unless required by options; called from a separate thread if there
 //! are several

@@ -15,13 +15,10 @@ void require(bool valid, const char* field, double value, const char* range) {
   throw OptionError(std::string(field) + " must be " + range + ", not " + format_number(value));
 }
 
-void validate_gap(const SolverOptions& options, bool iterative) {
+void validate_gap(const SolverOptions& options) {
   const double gap = options.gap.value_or(0);
   require(std::isfinite(gap) && gap >= 0, "gap", gap, "positive, or 0 for none");
-  if (gap == 0) return;
-  if (!iterative)
-    throw OptionError("gap needs a method that minimizes the objective; choose another method");
-  if (resolve(options).non_negative == NonNegative::kOff) {
+  if (gap > 0 && resolve(options).non_negative == NonNegative::kOff) {
     throw OptionError(
         "gap does not apply to weights that may be negative; choose non_negative constraint or "
         "project");
@@ -34,19 +31,6 @@ void validate(const CoarseLevels& levels) {
 }
 
 }  // namespace
-
-bool is_local(Method method) {
-  switch (method) {
-    case Method::kAuto:
-    case Method::kValue:
-    case Method::kGradient:
-    case Method::kPaper:
-    case Method::kLbc2014:
-      return true;
-    default:
-      return false;
-  }
-}
 
 void validate(const SolverOptions& options) {
   const auto require_positive = [](const char* field, const std::optional<double>& value) {
@@ -68,20 +52,7 @@ void validate(const SolverOptions& options) {
         "another "
         "method");
   }
-  if (options.method == Method::kGreen) {
-    throw OptionError(
-        "Green coordinates also have weights for normals of facets, which solve() does not return; "
-        "use green_coordinates() in C++");
-  }
-  if (options.method == Method::kBiharmonic && options.non_negative == NonNegative::kProject) {
-    throw OptionError(
-        "bounded biharmonic weights are not negative, so non_negative does not apply");
-  }
-  const bool iterative = is_local(options.method);
-  if (options.certify && !iterative) {
-    throw OptionError("certify needs a method that minimizes the objective; choose another method");
-  }
-  validate_gap(options, iterative);
+  validate_gap(options);
   if (options.active_set == ActiveSet::kOn && (options.certify || options.gap.value_or(0) > 0)) {
     throw OptionError(
         "active_set on has no certificate, which needs the duals of all pairs; choose active_set "
@@ -93,7 +64,7 @@ void validate(const SolverOptions& options) {
   }
   require(options.threads >= 0 && options.threads <= 1024, "threads", options.threads,
           "in [1, 1024], or 0 for all");
-  if (smoothness > 0 && is_local(options.method) && !plan::smooths(options.method)) {
+  if (smoothness > 0 && !plan::smooths(options.method)) {
     throw OptionError("smoothness is for the methods value and gradient only");
   }
   validate(options.coarse_levels);
