@@ -63,9 +63,6 @@ void make_domain(Comparison<Dim>& all) {
 template <int Dim>
 SparseWeights weights_of_mesh(const Comparison<Dim>& all, const Column<Dim>& column) {
   const auto& settings = column.settings;
-  if (settings.coordinates && is_pointwise(*settings.coordinates)) {
-    return pointwise_coordinates(all.cage, all.domain.points, *settings.coordinates);
-  }
   ProgressBar bar(all.arguments.quiet, "setting up: boundary values, distances", settings.options);
   Observer observer;
   observer.progress = [&](const Progress& progress) {
