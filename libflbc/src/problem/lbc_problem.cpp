@@ -8,6 +8,16 @@
 #include "problem/unit_scale.h"
 
 namespace flbc {
+namespace {
+
+template <int Dim>
+LbcProblem<Dim> complete(LbcProblem<Dim> geometry, DistanceScheme scheme, double smoothness) {
+  geometry.smoothness = smoothness;
+  set_phi(geometry, scheme);
+  return geometry;
+}
+
+}  // namespace
 
 template <int Dim>
 LbcProblem<Dim> make_geometry(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
@@ -43,8 +53,8 @@ template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceScheme scheme,
                              double smoothness) {
   validate(mesh);
-  auto topology = build_topology(mesh);
-  return make_problem(std::move(cage), std::move(mesh), std::move(topology), scheme, smoothness);
+  require_connected(mesh);
+  return complete(make_geometry(std::move(cage), std::move(mesh)), scheme, smoothness);
 }
 
 template <int Dim>
@@ -52,10 +62,8 @@ LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<
                              DistanceScheme scheme, double smoothness) {
   validate(mesh);
   require_connected(mesh);
-  auto problem = make_geometry(std::move(cage), std::move(mesh), std::move(topology));
-  problem.smoothness = smoothness;
-  set_phi(problem, scheme);
-  return problem;
+  return complete(make_geometry(std::move(cage), std::move(mesh), std::move(topology)), scheme,
+                  smoothness);
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                                \

@@ -179,6 +179,7 @@ SparseWeights join(const std::vector<Part<Dim>>& parts, const std::vector<Soluti
 template <int Dim>
 Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Reporter& reporter,
                      const SolvePart<Dim>& solve_part) {
+  validate(mesh);
   if (count_parts(mesh) == 1) return solve_part(cage, mesh, reporter, false);
   const auto parts = take_apart(cage, mesh);
   const auto unknowns = [](const Part<Dim>& part) {

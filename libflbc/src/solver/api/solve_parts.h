@@ -16,9 +16,9 @@ template <int Dim>
 using SolvePart = std::function<Solution(const Cage<Dim>&, const DomainMesh<Dim>&, const Reporter&,
                                          bool stopped)>;
 
-//! Solves every part of the mesh with the control points that are its vertices. If there is one
-//! part, it is the mesh itself.
-//! \throws InputError if the parts of mesh and cage differ
+//! Checks the mesh, and solves every part of it with the control points that are its vertices. If
+//! there is one part, it is the mesh itself.
+//! \throws InputError as validate(), or if the parts of mesh and cage differ
 template <int Dim>
 Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Reporter& reporter,
                      const SolvePart<Dim>& solve_part);

@@ -133,8 +133,7 @@ Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weigh
     const StageScope scope(reporter.stage(Stage::kNonNegative));
     solution.weights = made_non_negative(problem, weights);
   } else {
-    solution.weights =
-        weights.is_sparse() ? std::move(weights.sparse) : SparseWeights(weights.dense);
+    solution.weights = std::move(weights).to_sparse();
   }
   weights = {};
   report.seconds.recover += watch.lap();
@@ -148,37 +147,30 @@ Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weigh
   return solution;
 }
 
+// Solves connected parts of a mesh. Keeps references to the arguments.
+// \param topology  of the whole mesh; null if not known
 template <int Dim>
-Solution solve_once(const LbcProblem<Dim>& problem, std::vector<CoarseProblem<Dim>> coarse,
-                    const plan::Settings& settings, const Reporter& reporter) {
-  MethodRun<Dim> run(problem);
-  SolveReport report;
-  auto weights = solve_in_cascade(problem, run, std::move(coarse), settings, reporter, report);
-  return finish(problem, run, std::move(weights), settings, reporter, std::move(report));
-}
-
-//! \param topology  null if not known
-template <int Dim>
-Solution solve_cage(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& given,
-                    const CoarseMesher<Dim>& mesher, const Observer& observer,
-                    const MeshTopology<Dim>* topology) {
+SolvePart<Dim> part_solver(const DomainMesh<Dim>& mesh, const SolverOptions& given,
+                           const CoarseMesher<Dim>& mesher, const MeshTopology<Dim>* topology) {
   require_valid_setup(given, bool(mesher));
-  validate(mesh);
-  const auto common = plan::settings_of(given);
-  const auto solve_connected = [&](const Cage<Dim>& part, const DomainMesh<Dim>& domain,
-                                   const Reporter& reporter, bool stopped) {
+  return [&mesh, &mesher, topology, common = plan::settings_of(given)](
+             const Cage<Dim>& part, const DomainMesh<Dim>& domain, const Reporter& reporter,
+             bool stopped) {
     auto settings = common;
     if (stopped) settings.max_iterations = 1;
     const auto* facets = &domain == &mesh ? topology : nullptr;
     const ThreadScope threads(threads_for(settings.threads, part.size(), domain.num_vertices()));
     auto ready = set_up<Dim>(part, domain, settings, mesher, reporter, nullptr, facets);
-    auto solution = solve_once(ready.problem, std::move(ready.coarse), settings, reporter);
+    MethodRun<Dim> run(ready.problem);
+    SolveReport report;
+    auto weights =
+        solve_in_cascade(ready.problem, run, std::move(ready.coarse), settings, reporter, report);
+    auto solution = finish(ready.problem, run, std::move(weights), settings, reporter, report);
     solution.report.seconds.setup = ready.seconds;
     solution.report.distances = ready.distances;
     if (stopped) solution.report.status = SolveStatus::kStopped;
     return solution;
   };
-  return solve_parts<Dim>(cage, mesh, Reporter(observer), solve_connected);
 }
 
 void validate(const Budget& budget) {
@@ -236,21 +228,27 @@ Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& given,
   const auto settings = plan::settings_of(given);
   require_objective(problem, settings);
   const ThreadScope threads(num_threads(problem, settings));
-  return solve_once(problem, coarse_starts<Dim>(problem, mesher, settings), settings,
-                    Reporter(observer));
+  const Reporter reporter(observer);
+  MethodRun<Dim> run(problem);
+  SolveReport report;
+  auto weights = solve_in_cascade(problem, run, coarse_starts<Dim>(problem, mesher, settings),
+                                  settings, reporter, report);
+  return finish(problem, run, std::move(weights), settings, reporter, std::move(report));
 }
 
 template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
                const MesherArgument<Dim>& mesher, const Observer& observer) {
-  return solve_cage<Dim>(cage, mesh, options, mesher, observer, nullptr);
+  return solve_parts(cage, mesh, Reporter(observer),
+                     part_solver<Dim>(mesh, options, mesher, nullptr));
 }
 
 template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                const MeshTopology<Dim>& topology, const SolverOptions& options,
                const MesherArgument<Dim>& mesher, const Observer& observer) {
-  return solve_cage<Dim>(cage, mesh, options, mesher, observer, &topology);
+  return solve_parts(cage, mesh, Reporter(observer),
+                     part_solver<Dim>(mesh, options, mesher, &topology));
 }
 
 template <int Dim>

@@ -29,8 +29,8 @@ struct Weights {
 
   bool is_sparse() const { return sparse.num_points() > 0; }
 
-  //! Dense weights, n x V.
   WeightMatrix to_dense() && { return is_sparse() ? sparse.dense() : std::move(dense); }
+  SparseWeights to_sparse() && { return is_sparse() ? std::move(sparse) : SparseWeights(dense); }
 };
 
 //! The point that a run has reached, as an iteration needs it to adapt.

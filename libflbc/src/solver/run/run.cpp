@@ -22,24 +22,9 @@ Progress progress_of(const Iteration<Dim>& iteration, const LbcProblem<Dim>& pro
                      const SolveReport& report) {
   Progress progress{report.iterations, report.primal_residual, report.dual_residual};
   progress.objective = [&] {
-    auto weights = iteration.weights();
-    return unscaled(problem,
-                    objective(problem, weights.is_sparse() ? std::move(weights.sparse)
-                                                           : SparseWeights(weights.dense)));
+    return unscaled(problem, objective(problem, iteration.weights().to_sparse()));
   };
   return progress;
-}
-
-// Iterates to the next evaluation, with as many threads as the machine has cores to spare.
-template <int Dim>
-Step iterate(Iteration<Dim>& iteration, const RunState<Dim>& state, int count,
-             ThreadChoice& choice) {
-  const ThreadScope scope(choice.threads());
-  const double on_core = seconds_on_core();
-  Stopwatch watch;
-  const Step step = iteration.iterate(state.made, count, state.stop->wants_residuals());
-  choice.note(count, watch.lap(), seconds_on_core() - on_core);
-  return step;
 }
 
 // Ends the run or reports progress, if due. Sets status and criterion. \param last  whether the
@@ -93,7 +78,14 @@ void run(Iteration<Dim>& iteration, RunState<Dim>& state, const RunContext<Dim>&
     context.reporter.poll();
     const int until = std::min(interval - state.made % interval, limit - state.made);
     const int count = context.reporter.has_limit() ? 1 : until;
-    const Step step = iterate(iteration, state, count, choice);
+    Step step;
+    {
+      const ThreadScope scope(choice.threads());
+      const double on_core = seconds_on_core();
+      Stopwatch watch;
+      step = iteration.iterate(state.made, count, state.stop->wants_residuals());
+      choice.note(count, watch.lap(), seconds_on_core() - on_core);
+    }
     state.made += count;
     report.iterations = state.made - before;
     const bool is_late = context.reporter.is_late();

@@ -13,14 +13,14 @@ ActiveSet<Scalar, Dim>::ActiveSet(const LbcProblem<Dim>& problem, splitting::Met
     : problem_(problem),
       metric_(std::move(metric)),
       parameters_(parameters),
-      first_active_(std::move(active)),
+      splitting_(
+          make_splitting(parameters.part * parameters.penalty, parameters.half, std::move(active))),
       rule_(parameters.balances, false, problem.smoothness, parameters.part) {
 }
 
 template <class Scalar, int Dim>
 void ActiveSet<Scalar, Dim>::start(const Start<Dim>& start) {
-  rebuild(parameters_.part * parameters_.penalty, parameters_.half,
-          std::exchange(first_active_, {}), start, parameters_.balances);
+  splitting_->start(start, parameters_.balances);
 }
 
 template <class Scalar, int Dim>
@@ -35,13 +35,11 @@ Start<Dim> ActiveSet<Scalar, Dim>::state() const {
 }
 
 template <class Scalar, int Dim>
-void ActiveSet<Scalar, Dim>::rebuild(double penalty, bool half, ActiveLists active,
-                                     const Start<Dim>& from, bool balances) {
-  auto other =
-      std::make_unique<Splitting>(problem_, metric_, penalty, parameters_.relaxation, half,
-                                  std::move(active), splitting::system_matrix(problem_, metric_));
-  other->start(from, balances);
-  splitting_ = std::move(other);
+std::unique_ptr<ActiveSplitting<Scalar, Dim>> ActiveSet<Scalar, Dim>::make_splitting(
+    double penalty, bool half, ActiveLists active) const {
+  return std::make_unique<ActiveSplitting<Scalar, Dim>>(
+      problem_, metric_, penalty, parameters_.relaxation, half, std::move(active),
+      splitting::system_matrix(problem_, metric_));
 }
 
 template <class Scalar, int Dim>
@@ -74,7 +72,9 @@ int ActiveSet<Scalar, Dim>::grow(const Milestone& at) {
   auto more = grown<Dim>(problem_, active, threshold_for(at.tolerance), weight);
   if (more.items.size() == active.items.size()) return 0;
   ++growths_;
-  rebuild(splitting_->penalty(), splitting_->stores_half(), std::move(more), splitting_->state());
+  auto larger = make_splitting(splitting_->penalty(), splitting_->stores_half(), std::move(more));
+  larger->start(splitting_->state());
+  splitting_ = std::move(larger);
   return plan::kAfterGrowth;
 }
 

@@ -48,17 +48,14 @@ class ActiveSet final : public Iteration<Dim> {
   void describe(SolveReport& report) const override;
 
  private:
-  using Splitting = ActiveSplitting<Scalar, Dim>;
-
-  void rebuild(double penalty, bool half, ActiveLists active, const Start<Dim>& from,
-               bool balances = false);
+  std::unique_ptr<ActiveSplitting<Scalar, Dim>> make_splitting(double penalty, bool half,
+                                                               ActiveLists active) const;
   int grow(const Milestone& at);
 
   const LbcProblem<Dim>& problem_;
   const splitting::Metric metric_;
   const Parameters parameters_;
-  ActiveLists first_active_;  // until the start
-  std::unique_ptr<Splitting> splitting_;
+  std::unique_ptr<ActiveSplitting<Scalar, Dim>> splitting_;
   splitting::PenaltyRule rule_;
   int since_ = 0;  // iteration of the last change or check
   int growths_ = 0;

@@ -73,10 +73,7 @@ ActiveSplitting<Scalar, Dim>::ActiveSplitting(const LbcProblem<Dim>& problem,
           problem.mesh.points(Eigen::all, vertices_of_rows(problem, data_)), &targets_)),
       patches_(make_patches(problem, metric_, unit_, data_, lists_, *loops_)),
       multigrid_(system, order_, lists_, bases_, problem.cage.points, list_kernel_),
-      a_(lists_.size()),
-      W_(num_interior_numbers()),
-      S_(metric_.vertex.size() > 0 ? num_interior_numbers() : 0),
-      residual_(num_interior_numbers()),
+      rows_(lists_.size(), lists_.starts[data_.vertices.size()], metric_.vertex.size() > 0),
       left_(patches_.num_left),
       P_(Dim * patches_.radius.size()) {
 }
@@ -114,10 +111,10 @@ void ActiveSplitting<Scalar, Dim>::for_patches(bool measures, const Body& body) 
       state.difference = rows.difference.data();
       state.violation = rows.violation.data();
       state.violation_sum = rows.violation_sum.data();
-      gather(patch, rows.slot_of, a_, patch.num_rows, rows.extrapolated);
+      gather(patch, rows.slot_of, rows_.a, patch.num_rows, rows.extrapolated);
       if (measures) {
         std::fill_n(rows.difference.data(), patch.num_rows * patch.stride, Scalar(0));
-        gather(patch, rows.slot_of, difference_, patch.num_interior, rows.difference);
+        gather(patch, rows.slot_of, rows_.difference, patch.num_interior, rows.difference);
         std::fill_n(rows.violation.data(), rows.violation.size(), 0.0);
         std::fill_n(rows.motion.data(), rows.motion.size(), 0.0);
       }
@@ -161,7 +158,7 @@ template <class Scalar, int Dim>
 void ActiveSplitting<Scalar, Dim>::collect_divergence() {
   const auto num_rows = static_cast<Index>(data_.vertices.size());
   parallel_for(num_rows, [&](Index row) {
-    Scalar* residual = residual_.data() + lists_.starts[row];
+    Scalar* residual = rows_.residual.data() + lists_.starts[row];
     const std::size_t length = lists_.starts[row + 1] - lists_.starts[row];
     for (const std::size_t place : patches_.left.of(row)) {
       for (std::size_t j = 0; j < length; ++j) residual[j] += left_[place + j];
@@ -174,10 +171,7 @@ compact::Arrays<Scalar, Dim> ActiveSplitting<Scalar, Dim>::row_state(Index row) 
   const std::size_t start = lists_.starts[row];
   State state{};
   state.stride = lists_.starts[row + 1] - start;
-  state.extrapolated = a_.data() + start;
-  state.relaxed = W_.data() + start;
-  state.vertex_dual = has_vertex_dual() ? S_.data() + start : nullptr;
-  state.residual = residual_.data() + start;
+  rows_.set(state, start);
   state.vertex_metric = has_vertex_dual() ? data_.vertex_metric.data() + row : nullptr;
   state.basis = bases_.data() + (Dim + 1) * start;
   state.row_target = targets_.data() + static_cast<std::size_t>(row) * (Dim + 1);
@@ -200,33 +194,20 @@ compact::RowSums ActiveSplitting<Scalar, Dim>::pass_rows(RowLoop loop) {
 // As in CompactSplitting.
 template <class Scalar, int Dim>
 Step ActiveSplitting<Scalar, Dim>::iterate(bool measures, splitting::Due due) {
-  if (measures) set_difference();
+  if (measures) rows_.set_difference();
   const double of_cells = pass_cells(measures, relaxation_);
   collect_divergence();
-  multigrid_.cycle(residual_.data());
-  AlignedArray<Scalar> S;
-  if (due != splitting::Due::kNothing) {
-    S = AlignedArray<Scalar>(S_.size());
-    std::copy_n(S_.data(), S_.size(), S.data());
-    std::swap(S, S_);
-  }
-  const auto sums = pass_rows(measures ? loops_->y_step_measured : loops_->y_step);
-  if (due != splitting::Due::kNothing) std::swap(S, S_);
+  multigrid_.cycle(rows_.residual.data());
+  const auto sums = rows_.with_dual(due != splitting::Due::kNothing, measures, [&] {
+    return pass_rows(measures ? loops_->y_step_measured : loops_->y_step);
+  });
   const double scale = 1 / (sigma() * sigma());
   return {scale * sums.change, measures ? scale * (of_cells + sums.violation) : -1};
 }
 
 template <class Scalar, int Dim>
-void ActiveSplitting<Scalar, Dim>::set_difference() {
-  if (difference_.size() == 0) difference_ = AlignedArray<Scalar>(W_.size());
-  for (std::size_t k = 0; k < W_.size(); ++k) difference_[k] = Scalar(0.5) * (a_[k] - W_[k]);
-}
-
-template <class Scalar, int Dim>
 splitting::BalanceLengths ActiveSplitting<Scalar, Dim>::lengths_since_start() {
-  set_difference();
-  AlignedArray<Scalar> moved(W_.size());
-  for (std::size_t k = 0; k < W_.size(); ++k) moved[k] = a_[k] - difference_[k] - start_[k];
+  const auto moved = rows_.moved();
   std::vector<splitting::BalanceLengths> parts(patches_.patches.size());
   for_patches(true, [&](Index p, PatchRows<Scalar>& rows, const State& state) {
     const Patch& patch = patches_.patches[p];
@@ -250,16 +231,10 @@ splitting::BalanceLengths ActiveSplitting<Scalar, Dim>::lengths_since_start() {
 // As in CompactSplitting.
 template <class Scalar, int Dim>
 void ActiveSplitting<Scalar, Dim>::set_penalty(double penalty) {
-  set_difference();
   const auto factor = static_cast<Scalar>(penalty / penalty_);
   penalty_ = penalty;
-  for (std::size_t k = 0; k < W_.size(); ++k) {
-    const Scalar w = factor * (a_[k] - difference_[k]);
-    W_[k] = w - difference_[k];
-    a_[k] = w + difference_[k];
-  }
-  for (std::size_t k = 0; k < start_.size(); ++k) start_[k] *= factor;
-  for (std::size_t k = W_.size(); k < a_.size(); ++k) a_[k] *= factor;
+  rows_.scale_interior(factor);
+  for (std::size_t k = rows_.W.size(); k < rows_.a.size(); ++k) rows_.a[k] *= factor;
   pass_rows(loops_->w_step);
 }
 
@@ -276,7 +251,7 @@ void ActiveSplitting<Scalar, Dim>::store_in_single() {
 
 template <class Scalar, int Dim>
 Scalar ActiveSplitting<Scalar, Dim>::weight_at(std::size_t place) const {
-  return static_cast<Scalar>(0.5 / sigma()) * (a_[place] + W_[place]);
+  return static_cast<Scalar>(0.5 / sigma()) * (rows_.a[place] + rows_.W[place]);
 }
 
 // Writes the values of a vertex for all control points; zero for inactive pairs.
@@ -300,8 +275,7 @@ void ActiveSplitting<Scalar, Dim>::read_weights(Index vertex, double* weights) c
 
 template <class Scalar, int Dim>
 double ActiveSplitting<Scalar, Dim>::state_scalars_per_cell() const {
-  const std::size_t numbers =
-      a_.size() + W_.size() + S_.size() + residual_.size() + left_.size() + bases_.size();
+  const std::size_t numbers = rows_.size() + left_.size() + bases_.size();
   const double cell_numbers = static_cast<double>(P_.size()) / sizeof(Scalar);
   return (static_cast<double>(numbers) + cell_numbers) / n_ / problem_.mesh.num_cells();
 }
@@ -315,13 +289,13 @@ void ActiveSplitting<Scalar, Dim>::set_weights(const VectorsAt<1>& weights) {
     const Index row = data_.row_of[v];
     const std::size_t start = lists_.starts[row];
     for (Index j = 0; j < lists_.counts[row]; ++j) {
-      a_[start + j] = static_cast<Scalar>(sigma() * numbers[lists_.items[start + j]]);
+      rows_.a[start + j] = static_cast<Scalar>(sigma() * numbers[lists_.items[start + j]]);
     }
   });
   // Truncated weights must be compensated elsewhere in the row.
-  std::fill_n(residual_.data(), residual_.size(), Scalar(0));
+  std::fill_n(rows_.residual.data(), rows_.residual.size(), Scalar(0));
   pass_rows(loops_->correct);
-  std::copy_n(a_.data(), W_.size(), W_.data());
+  std::copy_n(rows_.a.data(), rows_.W.size(), rows_.W.data());
 }
 
 template <class Scalar, int Dim>
@@ -340,8 +314,8 @@ void ActiveSplitting<Scalar, Dim>::set_vertex_dual(const VectorsAt<1>& vertex_du
     Eigen::VectorXd numbers = Eigen::VectorXd::Zero(n_);
     if (vertex_dual) numbers = vertex_dual(data_.vertices[row]);
     for (Index j = 0; j < lists_.counts[row]; ++j) {
-      S_[start + j] = static_cast<Scalar>(sigma() * numbers[lists_.items[start + j]]);
-      residual_[start + j] = data_.vertex_metric[row] * S_[start + j];
+      rows_.S[start + j] = static_cast<Scalar>(sigma() * numbers[lists_.items[start + j]]);
+      rows_.residual[start + j] = data_.vertex_metric[row] * rows_.S[start + j];
     }
   });
 }
@@ -354,13 +328,11 @@ void ActiveSplitting<Scalar, Dim>::start(const Start<Dim>& start, bool balances)
   set_vertex_dual(start.vertex_dual_at(penalty_));
   pass_cells(false, 0);
   collect_divergence();
-  multigrid_.cycle(residual_.data());
+  multigrid_.cycle(rows_.residual.data());
   pass_rows(loops_->correct);
-  for (std::size_t k = 0; k < W_.size(); ++k) W_[k] = 2 * W_[k] - a_[k];
+  parallel_for(rows_.W.size(), [&](std::size_t k) { rows_.W[k] = 2 * rows_.W[k] - rows_.a[k]; });
   pass_rows(loops_->w_step);
-  if (!balances) return;
-  start_ = AlignedArray<Scalar>(W_.size());
-  std::copy_n(a_.data(), start_.size(), start_.data());
+  if (balances) rows_.keep_start();
 }
 
 // Boundary values are known to higher than single precision.
@@ -391,26 +363,12 @@ SparseWeights ActiveSplitting<Scalar, Dim>::sparse_weights() const {
 }
 
 template <class Scalar, int Dim>
-Start<Dim> ActiveSplitting<Scalar, Dim>::state() const {
-  Start<Dim> state;
-  state.penalty = penalty_;
-  state.weights = [this](Index v) {
-    Eigen::VectorXd weights(n_);
-    read_weights(v, weights.data());
-    return weights;
-  };
-  state.flux_density = [this](Index s) { return flux_density(s); };
-  if (!has_vertex_dual()) return state;
-  state.vertex_dual = [this](Index v) {
-    Eigen::VectorXd dual(n_);
-    const auto dual_at = [this](std::size_t place) {
-      const double difference = static_cast<double>(a_[place]) - static_cast<double>(W_[place]);
-      return (S_[place] - 0.5 * difference) / sigma();
-    };
-    spread(v, dual_at, dual.data());
-    return dual;
-  };
-  return state;
+Eigen::VectorXd ActiveSplitting<Scalar, Dim>::vertex_dual_at(Index vertex) const {
+  Eigen::VectorXd dual(n_);
+  spread(
+      vertex, [this](std::size_t place) { return rows_.vertex_dual(place) / sigma(); },
+      dual.data());
+  return dual;
 }
 
 template <class Scalar, int Dim>

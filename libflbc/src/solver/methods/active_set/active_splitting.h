@@ -12,6 +12,7 @@
 #include "solver/methods/active_set/active_multigrid.h"
 #include "solver/methods/splitting/compact_data.h"
 #include "solver/methods/splitting/penalty_rule.h"
+#include "solver/methods/splitting/row_state.h"
 #include "solver/run/iteration.h"
 
 namespace flbc::active_set {
@@ -62,7 +63,12 @@ class ActiveSplitting {
   SparseWeights sparse_weights() const;
 
   //! A start for other iterations: views of this one. Flux densities are zero for inactive pairs.
-  Start<Dim> state() const;
+  Start<Dim> state() const { return splitting::start_of<Dim>(*this, n_); }
+
+  bool has_vertex_dual() const { return rows_.S.size() > 0; }
+  //! See CompactSplitting.
+  Eigen::VectorXd vertex_dual_at(Index vertex) const;
+  Vectors<Dim> flux_density(Index cell) const;
 
   //! Size of the state per cell and control point, in Scalars.
   double state_scalars_per_cell() const;
@@ -72,22 +78,18 @@ class ActiveSplitting {
   using RowLoop = typename compact::Loops<Scalar, Dim>::RowLoop;
 
   double sigma() const { return penalty_ * unit_; }
-  std::size_t num_interior_numbers() const { return lists_.starts[data_.vertices.size()]; }
   Scalar weight_at(std::size_t place) const;
-  bool has_vertex_dual() const { return S_.size() > 0; }
   State patch_state(const Patch& patch);
   template <class Body>
   void for_patches(bool measures, const Body& body);
   void gather(const Patch& patch, const std::vector<std::uint16_t>& slot_of,
               const AlignedArray<Scalar>& numbers, Index count, AlignedArray<Scalar>& block) const;
-  void set_difference();
   State row_state(Index row);
   double pass_cells(bool measures, double relaxation);
   void collect_divergence();
   compact::RowSums pass_rows(RowLoop loop);
   template <class NumberAt>
   void spread(Index vertex, const NumberAt& number_at, double* numbers) const;
-  Vectors<Dim> flux_density(Index cell) const;
   void set_weights(const VectorsAt<1>& weights);
   void set_cell_dual(const VectorsAt<Dim>& flux_density);
   void set_vertex_dual(const VectorsAt<1>& vertex_dual);
@@ -109,13 +111,8 @@ class ActiveSplitting {
   AlignedArray<Scalar> bases_;
   CellPatches<Scalar, Dim> patches_;
   ActiveMultigrid<Scalar, Dim> multigrid_;
-  // state, by row and list; only interior rows, except for a
-  AlignedArray<Scalar> a_;
-  AlignedArray<Scalar> W_;
-  AlignedArray<Scalar> S_;
-  AlignedArray<Scalar> residual_;
-  AlignedArray<Scalar> difference_;  // temporary
-  AlignedArray<Scalar> start_;       // while the penalty is balanced
+  // state, by row and list
+  splitting::RowState<Scalar> rows_;
   AlignedArray<Scalar> left_;
   AlignedArray<unsigned char> P_;  // in the storage format of the loops
 };

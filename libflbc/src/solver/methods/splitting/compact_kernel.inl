@@ -154,7 +154,7 @@ void flux(const Arrays<Scalar, Dim>& arrays, Columns columns, const Scalar* scal
   });
 }
 
-// The norms for balancing the penalty, see CompactSplitting::adapt_penalty.
+// The norms for balancing the penalty, see CompactSplitting::squared_lengths.
 template <class Scalar, class Stored, int Dim>
 void balance(const Arrays<Scalar, Dim>& arrays, Columns columns, const Scalar* moved, double* dual,
              double* motion) {

@@ -36,15 +36,12 @@ CompactSplitting<Scalar, Dim>::CompactSplitting(const LbcProblem<Dim>& problem,
       penalty_(parameters.penalty),
       solver_(splitting::system_matrix(problem, metric_), stride_, parameters.linear_solver),
       data_(make_rows_and_cells<Scalar>(problem, metric_, solver_.position(), unit_)),
-      rule_(false, false, problem.smoothness) {
+      rule_(false, false, problem.smoothness),
+      rows_(static_cast<std::size_t>(problem.mesh.num_vertices()) * stride_,
+            data_.vertices.size() * stride_, metric_.vertex.size() > 0),
+      P_(data_.cells.size() * Dim * stride_ * loops_->bytes) {
   set_constraints(problem, stride_, data_);
   set_radii(problem, metric_, unit_, slices_, *loops_, data_);
-  const std::size_t interior = data_.vertices.size();
-  a_ = AlignedArray<Scalar>(static_cast<std::size_t>(problem.mesh.num_vertices()) * stride_);
-  W_ = AlignedArray<Scalar>(interior * stride_);
-  if (metric_.vertex.size() > 0) S_ = AlignedArray<Scalar>(interior * stride_);
-  P_ = AlignedArray<unsigned char>(data_.cells.size() * Dim * stride_ * loops_->bytes);
-  residual_ = AlignedArray<Scalar>(interior * stride_);
 }
 
 template <class Scalar, int Dim>
@@ -54,11 +51,8 @@ Arrays<Scalar, Dim> CompactSplitting<Scalar, Dim>::arrays() {
   arrays.cell_stride = stride_;
   arrays.num_cells = data_.cells.size();
   arrays.num_interior = data_.vertices.size();
-  arrays.extrapolated = a_.data();
-  arrays.relaxed = W_.data();
-  arrays.vertex_dual = S_.data();
+  rows_.set(arrays);
   arrays.cell_dual = P_.data();
-  arrays.residual = residual_.data();
   arrays.violation = violation_.data();
   arrays.violation_sum = violation_sum_.data();
   arrays.cells = data_.cells.data();
@@ -67,7 +61,7 @@ Arrays<Scalar, Dim> CompactSplitting<Scalar, Dim>::arrays() {
   arrays.vertex_metric = data_.vertex_metric.data();
   arrays.basis = data_.basis.data();
   arrays.row_target = data_.row_target.data();
-  arrays.difference = difference_.data();
+  arrays.difference = rows_.difference.data();
   arrays.sigma = static_cast<Scalar>(sigma());
   arrays.relaxation = static_cast<Scalar>(parameters_.relaxation);
   arrays.smoothing = static_cast<Scalar>(smoothing(problem_, penalty_));
@@ -103,7 +97,7 @@ RowSums CompactSplitting<Scalar, Dim>::pass(const State& state, SliceLoop cells,
   if (cells != nullptr) {
     for_slices(state, [&](const State& slice, Columns columns) {
       cells(slice, columns);
-      solver_.solve_slice(residual_.data(), stride_, columns.begin, columns.end);
+      solver_.solve_slice(rows_.residual.data(), stride_, columns.begin, columns.end);
     });
   }
   const auto of_block = [&](std::size_t block) {
@@ -117,34 +111,27 @@ RowSums CompactSplitting<Scalar, Dim>::pass(const State& state, SliceLoop cells,
   return sums;
 }
 
+// z_step and solve for all cells, then y_step for all rows, with the next iteration's w_step.
 template <class Scalar, int Dim>
 Step CompactSplitting<Scalar, Dim>::iterate(int made, int count, bool measure) {
-  for (int k = 1; k < count; ++k) iterate_once(false, splitting::Due::kNothing);
-  return iterate_once(measure, rule_.due(made + count));
-}
-
-// z_step and solve for all cells, then y_step for all rows, with the next iteration's w_step. Where
-// that waits for another penalty, it is performed on a copy of S, to measure it.
-template <class Scalar, int Dim>
-Step CompactSplitting<Scalar, Dim>::iterate_once(bool measure, splitting::Due due) {
+  for (int k = 1; k < count; ++k) pass(arrays(), loops_->z_step, loops_->y_step);
+  const auto due = rule_.due(made + count);
   const bool looks = due == splitting::Due::kLook;
   const bool paper = looks || (measure && parameters_.paper_residuals);
-  AlignedArray<Scalar> w, S;
+  const bool measured = measure || looks;
+  AlignedArray<Scalar> w;
   if (paper) w = all_rows_of_w();
-  if (measure || looks) {
-    set_difference();
+  if (measured) {
+    rows_.set_difference();
     violation_ = AlignedArray<double>(stride_);
     violation_sum_ = AlignedArray<Scalar>(stride_);
   }
-  auto state = arrays();
-  if (due != splitting::Due::kNothing) {
-    S = AlignedArray<Scalar>(S_.size());
-    std::copy_n(S_.data(), S_.size(), S.data());
-    state.vertex_dual = S.data();
-  }
+  const RowSums sums = rows_.with_dual(due != splitting::Due::kNothing, measured, [&] {
+    return measured ? pass(arrays(), loops_->z_step_measured, loops_->y_step_measured)
+                    : pass(arrays(), loops_->z_step, loops_->y_step);
+  });
   const double scale = 1 / (sigma() * sigma());
-  if (!measure && !looks) return {scale * pass(state, loops_->z_step, loops_->y_step).change};
-  const RowSums sums = pass(state, loops_->z_step_measured, loops_->y_step_measured);
+  if (!measured) return {scale * sums.change};
   const double of_cells = std::accumulate(violation_.data(), violation_.data() + n_, 0.0);
   Step step{scale * sums.change, scale * (of_cells + sums.violation)};
   if (paper) {
@@ -156,8 +143,9 @@ Step CompactSplitting<Scalar, Dim>::iterate_once(bool measure, splitting::Due du
 // w of the interior rows; zero on the boundary, where it does not change.
 template <class Scalar, int Dim>
 AlignedArray<Scalar> CompactSplitting<Scalar, Dim>::all_rows_of_w() const {
-  AlignedArray<Scalar> w(a_.size());
-  parallel_for(W_.size(), [&](std::size_t k) { w[k] = Scalar(0.5) * (a_[k] + W_[k]); });
+  AlignedArray<Scalar> w(rows_.a.size());
+  parallel_for(rows_.W.size(),
+               [&](std::size_t k) { w[k] = Scalar(0.5) * (rows_.a[k] + rows_.W[k]); });
   return w;
 }
 
@@ -167,9 +155,10 @@ AlignedArray<Scalar> CompactSplitting<Scalar, Dim>::all_rows_of_w() const {
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::measure_paper_residuals(AlignedArray<Scalar> moved,
                                                             double violation, Step& step) {
-  parallel_for(W_.size(),
-               [&](std::size_t k) { moved[k] = Scalar(0.5) * (a_[k] + W_[k]) - moved[k]; });
-  const std::size_t rows = S_.size() > 0 ? data_.vertices.size() : 0;
+  parallel_for(rows_.W.size(), [&](std::size_t k) {
+    moved[k] = Scalar(0.5) * (rows_.a[k] + rows_.W[k]) - moved[k];
+  });
+  const std::size_t rows = rows_.S.size() > 0 ? data_.vertices.size() : 0;
   double of_rows = 0;
   for (std::size_t row = 0; row < rows; ++row) {
     const auto metric = static_cast<double>(data_.vertex_metric[row]);
@@ -183,13 +172,6 @@ void CompactSplitting<Scalar, Dim>::measure_paper_residuals(AlignedArray<Scalar>
   const double components = (cells + static_cast<double>(rows)) * n_;
   step.primal = std::sqrt(violation) / components;
   step.dual = penalty_ * std::sqrt(of_cells + of_rows) / sigma() / components;
-}
-
-// w - W, which is (a - W) / 2.
-template <class Scalar, int Dim>
-void CompactSplitting<Scalar, Dim>::set_difference() {
-  if (difference_.size() == 0) difference_ = AlignedArray<Scalar>(a_.size());
-  parallel_for(W_.size(), [&](std::size_t k) { difference_[k] = Scalar(0.5) * (a_[k] - W_[k]); });
 }
 
 // |P + G (w - W)|^2 and |G moved|^2; needs w - W.
@@ -207,28 +189,16 @@ splitting::BalanceLengths CompactSplitting<Scalar, Dim>::squared_lengths(
 
 template <class Scalar, int Dim>
 splitting::BalanceLengths CompactSplitting<Scalar, Dim>::lengths_since_start() {
-  set_difference();
-  AlignedArray<Scalar> moved(a_.size());
-  parallel_for(W_.size(), [&](std::size_t k) { moved[k] = a_[k] - difference_[k] - start_[k]; });
-  auto lengths = squared_lengths(moved);
+  auto lengths = squared_lengths(rows_.moved());
   lengths.dual2 += data_.boundary_dual2;
   return lengths;
 }
 
-// In the units of the arrays the duals do not change, and w changes with sigma. The step w - W
-// belongs to the duals.
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::set_penalty(double penalty) {
   if (penalty == penalty_) return;
-  set_difference();
-  const auto factor = static_cast<Scalar>(penalty / penalty_);
+  rows_.scale_interior(static_cast<Scalar>(penalty / penalty_));
   penalty_ = penalty;
-  parallel_for(W_.size(), [&](std::size_t k) {
-    const Scalar w = factor * (a_[k] - difference_[k]);
-    W_[k] = w - difference_[k];
-    a_[k] = w + difference_[k];
-  });
-  for (std::size_t k = 0; k < start_.size(); ++k) start_[k] *= factor;
   set_boundary_rows();
 }
 
@@ -252,7 +222,8 @@ void CompactSplitting<Scalar, Dim>::set_weights(const VectorsAt<1>& weights) {
   parallel_for(data_.vertices.size(), [&](std::size_t row) {
     const Eigen::VectorXd at_vertex = weights(data_.vertices[row]);
     for (Index i = 0; i < n_; ++i) {
-      a_[row * stride_ + i] = W_[row * stride_ + i] = static_cast<Scalar>(sigma() * at_vertex[i]);
+      rows_.a[row * stride_ + i] = rows_.W[row * stride_ + i] =
+          static_cast<Scalar>(sigma() * at_vertex[i]);
     }
   });
   set_boundary_rows();
@@ -264,7 +235,7 @@ void CompactSplitting<Scalar, Dim>::set_boundary_rows() {
   for (std::size_t b = 0; b < problem_.boundary.vertices.size(); ++b) {
     row.setZero();
     problem_.boundary.scatter(static_cast<Index>(b), row);
-    Scalar* weights = a_.data() + (data_.vertices.size() + b) * stride_;
+    Scalar* weights = rows_.a.data() + (data_.vertices.size() + b) * stride_;
     for (Index i = 0; i < n_; ++i) weights[i] = static_cast<Scalar>(sigma() * row[i]);
   }
 }
@@ -277,8 +248,8 @@ void CompactSplitting<Scalar, Dim>::start_from_weights(const WeightMatrix& weigh
 
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::start_from_harmonic(int steps) {
-  std::fill_n(a_.data(), a_.size(), Scalar(0));
-  std::fill_n(residual_.data(), residual_.size(), Scalar(0));
+  std::fill_n(rows_.a.data(), rows_.a.size(), Scalar(0));
+  std::fill_n(rows_.residual.data(), rows_.residual.size(), Scalar(0));
   set_boundary_rows();
   const double numbers = static_cast<double>(data_.vertices.size()) * n_ * sigma() * sigma();
   for (int step = 0; step < steps; ++step) {
@@ -291,12 +262,11 @@ void CompactSplitting<Scalar, Dim>::start_from_harmonic(int steps) {
 // From w in the rows of a: W = w, S = 0, P = grad w.
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::begin_from_weights() {
-  std::copy_n(a_.data(), W_.size(), W_.data());
-  std::fill_n(S_.data(), S_.size(), Scalar(0));
+  std::copy_n(rows_.a.data(), rows_.W.size(), rows_.W.data());
+  std::fill_n(rows_.S.data(), rows_.S.size(), Scalar(0));
   for_slices(arrays(), loops_->start_cell_dual);
   pass(arrays(), nullptr, loops_->w_step);
-  start_ = AlignedArray<Scalar>(W_.size());
-  std::copy_n(a_.data(), start_.size(), start_.data());
+  rows_.keep_start();
 }
 
 // After every iteration, w = W + the projected solution. Given duals would move the weights, so
@@ -309,7 +279,7 @@ void CompactSplitting<Scalar, Dim>::start_from_duals(const Start<Dim>& start) {
   auto state = arrays();
   state.relaxation = 0;  // only computes the residual
   pass(state, loops_->z_step, loops_->correct);
-  parallel_for(W_.size(), [&](std::size_t k) { W_[k] = 2 * W_[k] - a_[k]; });
+  parallel_for(rows_.W.size(), [&](std::size_t k) { rows_.W[k] = 2 * rows_.W[k] - rows_.a[k]; });
   pass(arrays(), nullptr, loops_->w_step);
 }
 
@@ -336,15 +306,15 @@ void CompactSplitting<Scalar, Dim>::set_cell_dual(const VectorsAt<Dim>& flux_den
 // S, and the vertex part of the right-hand side, which an iteration prepares for the next one.
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::set_vertex_dual(const VectorsAt<1>& vertex_dual) {
-  std::fill_n(S_.data(), S_.size(), Scalar(0));
-  std::fill_n(residual_.data(), residual_.size(), Scalar(0));
-  if (S_.size() == 0 || !vertex_dual) return;
+  std::fill_n(rows_.S.data(), rows_.S.size(), Scalar(0));
+  std::fill_n(rows_.residual.data(), rows_.residual.size(), Scalar(0));
+  if (rows_.S.size() == 0 || !vertex_dual) return;
   parallel_for(data_.vertices.size(), [&](std::size_t row) {
     const Eigen::VectorXd at_vertex = vertex_dual(data_.vertices[row]);
     for (Index i = 0; i < n_; ++i) {
       const std::size_t place = row * stride_ + i;
-      S_[place] = static_cast<Scalar>(sigma() * at_vertex[i]);
-      residual_[place] = data_.vertex_metric[row] * S_[place];
+      rows_.S[place] = static_cast<Scalar>(sigma() * at_vertex[i]);
+      rows_.residual[place] = data_.vertex_metric[row] * rows_.S[place];
     }
   });
 }
@@ -379,7 +349,7 @@ template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::read_weights(Index vertex, double* weights) const {
   const auto half = static_cast<Scalar>(0.5 / sigma());
   const auto row = static_cast<std::size_t>(data_.row_of[vertex]) * stride_;
-  for (Index i = 0; i < n_; ++i) weights[i] = half * (a_[row + i] + W_[row + i]);
+  for (Index i = 0; i < n_; ++i) weights[i] = half * (rows_.a[row + i] + rows_.W[row + i]);
 }
 
 template <class Scalar, int Dim>
@@ -395,26 +365,14 @@ WeightMatrix CompactSplitting<Scalar, Dim>::all_weights() const {
 
 template <class Scalar, int Dim>
 Start<Dim> CompactSplitting<Scalar, Dim>::state() const {
-  Start<Dim> state;
-  state.penalty = penalty_;
-  state.weights = [this](Index v) {
-    Eigen::VectorXd weights(n_);
-    read_weights(v, weights.data());
-    return weights;
-  };
-  state.flux_density = [this](Index s) { return flux_density(s); };
-  if (S_.size() > 0) state.vertex_dual = [this](Index v) { return vertex_dual_at(v); };
-  return state;
+  return splitting::start_of<Dim>(*this, n_);
 }
 
 template <class Scalar, int Dim>
 Eigen::VectorXd CompactSplitting<Scalar, Dim>::vertex_dual_at(Index vertex) const {
   Eigen::VectorXd dual(n_);
   const auto row = static_cast<std::size_t>(data_.row_of[vertex]) * stride_;
-  for (Index i = 0; i < n_; ++i) {
-    const double difference = static_cast<double>(a_[row + i]) - static_cast<double>(W_[row + i]);
-    dual[i] = (S_[row + i] - 0.5 * difference) / sigma();
-  }
+  for (Index i = 0; i < n_; ++i) dual[i] = rows_.vertex_dual(row + i) / sigma();
   return dual;
 }
 
@@ -473,8 +431,7 @@ Certificate CompactSplitting<Scalar, Dim>::certify(const WeightMatrix& weights) 
 
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::describe(SolveReport& report) const {
-  const auto vertex_numbers =
-      static_cast<double>(a_.size() + W_.size() + S_.size() + residual_.size());
+  const auto vertex_numbers = static_cast<double>(rows_.size());
   const double cell_numbers = static_cast<double>(P_.size()) / sizeof(Scalar);
   report.state_scalars_per_cell =
       (vertex_numbers + cell_numbers) / static_cast<double>(stride_) / problem_.mesh.num_cells();

@@ -12,6 +12,7 @@
 #include "linear/spd_solver.h"
 #include "solver/methods/splitting/compact_data.h"
 #include "solver/methods/splitting/penalty_rule.h"
+#include "solver/methods/splitting/row_state.h"
 #include "solver/run/iteration.h"
 
 namespace flbc::compact {
@@ -112,6 +113,7 @@ class CompactSplitting final : public Iteration<Dim> {
   //! Flux densities of cells between boundary vertices are zero.
   Start<Dim> state() const override;
 
+  bool has_vertex_dual() const { return rows_.S.size() > 0; }
   //! q - w of an interior vertex, n numbers.
   Eigen::VectorXd vertex_dual_at(Index vertex) const;
 
@@ -142,11 +144,9 @@ class CompactSplitting final : public Iteration<Dim> {
   void set_vertex_dual(const VectorsAt<1>& vertex_dual);
   void for_slices(const State& state, const std::function<void(const State&, Columns)>& body) const;
   RowSums pass(const State& state, SliceLoop cells, RowLoop rows);
-  Step iterate_once(bool measure, splitting::Due due);
   AlignedArray<Scalar> all_rows_of_w() const;
   void measure_paper_residuals(AlignedArray<Scalar> moved, double violation, Step& step);
   splitting::BalanceLengths lengths_since_start();
-  void set_difference();
 
   const LbcProblem<Dim>& problem_;
   const Kernel<Scalar, Dim>& kernel_;
@@ -161,15 +161,10 @@ class CompactSplitting final : public Iteration<Dim> {
   SpdSolver<Scalar> solver_;
   CompactData<Scalar, Dim> data_;
   splitting::PenaltyRule rule_;
-  // state, by rows: interior vertices in the order of the solver, then the boundary
-  AlignedArray<Scalar> a_;
-  AlignedArray<Scalar> W_;
-  AlignedArray<Scalar> S_;
+  // state: interior vertices in the order of the solver, then the boundary
+  splitting::RowState<Scalar> rows_;
   AlignedArray<unsigned char> P_;  // by cells with interior corners
-  AlignedArray<Scalar> residual_;
   // temporary arrays
-  AlignedArray<Scalar> start_;
-  AlignedArray<Scalar> difference_;
   AlignedArray<double> violation_;
   AlignedArray<Scalar> violation_sum_;
 };
