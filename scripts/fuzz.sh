@@ -88,7 +88,7 @@ for reader in "${readers[@]}"; do
     "$(find "$work/findings/$reader" -type f | wc -l)"
   if [ -e "$work/$reader.failed" ]; then
     failed=1
-    echo "$reader: a finding; build/fuzz/$reader.log tells" >&2
+    echo "$reader: a finding; see build/fuzz/$reader.log" >&2
   fi
 done
 exit $failed

@@ -47,7 +47,7 @@ template <int Dim>
 void check_model(CheckReport<Dim>& report) {
   auto points = load_model<Dim>(report.model_file);
   auto outside = points_outside(report.cage, points);
-  PointBeside<Dim> farthest;
+  NearestOnCage<Dim> farthest;
   for (const auto& point : nearest_on_cage(report.cage, points, outside)) {
     if (farthest.point < 0 || point.distance > farthest.distance) farthest = point;
   }

@@ -39,8 +39,8 @@ struct ExportArguments {
 // Influences that every reader knows.
 constexpr Index kOneSet = 4;
 
-// Beyond that vertices visibly tremble.
-constexpr double kWorthATell = 1e-5;
+// Beyond that vertices visibly jitter.
+constexpr double kWorthReporting = 1e-5;
 
 void check_arguments(ExportArguments& arguments) {
   using gltf::WeightFormat;
@@ -166,7 +166,7 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
               << ": " << phrase << '\n';
   }
   const double change = skin.position_change / size;
-  if (change > kWorthATell) {
+  if (change > kWorthReporting) {
     const bool is_usd = arguments.options.format == gltf::SkinFormat::kUsda;
     std::cerr << "flbc: " << arguments.output << ": single precision, which "
               << (is_usd ? "USD" : "glTF") << " uses, moves vertices by up to " << change

@@ -109,7 +109,7 @@ int finish(Run<Dim>& run) {
     std::cerr << "flbc: " << run.arguments.output << ": " << violation.template get<std::string>()
               << '\n';
   }
-  if (!tell_convergence(run.solver.report(), run.arguments.settings)) return kNotConverged;
+  if (!report_convergence(run.solver.report(), run.arguments.settings)) return kNotConverged;
   return run.report["check"]["fine"] ? kDone : kBadInput;
 }
 
@@ -190,7 +190,7 @@ int run_model(const CLI::App& command, RunArguments& arguments) {
 }
 
 // \return the exit status
-int run_as_told(const CLI::App& command, RunArguments& arguments) {
+int run_command(const CLI::App& command, RunArguments& arguments) {
   check_arguments(arguments);
   arguments.settings.needs_domain = true;
   if (!arguments.settings.coordinates) make_smooth(arguments.settings.options);
@@ -277,7 +277,7 @@ void add_run_command(CLI::App& app, int& exit_status) {
   add_solver_options(*command, a.settings);
   add_rare_options(*command, a, poses);
   command->callback(
-      [arguments, command, &exit_status] { exit_status = run_as_told(*command, *arguments); });
+      [arguments, command, &exit_status] { exit_status = run_command(*command, *arguments); });
 }
 
 }  // namespace flbc::app

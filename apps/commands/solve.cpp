@@ -111,7 +111,7 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
     }
   }
   if (!arguments.quiet) print_summary(arguments, solver, delivered);
-  return tell_convergence(solver.report(), settings) ? kDone : kNotConverged;
+  return report_convergence(solver.report(), settings) ? kDone : kNotConverged;
 }
 
 }  // namespace

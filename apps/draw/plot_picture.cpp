@@ -15,7 +15,7 @@ namespace {
 
 constexpr Color kGrid{0.87F, 0.88F, 0.90F};
 
-// Told apart with every common kind of color blindness (Okabe and Ito 2008).
+// Distinct with every common kind of color blindness (Okabe and Ito 2008).
 constexpr Color kCurveColors[] = {
     {0.00F, 0.45F, 0.70F}, {0.84F, 0.37F, 0.00F}, {0.00F, 0.62F, 0.45F}, {0.80F, 0.47F, 0.65F},
     {0.90F, 0.62F, 0.00F}, {0.34F, 0.71F, 0.91F}, {0.13F, 0.15F, 0.19F}};

@@ -29,7 +29,7 @@ bool is_weight_file(const std::string& path);
 //! Weights in any format. \throws IoError, InputError
 SparseWeights read_weight_file(const std::string& path);
 
-//! Reads weights and writes them in another format; what is left unsaid or dropped is told unless
+//! Reads weights and writes them in another format; missing or dropped data are reported unless
 //! `quiet`. \throws IoError; InputError, also if the weights do not fit cage or points
 void convert_weights(const WeightConversion& conversion, bool quiet);
 

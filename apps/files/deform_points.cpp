@@ -13,7 +13,7 @@ namespace flbc::app {
 namespace {
 
 template <int Dim>
-[[noreturn]] void refuse_point(const PointMotion& motion, const PointBeside<Dim>& point,
+[[noreturn]] void refuse_point(const PointMotion& motion, const NearestOnCage<Dim>& point,
                                std::int64_t first, const PointList<Dim>& batch) {
   std::ostringstream message;
   message << motion.input << ": point " << first + point.point << " at ("

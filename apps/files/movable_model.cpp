@@ -212,7 +212,7 @@ AnyModel load_any_model(const MovedFile& file) {
     if (holds(file.output, {Content::kMesh2D}) && !is_model_file(file.output)) return load(kPlane);
     return load(kSpace);
   }
-  // Only the cells of a .vtu file tell its dimension, and so what it can become.
+  // Only the cells of a .vtu file show its dimension, and so what it can become.
   try {
     MovableModel<2> model(file);
     require_formats_of<2>(file);

@@ -73,7 +73,7 @@ class MovableModel {
   //! Normals that cannot follow the vertices.
   Index num_loose_normals() const { return model_ ? model_->num_loose_normals() : 0; }
 
-  //! Tells on standard error what the results do not keep of the file.
+  //! Prints to standard error which data of the file the results lack.
   void print_losses() const;
 
   //! Writes it with other points (Dim x P). \param lengths  of the displacements (P) \param largest
@@ -99,7 +99,8 @@ class MovableModel {
 //! Either dimension. Models that remain models are taken for 3D ones, which loses nothing.
 using AnyModel = std::variant<MovableModel<2>, MovableModel<3>>;
 
-//! Reads a file whose dimension only its content may tell, with the checks of require_formats_of().
+//! Reads a file whose dimension may follow only from its content, with the checks of
+//! require_formats_of().
 //! \throws OptionError, IoError, InputError
 AnyModel load_any_model(const MovedFile& file);
 

@@ -23,8 +23,8 @@ constexpr std::size_t kMostDefects = 16;
 template <int Dim>
 struct ModelCheck {
   PointList<Dim> points;
-  std::vector<Index> outside;  //!< their indices
-  PointBeside<Dim> farthest;   //!< of those outside
+  std::vector<Index> outside;   //!< their indices
+  NearestOnCage<Dim> farthest;  //!< of those outside
 };
 
 //! Everything found out. What was not asked for, or could not be looked at because the cage is
@@ -63,7 +63,7 @@ template <int Dim>
 void check_weights_of(CheckReport<Dim>& report, const DomainMesh<Dim>& domain,
                       const SparseWeights& weights);
 
-//! The same for points anywhere, which tells less.
+//! The same for points anywhere, with fewer facts.
 template <int Dim>
 void check_weights_of(CheckReport<Dim>& report, const PointList<Dim>& points,
                       const SparseWeights& weights);

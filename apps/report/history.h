@@ -24,7 +24,7 @@ struct HistoryEntry {
   double objective = 0;        //!< on the finest mesh
 };
 
-//! Notes what a progress callback is told. The time that the objective takes does not count.
+//! Records what a progress callback receives. The time that the objective takes does not count.
 class HistoryRecorder {
  public:
   //! Starts the clock. \param options  of the solve
@@ -32,7 +32,7 @@ class HistoryRecorder {
 
   void note(const Progress& progress);
 
-  //! All entries and the end, which no callback is told of; none for methods that do not iterate.
+  //! All entries and the end, which no callback receives; none for methods that do not iterate.
   std::vector<HistoryEntry> finished(const SolveReport& report);
 
  private:
@@ -47,7 +47,7 @@ class HistoryRecorder {
 //! A list of numbers for each quantity; null where there is none.
 nlohmann::ordered_json history_json(const std::vector<HistoryEntry>& history);
 
-//! A run as a report tells it.
+//! A run as in its report.
 struct RunHistory {
   std::vector<HistoryEntry> entries{};
   double lower_bound = 0;  //!< of the objective; NaN without certificate

@@ -119,17 +119,17 @@ void RunFolder::add(const std::string& name, const std::string& facts,
     write(path_of(name));
   }
   names_.push_back(name);
-  if (!facts.empty()) tell(name, facts);
+  if (!facts.empty()) print(name, facts);
 }
 
 void RunFolder::add_text(const std::string& name, const std::string& facts,
                          const std::string& text) {
   write_text(path_of(name), text);
   names_.push_back(name);
-  tell(name, facts);
+  print(name, facts);
 }
 
-void RunFolder::tell(const std::string& name, const std::string& facts) const {
+void RunFolder::print(const std::string& name, const std::string& facts) const {
   if (quiet_) return;
   const auto indent = "\n" + std::string(2 + kColumn, ' ');
   std::cerr << "  " << std::left << std::setw(kColumn) << name
@@ -141,7 +141,7 @@ void RunFolder::add_report(nlohmann::ordered_json& report, const std::string& fa
   names.emplace_back(report_);
   report["files"] = names;
   write_report(report);
-  if (!facts.empty()) tell(report_, facts);
+  if (!facts.empty()) print(report_, facts);
 }
 
 void RunFolder::write_report(const nlohmann::ordered_json& report) const {

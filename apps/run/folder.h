@@ -35,7 +35,7 @@ class RunFolder {
   //! The path of a file in it.
   std::string path_of(const std::string& name) const;
 
-  //! Calls `write` with the path of the file; interrupts wait meanwhile. Then tells the facts.
+  //! Calls `write` with the path of the file; interrupts wait meanwhile. Then prints the facts.
   //! \param facts  what is worth saying about it; nothing is printed if it is empty
   void add(const std::string& name, const std::string& facts,
            const std::function<void(const std::string& path)>& write);
@@ -44,7 +44,7 @@ class RunFolder {
   void add_text(const std::string& name, const std::string& facts, const std::string& text);
 
   //! Prints a line about a file, or about what stands for several.
-  void tell(const std::string& name, const std::string& facts) const;
+  void print(const std::string& name, const std::string& facts) const;
 
   //! Writes the report, to which a list of all files is added.
   void add_report(nlohmann::ordered_json& report, const std::string& facts);

@@ -115,7 +115,7 @@ void draw_farthest_pose(Run<Dim>& run, Index control_point) {
     add_picture(run, kDeformation, facts.text(), deformation_image(run, pose, control_point));
   } catch (const InputError& error) {  // in a pose all control points may coincide
     run.report["pictures"]["left_out"] = error.what();
-    run.folder.tell(kDeformation, std::string("left out: ") + error.what());
+    run.folder.print(kDeformation, std::string("left out: ") + error.what());
   }
 }
 

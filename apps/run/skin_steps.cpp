@@ -22,8 +22,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Beyond that vertices visibly tremble.
-constexpr double kWorthATell = 1e-5;
+// Beyond that vertices visibly jitter.
+constexpr double kWorthReporting = 1e-5;
 
 template <int Dim>
 std::vector<PointList<Dim>> points_of(const std::vector<Pose<Dim>>& poses) {
@@ -94,7 +94,7 @@ std::string facts_of(const gltf::ExportedSkin& skin, const Run<Dim>& run) {
     facts << "; readers of one set, such as three.js, use the largest 4";
   }
   const double change = skin.position_change / bounding_box_diagonal<Dim>(run.shape().points);
-  if (change > kWorthATell) {
+  if (change > kWorthReporting) {
     facts << "; single precision, which glTF uses, moves vertices by up to " << change
           << " of the size";
   }
@@ -181,7 +181,7 @@ void export_shape(Run<Dim>& run) {
   if (run.shape().surface.triangles.cols() == 0) {
     const std::string reason = "the model has no triangles";
     run.report["export"] = {{"left_out", reason}};
-    run.folder.tell(kSkin, "left out: " + reason);
+    run.folder.print(kSkin, "left out: " + reason);
     return;
   }
   run.report["export"] = write_skin(run, kSkin, kFewJoints);

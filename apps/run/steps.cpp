@@ -146,8 +146,8 @@ void deform_shape(Run<Dim>& run) {
   if (run.poses().size() > 1) facts << run.poses().size() << " poses; ";
   facts << "largest displacement " << run.displacement.largest << ", of vertex "
         << run.displacement.point << " in " << pose.name;
-  run.folder.tell((run.poses().size() > 1 ? "deformed_*" : "deformed") + shape.extension,
-                  facts.text());
+  run.folder.print((run.poses().size() > 1 ? "deformed_*" : "deformed") + shape.extension,
+                   facts.text());
 }
 
 #define FLBC_INSTANTIATE(Dim)                     \

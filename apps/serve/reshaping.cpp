@@ -73,7 +73,7 @@ void Reshaping<Dim>::move(const PointList<Dim>& control_points) {
 }
 
 template <int Dim>
-std::string Reshaping<Dim>::told() const {
+std::string Reshaping<Dim>::update() const {
   return view::make_update<Dim>(cage().points, weights(), center_);
 }
 
@@ -90,7 +90,7 @@ std::string Reshaping<Dim>::answer(const std::string& text) {
       move(points_in<Dim>(request, cage().size()));
       has_moved = true;
     }
-    const auto update = told();
+    const auto update = this->update();
     const auto& report = solver_.solution().report;
     const std::chrono::duration<double, std::milli> taken =
         std::chrono::steady_clock::now() - start;

@@ -37,7 +37,7 @@ class Reshaping {
 
  private:
   void move(const PointList<Dim>& control_points);
-  std::string told() const;
+  std::string update() const;
 
   PointList<Dim> model_;
   Vector<Dim> center_;

@@ -26,13 +26,13 @@ namespace flbc::app {
 namespace {
 
 template <int Dim>
-const PointBeside<Dim>& farthest(const std::vector<PointBeside<Dim>>& points) {
+const NearestOnCage<Dim>& farthest(const std::vector<NearestOnCage<Dim>>& points) {
   return *std::max_element(points.begin(), points.end(),
                            [](const auto& a, const auto& b) { return a.distance < b.distance; });
 }
 
 template <int Dim>
-nlohmann::ordered_json beside_json(const std::vector<PointBeside<Dim>>& points) {
+nlohmann::ordered_json beside_json(const std::vector<NearestOnCage<Dim>>& points) {
   nlohmann::ordered_json json{{"count", points.size()}};
   if (points.empty()) return json;
   json["farthest"] = farthest(points).point;
@@ -68,7 +68,7 @@ void refuse_history_of_parts(const Cage<Dim>& cage) {
                     "--history");
 }
 
-// Where a part is, for readers of the report to tell it from the others.
+// Where a part is, for readers of the report to identify it.
 template <int Dim>
 nlohmann::ordered_json parts_json(const Cage<Dim>& cage, const std::vector<SolveReport>& reports) {
   auto json = nlohmann::ordered_json::array();
@@ -108,7 +108,7 @@ SparseWeights weights_of_points(const Cage<Dim>& cage, const DomainMesh<Dim>& do
   const auto& options = settings.options;
   if (settings.coordinates && is_pointwise(*settings.coordinates)) {
     return pointwise_coordinates(cage, placement, *settings.coordinates,
-                                 {options.non_negative, options.threads});
+                                 options.non_negative == NonNegative::kProject, options.threads);
   }
   return weights_at(cage, domain, of_domain, placement);
 }
@@ -267,7 +267,7 @@ std::string describe(const Placement<Dim>& placement, double size) {
   return text.str();
 }
 
-bool tell_convergence(const SolveReport& report, const SolveSettings& settings) {
+bool report_convergence(const SolveReport& report, const SolveSettings& settings) {
   if (report.status == SolveStatus::kConverged) {
     // The criteria of some methods say little about the distance to the optimum.
     constexpr double kLargeGap = 5e-3;

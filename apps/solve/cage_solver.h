@@ -91,6 +91,6 @@ template <int Dim>
 std::string describe(const Placement<Dim>& placement, double size);
 
 //! That weights are not what was asked for, on standard error. \return whether they are
-bool tell_convergence(const SolveReport& report, const SolveSettings& settings);
+bool report_convergence(const SolveReport& report, const SolveSettings& settings);
 
 }  // namespace flbc::app

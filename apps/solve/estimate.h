@@ -22,7 +22,7 @@ Estimate estimate_solve(int dim, Index control_points, Index vertices,
 //! "about 40 s and 3.8 GB".
 std::string describe(const Estimate& estimate);
 
-//! Whether to tell users before they wait.
+//! Whether to announce the time to users.
 bool is_long(const Estimate& estimate);
 
 }  // namespace flbc::app

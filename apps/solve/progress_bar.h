@@ -15,17 +15,17 @@
 
 namespace flbc::app {
 
-//! The stage of meshing, which tells no more than how long it may take.
+//! The stage of meshing, of which only the time limit is known.
 //! \param limit  seconds of a run of the mesher
 std::string meshing_stage(double limit);
 
 //! Draws only if standard error is a terminal and `quiet` is false, and only what takes longer than
 //! a second; removes its line when destroyed. A thread of its own keeps the line alive where
-//! nothing tells of progress.
+//! there is no progress to show.
 class ProgressBar {
  public:
   //! \param stage  as "meshing"; once show() is called, the iteration takes its place
-  //! \param options  of the solve of which show() tells
+  //! \param options  of the solve that show() is called for
   ProgressBar(bool quiet, std::string stage, const SolverOptions& options = {});
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;

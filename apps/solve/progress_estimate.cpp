@@ -92,7 +92,7 @@ std::string ProgressEstimate::stage_line(double seconds) const {
 std::string ProgressEstimate::line(const std::string& stage, double seconds) const {
   if (!stage_.empty()) return stage_line(seconds);
   if (!started_) return (stage + ", " + duration(seconds)).substr(0, kColumns);
-  // No callback tells of the end: projection and certificate follow.
+  // No callback reports the end: projection and certificate follow.
   if (seconds - last_seconds_ > 1 + 4 * interval_) {
     return "finishing (non-negative weights, certificate, quality), " + duration(seconds);
   }

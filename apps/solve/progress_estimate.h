@@ -10,8 +10,8 @@
 
 namespace flbc::app {
 
-//! Of what a progress callback is told. Residuals fall about geometrically, so their logarithm
-//! tells how much of the way is done; what has been reached once is never taken back.
+//! Progress from the arguments of a progress callback. Residuals fall about geometrically, so their
+//! logarithm shows how much is done; what has been reached once is never taken back.
 class ProgressEstimate {
  public:
   //! \param options  of the solve

@@ -23,9 +23,9 @@ struct SolveSettings {
   OutsidePoints outside = OutsidePoints::kFail;  //!< treatment of the model's vertices there
   Index vertices = 0;                            //!< wanted, 0 = as make_domain() chooses
   MesherSettings meshing{};
-  bool history = false;             //!< the report tells how the iteration came nearer to its end
-  std::optional<double> penalty{};  //!< as published (flbc/published_penalty.h)
-  SolverOptions options{};          //!< but for the penalty, which depends on the mesh
+  bool history = false;                      //!< the report lists the progress of the iteration
+  std::optional<double> penalty{};           //!< as published (flbc/published_penalty.h)
+  SolverOptions options{};                   //!< but for the penalty, which depends on the mesh
   std::optional<Coordinates> coordinates{};  //!< instead of the method of the options, of which
                                              //!< they read threads and non_negative
 };

@@ -127,7 +127,7 @@ constexpr double kRaceError = 1e-5;
 constexpr int kRaceIterations = 10000;
 constexpr int kRaceRuns = 3;
 
-// A method as the program runs it, for as many iterations on the given mesh as it is told.
+// A method as the program runs it, with a given number of iterations on the given mesh.
 template <int Dim>
 struct Runner {
   const Setting<Dim>& setting;

@@ -22,10 +22,10 @@ def solve(context, words, weights):
                         "--report", report])
     if done.status:
         return {"solve": f"exit {done.status}: {done.errors}"}
-    told = json.loads(report.read_text())
-    return {"solve": "converged" if told["converged"] else "not converged",
-            "iterations": told["iterations"], "min_weight": told["min_weight"],
-            "reproduction_error": told["max_reproduction_error"]}
+    results = json.loads(report.read_text())
+    return {"solve": "converged" if results["converged"] else "not converged",
+            "iterations": results["iterations"], "min_weight": results["min_weight"],
+            "reproduction_error": results["max_reproduction_error"]}
 
 
 def measure_cage(context, model, folder):

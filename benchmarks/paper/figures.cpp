@@ -16,7 +16,7 @@ struct Picture {
   int slices;  // 0 in 2D
 };
 
-// The weights, and a row of what `flbc draw` has to be told.
+// The weights, and a row of the options of `flbc draw`.
 template <int Dim>
 Row compute(const std::string& figure, const Setting<Dim>& setting, int slices) {
   SolverOptions options;

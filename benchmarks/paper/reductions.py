@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Few influences per point by flbc sparsify, as its report tells."""
+"""Few influences per point by flbc sparsify, from its report."""
 
 import json
 import pathlib
@@ -39,14 +39,14 @@ def poses(cage, animation, folder):
     return paths
 
 
-def row_of(name, method, k, told):
-    row = {"weights": name, "points": told["points"], "control_points": told["control_points"],
-           "influences_before": told["before"]["mean_nonzeros"], "k": k, "method": method,
-           "min_weight": told["after"]["min_weight"],
-           "reproduction_error": told["after"]["max_reproduction_error"],
-           "seconds": told["seconds"]}
+def row_of(name, method, k, reported):
+    row = {"weights": name, "points": reported["points"], "control_points": reported["control_points"],
+           "influences_before": reported["before"]["mean_nonzeros"], "k": k, "method": method,
+           "min_weight": reported["after"]["min_weight"],
+           "reproduction_error": reported["after"]["max_reproduction_error"],
+           "seconds": reported["seconds"]}
     for kind, column in (("edge", "edges"), ("deformation", "positions")):
-        error = told["error"][kind]
+        error = reported["error"][kind]
         for random in ("independent", "smooth"):
             row[f"{column}_{random}"] = error[random]["rms"]
             row[f"{column}_{random}_max"] = error[random]["max"]

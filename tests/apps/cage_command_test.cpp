@@ -105,12 +105,12 @@ TEST_F(CageCommand, RefusesWithReason) {
 TEST_F(CageCommand, RepairTellsWhatWasDoneAndNumbersThatChanged) {
   const auto defective = file("open.obj", "v 5 5\nv 0 0\nv 1 0\nv 1 1\nv 0 1\nl 2 3 4 5\n");
   expect("mesh " + defective + " -o mesh.obj", 2, "flbc cage --repair");
-  const auto told = expect("cage --repair " + defective + " -o mended.obj", 0,
-                           "a new edge joins the open ends at control points 1 and 4");
-  EXPECT_NE(told.errors.find("control point 0 at (5, 5) belongs to no facet"), std::string::npos);
-  EXPECT_NE(told.errors.find("mended.numbers.txt"), std::string::npos);
-  EXPECT_EQ(slurp("mended.numbers.txt"), "0 -1\n1 0\n2 1\n3 2\n4 3\n");
-  expect("mesh mended.obj -o mesh.obj -q", 0, "");
+  const auto result = expect("cage --repair " + defective + " -o repaired.obj", 0,
+                             "a new edge joins the open ends at control points 1 and 4");
+  EXPECT_NE(result.errors.find("control point 0 at (5, 5) belongs to no facet"), std::string::npos);
+  EXPECT_NE(result.errors.find("repaired.numbers.txt"), std::string::npos);
+  EXPECT_EQ(slurp("repaired.numbers.txt"), "0 -1\n1 0\n2 1\n3 2\n4 3\n");
+  expect("mesh repaired.obj -o mesh.obj -q", 0, "");
 }
 
 TEST_F(CageCommand, RepairDropsPolylinesBesideASurface) {
@@ -122,8 +122,8 @@ TEST_F(CageCommand, RepairDropsPolylinesBesideASurface) {
   };
   expect(solve(mixed), 2, "has both polygons and polylines");
   expect(solve(mixed), 2, "flbc cage --repair");
-  expect("cage --repair " + mixed + " -o mended.obj", 0, "1 polylines next to");
-  expect(solve("mended.obj"), 0, "");
+  expect("cage --repair " + mixed + " -o repaired.obj", 0, "1 polylines next to");
+  expect(solve("repaired.obj"), 0, "");
 }
 
 TEST_F(CageCommand, RepairOfASoundCageChangesNothing) {

@@ -140,9 +140,9 @@ TYPED_TEST(ConvertMesh, FieldsAreKeptOrTold) {
     return result.errors;
   };
   const std::string other = Dim == 2 ? "b.obj" : "b.msh";
-  const auto told =
+  const auto message =
       "flbc: " + other + " does not keep all of a.vtu; lost: field \"first\", field \"second\"\n";
-  EXPECT_NE(convert("a.vtu", other).find(told), std::string::npos);
+  EXPECT_NE(convert("a.vtu", other).find(message), std::string::npos);
   EXPECT_EQ(io::read_domain<Dim>(other).points, mesh.points);
   const std::string keeper = Dim == 2 ? "c.vtu" : "c.mesh";
   EXPECT_EQ(convert("a.vtu", keeper).find("keep"), std::string::npos);
@@ -158,11 +158,11 @@ TEST_F(ConvertCommand, ModelsKeepPolygonsAndColours) {
   const auto model = file("a.obj",
                           "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0.1 0 0 1\nv 0 1 0 0.2 0.4 0.6\n"
                           "vt 0 0.5\nf 1/1 2/1 3/1 4/1\n");
-  std::string told;
+  std::string previous;
   for (const char* name : {"b.ply", "b.off", "c.ply", "b.obj"}) {
-    const auto from = told.empty() ? model : told;
+    const auto from = previous.empty() ? model : previous;
     expect_converted(from + " -o " + name, "4 vertices\n");
-    told = name;
+    previous = name;
   }
   const auto soup = io::read_polygons("b.obj");
   EXPECT_EQ(soup.points[2].z(), 0.1);

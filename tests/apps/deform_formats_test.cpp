@@ -136,11 +136,11 @@ TEST_F(DeformFormats, WhatIsLostIsToldOnce) {
   const auto command =
       model + " --weights " + weights_of<3>(model) + " --pose " + rest + " --pose " + rest + " -o ";
   const auto errors = deform(command + "o%d.ply").errors;
-  const auto told =
+  const auto message =
       "flbc: o%d.ply does not keep all of " + model + "; lost: lines with \"mtllib\", comments\n";
-  const auto place = errors.find(told);
+  const auto place = errors.find(message);
   EXPECT_NE(place, std::string::npos) << errors;
-  EXPECT_EQ(errors.find("keep", place + told.size()), std::string::npos) << errors;
+  EXPECT_EQ(errors.find("keep", place + message.size()), std::string::npos) << errors;
   EXPECT_EQ(deform(command + "o%d.obj").errors.find("keep"), std::string::npos);
 }
 

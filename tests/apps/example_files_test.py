@@ -50,7 +50,7 @@ def moved_by_program(flbc, cage, pose, model, out):
     return [row[:3] for row in read_off(moved)[0]]
 
 
-def colour_a_weight(program, flbc, meshes, out):
+def color_a_weight(program, flbc, meshes, out):
     """White where the weight is 0, red where it is 1: at the control points and along the cage."""
     cage, number = meshes / "2d/figure_cage.obj", 3
     domain, result = out / "figure_domain.obj", out / "figure_weight.off"
@@ -118,8 +118,8 @@ def bind_and_deform(program, flbc, meshes, out):
 
 
 EXAMPLES = {function.__name__: function
-            for function in (colour_a_weight, decimate_and_deform, embedded_surface, bind_and_deform)}
-EXAMPLES["iterate_on_mesh"] = colour_a_weight  # solves in another way
+            for function in (color_a_weight, decimate_and_deform, embedded_surface, bind_and_deform)}
+EXAMPLES["iterate_on_mesh"] = color_a_weight  # solves in another way
 
 if __name__ == "__main__":
     if len(sys.argv) != 6 or sys.argv[1] not in EXAMPLES:

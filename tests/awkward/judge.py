@@ -75,7 +75,7 @@ def weight_faults(weights, domain, dim, points):
 
 
 def test_itself():
-    """Good weights pass, and each kind of wrong ones is told."""
+    """Good weights pass, and each kind of wrong ones is reported."""
     points, places = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)], [(0.25, 0.5), (1.0, 0.0)]
     good = [[0.25, 0.25, 0.5], [0.0, 1.0, 0.0]]
     assert not list(faults(good, places, points))

@@ -241,13 +241,13 @@ TEST_IN_2D_AND_3D(CertificateTest, CertifyMakesWeightsFeasible) {
 
   const WeightMatrix spoilt =
       harmonic + numbers.matrix(harmonic.rows(), harmonic.cols(), -0.5, 0.5);
-  const auto mended = certify(problem, field.view, spoilt);
-  EXPECT_NEAR(mended.objective,
+  const auto repaired = certify(problem, field.view, spoilt);
+  EXPECT_NEAR(repaired.objective,
               testing::objective(problem.mesh, feasible<Dim>(problem, spoilt), problem.phi.dense()),
-              1e-12 * mended.objective);
-  EXPECT_GT(mended.objective, sound.objective);
+              1e-12 * repaired.objective);
+  EXPECT_GT(repaired.objective, sound.objective);
   // The linear programs end at the same minimum, wherever they start.
-  EXPECT_NEAR(mended.lower_bound, sound.lower_bound, 1e-10 * sound.objective);
+  EXPECT_NEAR(repaired.lower_bound, sound.lower_bound, 1e-10 * sound.objective);
 }
 
 TEST_IN_2D_AND_3D(CertificateTest, SizesThatDoNotFitAreErrors) {

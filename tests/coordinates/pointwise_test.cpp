@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/coordinates.h"
+#include "flbc/pointwise.h"
 
 #include "coordinates/polygon_triangulation.h"
 #include "flbc/blended.h"
@@ -306,7 +306,7 @@ TEST_IN_2D_AND_3D(PointwiseTest, PlacedPointsFollowThePolicy) {
     const auto placement = place_points(cage, points, policy);
     EXPECT_EQ(placement.outside.size(), 1U);
     EXPECT_EQ(placement.on_cage.size(), 1U);
-    const auto weights = pointwise_coordinates(cage, placement, Coordinates::kMaxEntropy, {});
+    const auto weights = pointwise_coordinates(cage, placement, Coordinates::kMaxEntropy, false);
     const PointList<Dim> first = points.leftCols(1);
     EXPECT_EQ(weights.at(0), pointwise_coordinates(cage, first, Coordinates::kMaxEntropy).col(0));
     const PointList<Dim> made = cage.points * weights.dense();

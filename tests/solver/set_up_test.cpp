@@ -72,7 +72,7 @@ TEST(SetUpOfConvexCages, IsExactUnlessTheToleranceIsLoose) {
   EXPECT_EQ(source(Shape::kCorner, 1e-7), Distances::kInterpolated);
 }
 
-TEST_IN_2D_AND_3D(SetUpTest, OtherMethodsAreExactUnlessTold) {
+TEST_IN_2D_AND_3D(SetUpTest, OtherMethodsAreExactUnlessAsked) {
   const auto source = [](Distances distances) {
     return solve_with<Dim>(distances, {}, 4, Method::kLbc2014).report.distances.source;
   };

@@ -241,16 +241,16 @@ TEST_IN_2D_AND_3D(SolverTest, StagesTellHowFarTheyAre) {
   const auto without = solve(sample.cage, sample.mesh, options).weights.dense();
   for (const int threads : {1, 2}) {
     options.threads = threads;
-    std::map<Stage, std::vector<double>> told;
+    std::map<Stage, std::vector<double>> reported;
     const auto caller = std::this_thread::get_id();
     Observer observer;
     observer.stage = [&](Stage stage, double done) {
       EXPECT_EQ(std::this_thread::get_id(), caller);
-      told[stage].push_back(done);
+      reported[stage].push_back(done);
     };
     EXPECT_EQ(solve(sample.cage, sample.mesh, options, {}, observer).weights.dense(), without);
     for (const auto stage : {Stage::kDistances, Stage::kNonNegative, Stage::kCertificate}) {
-      const auto& parts = told[stage];
+      const auto& parts = reported[stage];
       ASSERT_FALSE(parts.empty());
       EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
       EXPECT_GT(parts.front(), 0);

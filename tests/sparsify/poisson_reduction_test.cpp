@@ -181,16 +181,16 @@ TEST_IN_2D_AND_3D(PoissonReductionTest, TheThreadsDoNotMatter) {
 TEST_IN_2D_AND_3D(PoissonReductionTest, TellsHowFarItIs) {
   Numbers numbers(26);
   const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 20, -1, 1), 500, 0.1);
-  std::vector<double> told;
+  std::vector<double> reported;
   auto options = at_most(Dim + 2);
-  options.progress = [&](double done) { told.push_back(done); };
+  options.progress = [&](double done) { reported.push_back(done); };
   const ThreadScope scope(1);
   EXPECT_EQ(problem.reduce(options), problem.reduce(at_most(Dim + 2)));
-  ASSERT_FALSE(told.empty());
-  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
-  EXPECT_LT(told.front(), 0.01);
-  EXPECT_GT(told.back(), 0.7);
-  EXPECT_LE(told.back(), 1);
+  ASSERT_FALSE(reported.empty());
+  EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
+  EXPECT_LT(reported.front(), 0.01);
+  EXPECT_GT(reported.back(), 0.7);
+  EXPECT_LE(reported.back(), 1);
 }
 
 TEST_IN_2D_AND_3D(PoissonReductionTest, RefusesWhatCannotBe) {

@@ -200,14 +200,14 @@ TEST_IN_2D_AND_3D(SparsifyTest, TellsHowFarItIs) {
   const auto expected = sparsify<Dim>(control_points, points, weights, at_most(5)).dense();
   for (const int threads : {1, 2}) {
     const ThreadScope scope(threads);
-    std::vector<double> told;
+    std::vector<double> reported;
     auto options = at_most(5);
-    options.progress = [&](double done) { told.push_back(done); };
+    options.progress = [&](double done) { reported.push_back(done); };
     EXPECT_EQ(sparsify<Dim>(control_points, points, weights, options).dense(), expected);
-    ASSERT_FALSE(told.empty());
-    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
-    EXPECT_GT(told.front(), 0);
-    EXPECT_EQ(told.back(), 1);
+    ASSERT_FALSE(reported.empty());
+    EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
+    EXPECT_GT(reported.front(), 0);
+    EXPECT_EQ(reported.back(), 1);
   }
 }
 

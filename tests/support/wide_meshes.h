@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Meshes whose elements can be told apart by their points, and rows of numbers made of them: for
+//! Meshes whose elements differ by their points, and rows of numbers made of them: for
 //! tests that rows stay with their elements.
 #pragma once
 

@@ -200,10 +200,10 @@ class Caging {
       : options_(options), size_(bounding_box_diagonal<Dim>(points)) {
     Cage<Dim> model{points, facets};
     if (cell > 0) {
-      tell(CagingStage::kSimplify);
+      report(CagingStage::kSimplify);
       model = simplified<Dim>(points, facets, cell);
     }
-    tell(CagingStage::kWrap);
+    report(CagingStage::kWrap);
     const Eigen::AlignedBox<double, Dim> box(points.rowwise().minCoeff(),
                                              points.rowwise().maxCoeff());
     plane_ = find_symmetry<Dim>(model, box.center(), size_, options.symmetry);
@@ -231,7 +231,7 @@ class Caging {
   }
 
  private:
-  void tell(CagingStage stage, double done = 0) const {
+  void report(CagingStage stage, double done = 0) const {
     if (options_.stage) options_.stage(stage, done);
   }
 
@@ -245,7 +245,7 @@ class Caging {
 
   // Closed, or its half; no facets if wrapping failed.
   Cage<Dim> wrap_of(const WrapSize& size) const {
-    tell(CagingStage::kWrap);
+    report(CagingStage::kWrap);
     const Cage<Dim> surface = wrap(*model_, size);
     if (surface.facets.cols() == 0 || !plane_.is_there()) return surface;
     return cut_half(surface, plane_, 1e-2 * size.offset);
@@ -322,7 +322,7 @@ class Caging {
                                    const CageLimits& limits) const {
     if (start.facets.cols() == 0) return {};
     Coarsening<Dim> coarsening(start, plane_, *model_, offset, limits);
-    coarsening.reduce_to(control_points, [&](double done) { tell(CagingStage::kReduce, done); });
+    coarsening.reduce_to(control_points, [&](double done) { report(CagingStage::kReduce, done); });
     if (coarsening.num_control_points() > options_.control_points) return {};
     coarsening.relax();
     Cage<Dim> surface = coarsening.surface();
@@ -332,7 +332,7 @@ class Caging {
   }
 
   bool is_sound(const Cage<Dim>& cage) const {
-    tell(CagingStage::kCheck);
+    report(CagingStage::kCheck);
     return cage.size() <= options_.control_points && find_defects(cage, 1).empty() &&
            find_self_intersections(cage, 1).empty() && model_->is_strictly_inside(cage);
   }

@@ -18,7 +18,7 @@
 //!
 //! Further headers:
 //! - other coordinates: harmonic.h, mean_value.h, maximum_entropy.h, maximum_likelihood.h,
-//!   blended.h, biharmonic.h, green.h; by their names: coordinates.h
+//!   blended.h, biharmonic.h, green.h; by their names: coordinates.h, pointwise.h
 //! - fewer influences: sparsify.h
 //! - checks: check.h, cage_facts.h
 //! - the discretized problem: lbc_problem.h

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "flbc/cage.h"
-#include "flbc/coordinates.h"
 #include "flbc/options.h"
 #include "flbc/placement.h"
+#include "flbc/pointwise.h"
 #include "flbc/report.h"
 
 namespace flbc {

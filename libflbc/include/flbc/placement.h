@@ -25,7 +25,7 @@ enum class OutsidePoints {
 
 //! A point outside the cage and the nearest point of the cage.
 template <int Dim>
-struct PointBeside {
+struct NearestOnCage {
   Index point = -1;
   Index facet = -1;
   Vector<Dim> coordinates = Vector<Dim>::Zero();  //!< barycentric in the facet: >= 0, sum 1
@@ -39,8 +39,8 @@ struct Placement {
   PointList<Dim> points;              //!< Dim x P, as reproduced by the weights
   std::vector<Location<Dim>> places;  //!< P locations, coordinates >= 0; cell -1: not inside
   //! Points outside by at most kBoundaryTolerance, which were moved onto the cage; ascending.
-  std::vector<PointBeside<Dim>> on_cage;
-  std::vector<PointBeside<Dim>> outside;  //!< points farther outside; ascending
+  std::vector<NearestOnCage<Dim>> on_cage;
+  std::vector<NearestOnCage<Dim>> outside;  //!< points farther outside; ascending
 };
 
 //! Locates points relative to a cage.
@@ -73,8 +73,8 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const PointList<Dim>& points,
 //! \param which  indices of the points to use, in [0, P)
 //! \return one result per entry of `which`
 template <int Dim>
-std::vector<PointBeside<Dim>> nearest_on_cage(const Cage<Dim>& cage, const PointList<Dim>& points,
-                                              const std::vector<Index>& which);
+std::vector<NearestOnCage<Dim>> nearest_on_cage(const Cage<Dim>& cage, const PointList<Dim>& points,
+                                                const std::vector<Index>& which);
 
 //! Weights at placed points: linear in cells and facets; outside, by the policy. They are
 //! non-negative if the given weights are, except for OutsidePoints::kExtend.

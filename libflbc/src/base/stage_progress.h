@@ -14,25 +14,25 @@
 namespace flbc {
 
 //! Receives the progress of a stage in [0, 1]; may be empty.
-using TellPart = std::function<void(double done)>;
+using StageCallback = std::function<void(double done)>;
 
-//! During its lifetime, loops on this thread report progress to `tell`; afterwards, the previous
-//! callback is restored.
+//! During its lifetime, loops on this thread report progress to `callback`; afterwards, the
+//! previous callback is restored.
 class StageScope {
  public:
-  explicit StageScope(TellPart tell)
-      : tell_(std::move(tell)), before_(std::exchange(present_, &tell_)) {}
+  explicit StageScope(StageCallback callback)
+      : callback_(std::move(callback)), before_(std::exchange(present_, &callback_)) {}
   ~StageScope() { present_ = before_; }
   StageScope(const StageScope&) = delete;
   StageScope& operator=(const StageScope&) = delete;
 
   //! \return null or a callback, which may be empty
-  static const TellPart* present() { return present_; }
+  static const StageCallback* present() { return present_; }
 
  private:
-  inline static thread_local const TellPart* present_ = nullptr;
-  TellPart tell_;
-  const TellPart* before_;
+  inline static thread_local const StageCallback* present_ = nullptr;
+  StageCallback callback_;
+  const StageCallback* before_;
 };
 
 //! During its lifetime, progress is mapped to the part [begin, end] of the enclosing stage.
@@ -41,8 +41,8 @@ class StagePart : public StageScope {
   StagePart(double begin, double end) : StageScope(mapped(begin, end)) {}
 
  private:
-  static TellPart mapped(double begin, double end) {
-    const TellPart* const outer = present();
+  static StageCallback mapped(double begin, double end) {
+    const StageCallback* const outer = present();
     if (!outer || !*outer) return {};
     return [outer, begin, end](double done) { (*outer)(begin + (end - begin) * done); };
   }
@@ -53,22 +53,22 @@ class StagePart : public StageScope {
 class LoopProgress {
  public:
   //! \param rounds  number of loop iterations, > 0
-  explicit LoopProgress(Index rounds) : tell_(StageScope::present()), rounds_(rounds) {}
+  explicit LoopProgress(Index rounds) : callback_(StageScope::present()), rounds_(rounds) {}
   ~LoopProgress() {
-    if (tell_ && *tell_) (*tell_)(1);  // other threads may have finished the loop
+    if (callback_ && *callback_) (*callback_)(1);  // other threads may have finished the loop
   }
   LoopProgress(const LoopProgress&) = delete;
   LoopProgress& operator=(const LoopProgress&) = delete;
 
   //! Called by any thread of the team after a number of iterations.
   void add(Index rounds) {
-    if (!tell_ || !*tell_) return;
+    if (!callback_ || !*callback_) return;
     const Index done = done_ += rounds;
-    if (omp_get_thread_num() == 0) (*tell_)(static_cast<double>(done) / rounds_);
+    if (omp_get_thread_num() == 0) (*callback_)(static_cast<double>(done) / rounds_);
   }
 
  private:
-  const TellPart* tell_;
+  const StageCallback* callback_;
   Index rounds_;
   std::atomic<Index> done_{0};
 };

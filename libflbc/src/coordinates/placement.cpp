@@ -177,7 +177,7 @@ class WeightsAt {
 
  private:
   struct Beside {
-    const PointBeside<Dim>* place = nullptr;
+    const NearestOnCage<Dim>* place = nullptr;
     bool extends = false;
   };
 
@@ -194,7 +194,7 @@ class WeightsAt {
   }
 
   // Adds sum_k b_k G_k (x - q) with the affine fits G_k at the corners of the facet.
-  void extend(const PointBeside<Dim>& beside, Eigen::VectorXd& result) const {
+  void extend(const NearestOnCage<Dim>& beside, Eigen::VectorXd& result) const {
     const Vector<Dim> offset = placement_.points.col(beside.point) - place_on_cage(cage_, beside);
     for (int k = 0; k < Dim; ++k) {
       if (beside.coordinates[k] == 0) continue;
@@ -215,9 +215,9 @@ class WeightsAt {
 }  // namespace
 
 template <int Dim>
-std::vector<PointBeside<Dim>> nearest_on_cage(const Cage<Dim>& cage, const PointList<Dim>& points,
-                                              const std::vector<Index>& which) {
-  std::vector<PointBeside<Dim>> result(which.size());
+std::vector<NearestOnCage<Dim>> nearest_on_cage(const Cage<Dim>& cage, const PointList<Dim>& points,
+                                                const std::vector<Index>& which) {
+  std::vector<NearestOnCage<Dim>> result(which.size());
   const NearestSimplex<Dim, Dim> nearest(cage.points, cage.facets);
   const auto count = static_cast<Index>(which.size());
   parallel_for(count, [&](Index k) {

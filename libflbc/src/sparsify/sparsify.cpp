@@ -167,7 +167,7 @@ class PointSparsifier {
 };
 
 // Within reduce_by_poisson(), its callback receives the progress.
-TellPart told_of(const SparsifyOptions& options) {
+StageCallback callback_of(const SparsifyOptions& options) {
   if (options.progress || !StageScope::present()) return options.progress;
   return *StageScope::present();
 }
@@ -178,7 +178,7 @@ SparseWeights sparsify_points(const PointList<Dim>& control_points, const PointL
                               const SparseWeights& weights, const SparsifyOptions& options,
                               WeightMatrix* one_more) {
   validate<Dim>(options);
-  const StageScope scope(told_of(options));
+  const StageScope scope(callback_of(options));
   const auto projected = [&] {
     const StageScope silent({});
     return project_non_negative(control_points, points, weights);  // also checks the input

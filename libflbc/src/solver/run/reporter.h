@@ -56,7 +56,7 @@ class Reporter {
   }
 
   //! The callback of a stage, for its loops (StageScope).
-  TellPart stage(Stage stage) const {
+  StageCallback stage(Stage stage) const {
     if (!observer_.stage) return {};
     return [stage, reporter = *this](double done) {
       reporter.observer_.stage(stage, reporter.before_ + reporter.share_ * done);

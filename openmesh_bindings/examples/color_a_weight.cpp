@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Solves on a triangulated 2D shape and colors its vertices by one weight.
-//   colour_a_weight CAGE.obj SHAPE.obj CONTROL_POINT OUT.off
+//   color_a_weight CAGE.obj SHAPE.obj CONTROL_POINT OUT.off
 #include <iostream>
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
@@ -19,7 +19,7 @@ using Mesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
 int main(int argc, char** argv) try {
   if (argc != 5) {
-    std::cerr << "usage: colour_a_weight CAGE.obj SHAPE.obj CONTROL_POINT OUT.off\n";
+    std::cerr << "usage: color_a_weight CAGE.obj SHAPE.obj CONTROL_POINT OUT.off\n";
     return 1;
   }
   // Exact coordinates: the readers of OpenMesh keep single precision.
