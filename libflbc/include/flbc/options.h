@@ -47,7 +47,8 @@ enum class Distances {
 
 //! Whether the iteration works on the active set instead of all pairs of vertices and control
 //! points. The active set contains the pairs whose weights may be positive at the optimum. The
-//! solver finds, extends, and checks it.
+//! solver finds, extends, and checks it. Memory then follows these pairs, except for 4 n V bytes of
+//! distances, and 16 n V bytes of harmonic coordinates at a start without a coarser mesh.
 enum class ActiveSet {
   kAuto,  //!< in 3D with at least 80 control points and 400,000 pairs, unless `certify` or `gap` is
           //!< set

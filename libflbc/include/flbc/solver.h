@@ -149,7 +149,7 @@ class Solver {
   const Solution& solution() const;
 
  private:
-  class State;
+  struct State;
   std::unique_ptr<State> state_;
 };
 

@@ -252,83 +252,7 @@ Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
 }
 
 template <int Dim>
-class Solver<Dim>::State {
- public:
-  State(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
-        const CoarseMesher<Dim>& mesher)
-      : options_(options), mesher_(mesher), shape_(std::make_unique<Shape>()) {
-    const ThreadScope threads(threads_for(options.threads, cage.size(), mesh.num_vertices()));
-    normalize_and_validate(mesh);
-    std::optional<CoarseProblem<Dim>> coarsest;
-    const Observer nobody;
-    auto ready =
-        set_up(cage, mesh, plan::settings_of(options), mesher, Reporter(nobody), &coarsest);
-    if (coarsest) moving_distances_.emplace(std::move(*coarsest), ready.problem);
-    coarse_ = std::move(ready.coarse);
-    *shape_ = {std::move(cage), std::move(mesh), std::move(ready.problem),
-               ready.distances, ready.seconds,   {}};
-    restart_run();
-  }
-
-  void solve(const Budget& budget, const Observer& observer) {
-    try {
-      solve_on(*shape_, nullptr, budget, observer);
-    } catch (...) {
-      restart();
-      throw;
-    }
-  }
-
-  void move(const PointList<Dim>& control_points, const Budget& budget, const Observer& observer) {
-    if (solution_.weights.num_points() == 0) solve({}, observer);
-    if (anchor_weights_.num_points() == 0) anchor();
-    Stopwatch watch;
-    auto settings = plan::settings_of(options_);
-    const ThreadScope threads(num_threads(shape_->problem, settings));
-    auto shape = moved(control_points, settings);
-    shape->setup_seconds = watch.lap();
-    if (plan::inherits(settings.method) && shape_->run->has_duals()) {
-      const auto duals = shape_->run->duals();
-      const auto transfer = Transfer<Dim>::between_shapes(shape_->problem, duals, shape->problem);
-      solve_on(*shape, &transfer, left(budget, shape->setup_seconds), observer);
-    } else {
-      solve_on(*shape, nullptr, left(budget, shape->setup_seconds), observer);
-    }
-    shape_ = std::move(shape);
-    coarse_.clear();
-  }
-
-  void anchor() {
-    anchor_mesh_ = shape_->mesh;
-    anchor_weights_ = solution_.weights;
-    if (moving_distances_) moving_distances_->anchor(shape_->mesh, anchor_weights_);
-  }
-
-  void set_options(const SolverOptions& options) {
-    require_valid(options, bool(mesher_));
-    if (options.phi != options_.phi || options.distances != options_.distances) {
-      throw OptionError(
-          "phi and distances cannot be changed once the problem is set up; make another Solver");
-    }
-    if (fixed_in_a_run(plan::settings_of(options)) != fixed_in_a_run(plan::settings_of(options_)))
-      restart();
-    coarse_.clear();  // made for the previous options
-    options_ = options;
-    shape_->problem.smoothness = options.smoothness.value_or(0);
-  }
-
-  void restart() {
-    restart_run();
-    coarse_.clear();
-  }
-
-  const SolverOptions& options() const { return options_; }
-  const Cage<Dim>& cage() const { return shape_->cage; }
-  const DomainMesh<Dim>& mesh() const { return shape_->mesh; }
-  const LbcProblem<Dim>& problem() const { return shape_->problem; }
-  const Solution& solution() const { return solution_; }
-
- private:
+struct Solver<Dim>::State {
   // The state for one rest cage; the run refers to the problem.
   struct Shape {
     Cage<Dim> cage{};  // as given by the caller
@@ -339,8 +263,6 @@ class Solver<Dim>::State {
     std::optional<MethodRun<Dim>> run{};
   };
 
-  void restart_run() { shape_->run.emplace(shape_->problem); }
-
   static Budget left(Budget budget, double spent) {
     // At least one iteration is made.
     constexpr double kNone = 1e-9;
@@ -348,68 +270,84 @@ class Solver<Dim>::State {
     return budget;
   }
 
+  void restart() {
+    shape->run.emplace(shape->problem);
+    coarse.clear();
+  }
+
   // The mesh moved by the control points, not solved yet.
   std::unique_ptr<Shape> moved(const PointList<Dim>& control_points,
                                const plan::Settings& settings) {
-    require_points_for(shape_->cage, control_points);
-    auto shape = std::make_unique<Shape>();
-    shape->cage = {control_points, shape_->cage.facets};
-    validate(shape->cage);
-    shape->mesh = {deform<Dim>(anchor_weights_, control_points), shape_->mesh.cells};
-    refuse_folds(anchor_mesh_, shape->mesh);
-    auto& problem = shape->problem;
+    require_points_for(shape->cage, control_points);
+    auto other = std::make_unique<Shape>();
+    other->cage = {control_points, shape->cage.facets};
+    validate(other->cage);
+    other->mesh = {deform<Dim>(anchor_weights, control_points), shape->mesh.cells};
+    refuse_folds(anchor_mesh, other->mesh);
+    auto& problem = other->problem;
     problem =
-        make_geometry(shape->cage, shape->mesh, shape_->problem.topology, shape_->problem.boundary);
+        make_geometry(other->cage, other->mesh, shape->problem.topology, shape->problem.boundary);
     problem.smoothness = settings.smoothness;
-    shape->run.emplace(problem);
-    shape->distances = shape_->distances;
-    auto distances = moving_distances_ ? (*moving_distances_)(problem, settings, shape->distances)
-                                       : distances_for(settings.phi, problem);
+    other->run.emplace(problem);
+    other->distances = shape->distances;
+    auto distances = moving_distances ? (*moving_distances)(problem, settings, other->distances)
+                                      : distances_for(settings.phi, problem);
     set_phi(problem, settings.phi, std::move(distances));
-    return shape;
+    return other;
   }
 
   // Solves from the start, or resumes the run. The solution is unchanged if it throws.
-  void solve_on(Shape& shape, const Transfer<Dim>* start, const Budget& budget,
+  void solve_on(Shape& on, const Transfer<Dim>* start, const Budget& budget,
                 const Observer& observer) {
-    auto settings = plan::settings_of(options_);
+    auto settings = plan::settings_of(options);
     if (budget.iterations > 0) {
       settings.max_iterations = std::min(settings.max_iterations, budget.iterations);
     }
     const Reporter unlimited(observer);
     const Reporter reporter = budget.seconds > 0 ? unlimited.with_limit(budget.seconds) : unlimited;
-    const ThreadScope threads(num_threads(shape.problem, settings));
+    const ThreadScope threads(num_threads(on.problem, settings));
     SolveReport report;
     Weights weights;
-    if (start != nullptr || shape.run->has_begun() || &shape != shape_.get()) {
-      weights = shape.run->solve(settings, reporter, report, {start});
+    if (start != nullptr || on.run->has_begun() || &on != shape.get()) {
+      weights = on.run->solve(settings, reporter, report, {start});
     } else {
-      auto coarse = std::exchange(coarse_, {});
-      if (coarse.empty()) coarse = coarse_starts(shape.problem, mesher_, settings);
-      weights = solve_in_cascade(shape.problem, *shape.run, std::move(coarse), settings, reporter,
-                                 report);
+      auto levels = std::exchange(coarse, {});
+      if (levels.empty()) levels = coarse_starts(on.problem, mesher, settings);
+      weights =
+          solve_in_cascade(on.problem, *on.run, std::move(levels), settings, reporter, report);
     }
-    solution_ = finish(shape.problem, *shape.run, std::move(weights), settings, reporter,
-                       std::move(report));
-    solution_.report.seconds.setup = std::exchange(shape.setup_seconds, 0);
-    solution_.report.distances = shape.distances;
+    solution =
+        finish(on.problem, *on.run, std::move(weights), settings, reporter, std::move(report));
+    solution.report.seconds.setup = std::exchange(on.setup_seconds, 0);
+    solution.report.distances = on.distances;
   }
 
-  SolverOptions options_;
-  CoarseMesher<Dim> mesher_;
-  std::vector<CoarseProblem<Dim>> coarse_;  // for the first solve
-  std::unique_ptr<Shape> shape_;
-  Solution solution_{};
-  std::optional<MovingDistances<Dim>> moving_distances_;
-  DomainMesh<Dim> anchor_mesh_;
-  SparseWeights anchor_weights_;
+  SolverOptions options;
+  CoarseMesher<Dim> mesher;
+  std::vector<CoarseProblem<Dim>> coarse{};  // for the first solve
+  std::unique_ptr<Shape> shape{};
+  Solution solution{};
+  std::optional<MovingDistances<Dim>> moving_distances{};
+  DomainMesh<Dim> anchor_mesh{};
+  SparseWeights anchor_weights{};
 };
 
 template <int Dim>
 Solver<Dim>::Solver(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
-                    const MesherArgument<Dim>& mesher) {
+                    const MesherArgument<Dim>& mesher)
+    : state_(std::make_unique<State>(State{options, mesher})) {
   require_valid_setup(options, bool(mesher));
-  state_ = std::make_unique<State>(std::move(cage), std::move(mesh), options, mesher);
+  const ThreadScope threads(threads_for(options.threads, cage.size(), mesh.num_vertices()));
+  normalize_and_validate(mesh);
+  std::optional<CoarseProblem<Dim>> coarsest;
+  const Observer nobody;
+  auto ready =
+      set_up(cage, mesh, plan::settings_of(options), state_->mesher, Reporter(nobody), &coarsest);
+  if (coarsest) state_->moving_distances.emplace(std::move(*coarsest), ready.problem);
+  state_->shape = std::make_unique<typename State::Shape>(typename State::Shape{
+      std::move(cage), std::move(mesh), std::move(ready.problem), ready.distances, ready.seconds});
+  state_->restart();
+  state_->coarse = std::move(ready.coarse);
 }
 
 template <int Dim>
@@ -422,7 +360,12 @@ Solver<Dim>& Solver<Dim>::operator=(Solver&&) noexcept = default;
 template <int Dim>
 const Solution& Solver<Dim>::solve(const Budget& budget, const Observer& observer) {
   validate(budget);
-  state_->solve(budget, observer);
+  try {
+    state_->solve_on(*state_->shape, nullptr, budget, observer);
+  } catch (...) {
+    restart();
+    throw;
+  }
   return solution();
 }
 
@@ -430,18 +373,48 @@ template <int Dim>
 const Solution& Solver<Dim>::move(const PointList<Dim>& control_points, const Budget& budget,
                                   const Observer& observer) {
   validate(budget);
-  state_->move(control_points, budget, observer);
+  auto& state = *state_;
+  if (state.solution.weights.num_points() == 0) solve({}, observer);
+  if (state.anchor_weights.num_points() == 0) anchor();
+  Stopwatch watch;
+  const auto& before = *state.shape;
+  const auto settings = plan::settings_of(state.options);
+  const ThreadScope threads(num_threads(before.problem, settings));
+  auto shape = state.moved(control_points, settings);
+  shape->setup_seconds = watch.lap();
+  const auto rest = State::left(budget, shape->setup_seconds);
+  if (plan::inherits(settings.method) && before.run->has_duals()) {
+    const auto duals = before.run->duals();
+    const auto transfer = Transfer<Dim>::between_shapes(before.problem, duals, shape->problem);
+    state.solve_on(*shape, &transfer, rest, observer);
+  } else {
+    state.solve_on(*shape, nullptr, rest, observer);
+  }
+  state.shape = std::move(shape);
+  state.coarse.clear();
   return solution();
 }
 
 template <int Dim>
 void Solver<Dim>::anchor() {
-  state_->anchor();
+  state_->anchor_mesh = mesh();
+  state_->anchor_weights = solution().weights;
+  if (state_->moving_distances) state_->moving_distances->anchor(mesh(), state_->anchor_weights);
 }
 
 template <int Dim>
 void Solver<Dim>::set_options(const SolverOptions& options) {
-  state_->set_options(options);
+  auto& present = state_->options;
+  require_valid(options, bool(state_->mesher));
+  if (options.phi != present.phi || options.distances != present.distances) {
+    throw OptionError(
+        "phi and distances cannot be changed once the problem is set up; make another Solver");
+  }
+  if (fixed_in_a_run(plan::settings_of(options)) != fixed_in_a_run(plan::settings_of(present)))
+    restart();
+  state_->coarse.clear();  // made for the previous options
+  present = options;
+  state_->shape->problem.smoothness = options.smoothness.value_or(0);
 }
 
 template <int Dim>
@@ -451,27 +424,27 @@ void Solver<Dim>::restart() {
 
 template <int Dim>
 const SolverOptions& Solver<Dim>::options() const {
-  return state_->options();
+  return state_->options;
 }
 
 template <int Dim>
 const Cage<Dim>& Solver<Dim>::cage() const {
-  return state_->cage();
+  return state_->shape->cage;
 }
 
 template <int Dim>
 const DomainMesh<Dim>& Solver<Dim>::mesh() const {
-  return state_->mesh();
+  return state_->shape->mesh;
 }
 
 template <int Dim>
 const LbcProblem<Dim>& Solver<Dim>::problem() const {
-  return state_->problem();
+  return state_->shape->problem;
 }
 
 template <int Dim>
 const Solution& Solver<Dim>::solution() const {
-  return state_->solution();
+  return state_->solution;
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                                      \

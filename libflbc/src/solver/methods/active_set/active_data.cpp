@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/instantiate.h"
 #include "base/padded_rows.h"
 #include "base/parallel.h"
 #include "mesh/cell_geometry.h"
@@ -196,13 +197,7 @@ CellPatches<Scalar, Dim> make_patches(const LbcProblem<Dim>& problem,
   return result;
 }
 
-#define FLBC_INSTANTIATE(Scalar, Dim)                               \
-  template decltype(row_bases<Scalar, Dim>) row_bases<Scalar, Dim>; \
-  template decltype(make_patches<Scalar, Dim>) make_patches<Scalar, Dim>;
-FLBC_INSTANTIATE(float, 2)
-FLBC_INSTANTIATE(float, 3)
-FLBC_INSTANTIATE(double, 2)
-FLBC_INSTANTIATE(double, 3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_SCALAR_FUNCTION(row_bases)
+FLBC_INSTANTIATE_SCALAR_FUNCTION(make_patches)
 
 }  // namespace flbc::active_set

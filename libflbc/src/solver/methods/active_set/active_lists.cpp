@@ -16,83 +16,91 @@
 namespace flbc::active_set {
 namespace {
 
-using Flags = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
+// Per control point; a matrix of all vertices would be among the largest arrays of a solve.
+using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
-// Per vertex, the control points that are relevant at it or at a neighbor. n x V
-//! \param matters_at  of a vertex, n flags
-template <int Dim, class MattersAt>
-Flags flags_of(const DomainMesh<Dim>& mesh, Index num_control_points, const MattersAt& matters_at) {
-  Flags matters(num_control_points, mesh.num_vertices());
-  parallel_for(mesh.num_vertices(), [&](Index v) { matters.col(v) = matters_at(v); });
-  Flags near = matters;
-  for (Index s = 0; s < mesh.num_cells(); ++s) {
-    Eigen::Array<bool, Eigen::Dynamic, 1> any = matters.col(mesh.cells(0, s)).array();
-    for (int k = 1; k <= Dim; ++k) any = any || matters.col(mesh.cells(k, s)).array();
-    for (const Index v : mesh.cells.col(s)) {
-      near.col(v).array() = near.col(v).array() || any;
+// The lists of all vertices. \param set  set(v, flags) raises the flags of a vertex
+template <class Set>
+ActiveLists lists_of(Index num_vertices, Index num_control_points, const Set& set) {
+  std::vector<std::vector<ControlPoint>> lists(num_vertices);
+  const auto make_flags = [&] { return Flags(num_control_points); };
+  parallel_for_chunks(num_vertices, 64, make_flags, [&](Index v, Flags& flags) {
+    flags.setConstant(false);
+    set(v, flags);
+    lists[v].reserve(flags.count());
+    for (Index i = 0; i < num_control_points; ++i) {
+      if (flags[i]) lists[v].push_back(static_cast<ControlPoint>(i));
     }
+  });
+  ActiveLists all{{0}, {}};
+  for (const auto& list : lists) {
+    all.items.insert(all.items.end(), list.begin(), list.end());
+    all.start.push_back(static_cast<Index>(all.items.size()));
   }
-  return near;
+  return all;
 }
 
-// Vertices next to a facet need the control points of the weights on the facet.
+void add(const ActiveLists::Range& list, Flags& flags) {
+  for (const ControlPoint i : list) flags[i] = true;
+}
+
+// Adds the lists at a vertex and its neighbors.
 template <int Dim>
-void add_boundary(const LbcProblem<Dim>& problem, Flags& flags) {
-  const auto& boundary = problem.boundary;
-  const auto add = [&](Index b, Index v) {
-    for (int k = 0; k < Dim; ++k) {
-      if (boundary.values(k, b) != 0) flags(boundary.control_points(k, b), v) = true;
-    }
-  };
-  for (Index b = 0; b < static_cast<Index>(boundary.vertices.size()); ++b) {
-    flags.col(boundary.vertices[b]).setConstant(false);
-    add(b, boundary.vertices[b]);
+void add_around(const DomainMesh<Dim>& mesh, const VertexCells& around, const ActiveLists& lists,
+                Index v, Flags& flags) {
+  for (const Index s : around.cells_of(v)) {
+    for (const Index u : mesh.cells.col(s)) add(lists.of(u), flags);
   }
-  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
-    for (const Index v : problem.mesh.cells.col(s)) {
-      const Index b = boundary.boundary_index[v];
-      if (b < 0) continue;
-      for (const Index u : problem.mesh.cells.col(s)) {
-        if (boundary.is_interior(u)) add(b, u);
-      }
-    }
-  }
+}
+
+// Per vertex, the control points that are relevant at it or at a neighbor.
+//! \param matters_at  of a vertex, n flags
+template <int Dim, class MattersAt>
+ActiveLists near_lists(const DomainMesh<Dim>& mesh, Index n, const MattersAt& matters_at) {
+  const auto matters =
+      lists_of(mesh.num_vertices(), n, [&](Index v, Flags& flags) { flags = matters_at(v); });
+  const VertexCells around(mesh);
+  return lists_of(mesh.num_vertices(), n,
+                  [&](Index v, Flags& flags) { add_around(mesh, around, matters, v, flags); });
 }
 
 // Whether a vertex lies in the convex hull of its control points, so feasible weights exist.
 template <int Dim>
 bool is_feasible(const LbcProblem<Dim>& problem, Index v, const Flags& flags) {
   const double tolerance = 1e-9 * problem.cage.points.cwiseAbs().maxCoeff();
-  PointList<Dim> points(Dim, flags.col(v).count());
+  PointList<Dim> points(Dim, flags.count());
   Index count = 0;
-  for (Index i = 0; i < flags.rows(); ++i) {
-    if (flags(i, v)) points.col(count++) = problem.cage.points.col(i);
+  for (Index i = 0; i < flags.size(); ++i) {
+    if (flags[i]) points.col(count++) = problem.cage.points.col(i);
   }
   if (count == 0) return false;
   const Vector<Dim> point = problem.mesh.points.col(v);
   return nearest_point_in_hull<Dim>(points, point).distance <= tolerance;
 }
 
-ActiveLists lists_from(const Flags& is_in) {
-  return items_by_vertex<ControlPoint>(static_cast<Index>(is_in.cols()), [&](const auto& visit) {
-    for (Index v = 0; v < static_cast<Index>(is_in.cols()); ++v) {
-      for (Index i = 0; i < static_cast<Index>(is_in.rows()); ++i) {
-        if (is_in(i, v)) visit(v, static_cast<ControlPoint>(i));
+// Adds the control points that every vertex needs: next to a facet those of the weights on the
+// facet. \param weights  feasible ones of an interior vertex \param set  as in lists_of()
+template <int Dim, class Set>
+ActiveLists completed(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights, const Set& set) {
+  const auto& mesh = problem.mesh;
+  const auto& boundary = problem.boundary;
+  const auto add_known = [&](Index v, Flags& flags) {
+    const Index b = boundary.boundary_index[v];
+    for (int k = 0; k < Dim; ++k) {
+      if (boundary.values(k, b) != 0) flags[boundary.control_points(k, b)] = true;
+    }
+  };
+  const VertexCells around(mesh);
+  return lists_of(mesh.num_vertices(), problem.num_control_points(), [&](Index v, Flags& flags) {
+    if (!boundary.is_interior(v)) return add_known(v, flags);
+    set(v, flags);
+    for (const Index s : around.cells_of(v)) {
+      for (const Index u : mesh.cells.col(s)) {
+        if (!boundary.is_interior(u)) add_known(u, flags);
       }
     }
+    if (!is_feasible(problem, v, flags)) flags = flags || weights(v).array() > 0;
   });
-}
-
-// Adds the control points that every vertex needs. \param weights  feasible ones of an interior
-// vertex
-template <int Dim>
-ActiveLists completed(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights, Flags flags) {
-  add_boundary(problem, flags);
-  parallel_for_chunks(problem.mesh.num_vertices(), 64, [&](Index v) {
-    if (!problem.boundary.is_interior(v) || is_feasible(problem, v, flags)) return;
-    flags.col(v).array() = flags.col(v).array() || weights(v).array() > 0;
-  });
-  return lists_from(flags);
 }
 
 // Calls action(place, u) for the entries in the list of an interior vertex whose control points are
@@ -133,26 +141,23 @@ ActiveLists active_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& coa
   constexpr double kNotInterpolated = 1e-12;
   const auto& mesh = coarse.coarse_mesh();
   const auto& weights = coarse.coarse_weights();
-  const Flags near = flags_of(mesh, problem.num_control_points(),
-                              [&](Index v) { return (weights.at(v).array() > threshold).eval(); });
-  Flags flags = Flags::Constant(problem.num_control_points(), problem.mesh.num_vertices(), false);
-  parallel_for(problem.mesh.num_vertices(), [&](Index v) {
+  const auto near = near_lists(mesh, problem.num_control_points(),
+                               [&](Index v) { return (weights.at(v).array() > threshold).eval(); });
+  return completed(problem, coarse.start().weights, [&](Index v, Flags& flags) {
     const auto& place = coarse.place_of(v);
     for (int k = 0; k <= Dim; ++k) {
-      if (place.coordinates[k] <= kNotInterpolated) continue;
-      flags.col(v).array() = flags.col(v).array() || near.col(mesh.cells(k, place.cell)).array();
+      if (place.coordinates[k] > kNotInterpolated) add(near.of(mesh.cells(k, place.cell)), flags);
     }
   });
-  return completed(problem, coarse.start().weights, std::move(flags));
 }
 
 template <int Dim>
 ActiveLists active_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights,
                       double threshold) {
   const auto of_vertex = with_known_values(problem, weights);
-  auto flags = flags_of(problem.mesh, problem.num_control_points(),
-                        [&](Index v) { return (of_vertex(v).array() > threshold).eval(); });
-  return completed(problem, weights, std::move(flags));
+  const auto near = near_lists(problem.mesh, problem.num_control_points(),
+                               [&](Index v) { return (of_vertex(v).array() > threshold).eval(); });
+  return completed(problem, weights, [&](Index v, Flags& flags) { add(near.of(v), flags); });
 }
 
 template <int Dim>
@@ -189,17 +194,20 @@ ColdStart<Dim> cold_start(const LbcProblem<Dim>& problem, LinearSolver linear_so
 template <int Dim>
 ActiveLists grown(const LbcProblem<Dim>& problem, const ActiveLists& active, double threshold,
                   const WeightInList& weight) {
-  Flags flags = Flags::Constant(problem.num_control_points(), problem.mesh.num_vertices(), false);
-  const VertexCells around(problem.mesh);
-  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+  const auto& mesh = problem.mesh;
+  const Index n = problem.num_control_points();
+  const auto reaching = lists_of(mesh.num_vertices(), n, [&](Index v, Flags& flags) {
+    if (!problem.boundary.is_interior(v)) return;
     const auto list = active.of(v);
-    for (const ControlPoint i : list) flags(i, v) = true;
-    if (!problem.boundary.is_interior(v)) continue;
-    for_missing(problem, around, active, v, [&](Index place, Index u) {
-      if (weight(v, place) > threshold) flags(list.first[place], u) = true;
-    });
-  }
-  return lists_from(flags);
+    for (const ControlPoint* i = list.first; i != list.last; ++i) {
+      flags[*i] = weight(v, static_cast<Index>(i - list.first)) > threshold;
+    }
+  });
+  const VertexCells around(mesh);
+  return lists_of(mesh.num_vertices(), n, [&](Index v, Flags& flags) {
+    add(active.of(v), flags);
+    if (problem.boundary.is_interior(v)) add_around(mesh, around, reaching, v, flags);
+  });
 }
 
 template <int Dim>

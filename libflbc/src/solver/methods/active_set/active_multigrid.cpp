@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/flush_denormals.h"
+#include "base/instantiate.h"
 #include "base/padded_rows.h"
 #include "linear/aggregation.h"
 
@@ -240,9 +241,6 @@ void ActiveMultigrid<Scalar, Dim>::cycle(Scalar* rows) {
   std::copy_n(finest.solution.data(), lists_.starts[finest.num_rows()], rows);
 }
 
-template class ActiveMultigrid<float, 2>;
-template class ActiveMultigrid<float, 3>;
-template class ActiveMultigrid<double, 2>;
-template class ActiveMultigrid<double, 3>;
+FLBC_INSTANTIATE_SCALAR_CLASS(ActiveMultigrid)
 
 }  // namespace flbc::active_set

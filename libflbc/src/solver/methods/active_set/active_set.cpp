@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "base/instantiate.h"
 #include "solver/plan/constants.h"
 
 namespace flbc::active_set {
@@ -85,9 +86,6 @@ void ActiveSet<Scalar, Dim>::describe(SolveReport& report) const {
   report.active_set = {density(problem_, splitting_->active()), growths_};
 }
 
-template class ActiveSet<float, 2>;
-template class ActiveSet<float, 3>;
-template class ActiveSet<double, 2>;
-template class ActiveSet<double, 3>;
+FLBC_INSTANTIATE_SCALAR_CLASS(ActiveSet)
 
 }  // namespace flbc::active_set

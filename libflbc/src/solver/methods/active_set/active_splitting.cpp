@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/flush_denormals.h"
+#include "base/instantiate.h"
 #include "base/padded_rows.h"
 #include "base/parallel.h"
 #include "problem/boundary_flux.h"
@@ -389,9 +390,6 @@ Vectors<Dim> ActiveSplitting<Scalar, Dim>::flux_density(Index cell) const {
   return density;
 }
 
-template class ActiveSplitting<float, 2>;
-template class ActiveSplitting<float, 3>;
-template class ActiveSplitting<double, 2>;
-template class ActiveSplitting<double, 3>;
+FLBC_INSTANTIATE_SCALAR_CLASS(ActiveSplitting)
 
 }  // namespace flbc::active_set
