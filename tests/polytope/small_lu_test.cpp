@@ -27,7 +27,10 @@ TYPED_TEST(SmallLuTest, SolvesAsEigenDoes) {
     const Eigen::FullPivLU<typename Lu::Square> expected(matrix);
     const double tolerance = 1e-13 / expected.rcond();
     EXPECT_LT((lu.solve(b) - expected.solve(b)).norm(), tolerance);
-    EXPECT_LT((lu.solve_transposed(b) - expected.transpose().solve(b)).norm(), tolerance);
+    EXPECT_LT((lu.solve_transposed(b) -
+               Eigen::FullPivLU<typename Lu::Square>(matrix.transpose()).solve(b))
+                  .norm(),
+              tolerance);
   }
 }
 

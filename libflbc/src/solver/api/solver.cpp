@@ -110,12 +110,6 @@ Certificate certify(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run,
   return certificate;
 }
 
-template <int Dim>
-void measure(const LbcProblem<Dim>& problem, const SparseWeights& weights, SolveReport& report) {
-  report.objective = unscaled(problem, objective(problem, weights));
-  report.quality = measure_quality(problem.cage.points, problem.mesh.points, weights);
-}
-
 //! Makes a solution from the weights of a run: projection, certificate, measures.
 template <int Dim>
 Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weights weights,
@@ -142,7 +136,8 @@ Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weigh
     report.certificate = certify(problem, run, solution.weights.dense());
   }
   report.seconds.certify = watch.lap();
-  measure(problem, solution.weights, report);
+  report.objective = unscaled(problem, objective(problem, solution.weights));
+  report.quality = measure_quality(problem.cage.points, problem.mesh.points, solution.weights);
   solution.report = std::move(report);
   return solution;
 }

@@ -25,11 +25,6 @@ void validate_gap(const SolverOptions& options) {
   }
 }
 
-void validate(const CoarseLevels& levels) {
-  const Index coarsest = levels.coarsest.value_or(1);
-  require(coarsest >= 1, "coarse_levels.coarsest", coarsest, "at least 1 vertex");
-}
-
 }  // namespace
 
 void validate(const SolverOptions& options) {
@@ -67,7 +62,8 @@ void validate(const SolverOptions& options) {
   if (smoothness > 0 && !plan::smooths(options.method)) {
     throw OptionError("smoothness is for the methods value and gradient only");
   }
-  validate(options.coarse_levels);
+  const Index coarsest = options.coarse_levels.coarsest.value_or(1);
+  require(coarsest >= 1, "coarse_levels.coarsest", coarsest, "at least 1 vertex");
 }
 
 }  // namespace flbc
