@@ -50,6 +50,8 @@ TEST_IN_2D_AND_3D(SolverTest, RefusesMeshesThatAreNotValid) {
     expect_refused<InputError>(words, [&] { solve(sample.cage, mesh); });
     expect_refused<InputError>(words,
                                [&] { make_problem(sample.cage, mesh, DistanceScheme::kSquare); });
+    expect_refused<InputError>(
+        words, [&] { compute_coordinates(sample.cage, mesh, Coordinates::kHarmonic); });
   };
   refused("cell 1 of the domain mesh refers to vertex -1", [](auto& m) { m.cells(0, 1) = -1; });
   refused("refers to vertex 2000000000", [](auto& m) { m.cells(Dim, 2) = 2000000000; });
