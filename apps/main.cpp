@@ -199,6 +199,7 @@ void occupy_standard_streams() {
 // Limits of the system end in messages rather than in signals.
 void adapt_to_limits() {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow fails to be written
+  std::signal(SIGPIPE, SIG_IGN);  // messages that nobody reads must not end a solve
   constexpr int kMostThreads = 64;
   const int most = std::max(kMostThreads, omp_get_num_procs());
   if (omp_get_max_threads() > most) omp_set_num_threads(most);

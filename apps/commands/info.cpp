@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc info: what is in a file.
 #include <algorithm>
+#include <cmath>
+#include <fstream>
 #include <iostream>
 #include <memory>
 
@@ -10,6 +12,7 @@
 #include "files/movable_model.h"
 #include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
+#include "flbc/io/point_file.h"
 #include "flbc/meshing.h"
 #include "flbc/quality.h"
 #include "report/facts.h"
@@ -26,8 +29,20 @@ void print_box(const Eigen::MatrixXd& points) {
   std::cout << "  from " << low.format(row) << " to " << high.format(row) << '\n';
 }
 
+// Fewer columns than a cage has control points, or rows that are no weights: points.
+bool are_points(const WeightMatrix& rows) {
+  const auto is_one = [](const auto& row) { return std::abs(row.sum() - 1) < kInfluenceThreshold; };
+  const auto columns = rows.colwise();
+  return rows.rows() == 2 ||
+         (rows.rows() == 3 && !std::all_of(columns.begin(), columns.end(), is_one));
+}
+
 void print_weights(const std::string& path) {
   const WeightMatrix weights = read_weight_file(path).dense();
+  if (weights.size() > 0 && are_points(weights)) {
+    std::cout << path << ": " << weights.cols() << " points in " << weights.rows() << "D\n";
+    return print_box(weights);
+  }
   std::cout << path << ": weights of " << weights.cols() << " points for " << weights.rows()
             << " control points\n";
   if (weights.size() == 0) return;
@@ -75,6 +90,20 @@ void print_cage(const Cage<Dim>& cage, const InfoArguments& arguments) {
   for (const auto& defect : defects) std::cout << "    " << defect.message << '\n';
 }
 
+// Points of a .vtu file that are moved in batches, because the file may be of any size.
+void print_appended_points(const std::string& path, const io::PointLayout& layout) {
+  PointList<3> box(3, 2);
+  std::ofstream nowhere;
+  io::rewrite_points<3>(path, layout, nowhere, [&](const PointList<3>& batch, std::int64_t first) {
+    const Vector<3> low = batch.rowwise().minCoeff(), high = batch.rowwise().maxCoeff();
+    box.col(0) = first == 0 ? low : Vector<3>(box.col(0).cwiseMin(low));
+    box.col(1) = first == 0 ? high : Vector<3>(box.col(1).cwiseMax(high));
+    return batch;
+  });
+  std::cout << path << ": " << layout.count << " points, appended to the file\n";
+  if (layout.count > 0) print_box(box);
+}
+
 void print_polygons(const InfoArguments& arguments) {
   const auto& path = arguments.path;
   const auto soup = io::read_polygons(path);
@@ -99,8 +128,14 @@ void print_info(const InfoArguments& arguments) {
   if (io::holds(path, {io::Content::kModel}) || !io::holds(path, kMeshFiles)) {
     return print_polygons(arguments);
   }
-  std::visit([&](const auto& any) { print_domain(path, any.mesh()); },
-             load_any_model({path, path}));
+  try {
+    std::visit([&](const auto& any) { print_domain(path, any.mesh()); },
+               load_any_model({path, path}));
+  } catch (const InputError&) {
+    const auto layout = io::find_point_layout(path);
+    if (!layout) throw;
+    print_appended_points(path, *layout);
+  }
 }
 
 }  // namespace

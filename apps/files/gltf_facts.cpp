@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "files/gltf_facts.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <vector>
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
@@ -24,6 +26,77 @@ std::string json_of(const std::string& bytes) {
   if (bytes.size() >= kBegin) std::memcpy(&size, bytes.data() + 12, sizeof size);
   return bytes.size() < kBegin ? "" : bytes.substr(kBegin, size);
 }
+
+Eigen::Matrix4d transform_of(const GltfJson& node) {
+  const auto numbers = [&](const char* name, std::vector<double> otherwise) {
+    return node.contains(name) ? node.at(name).get<std::vector<double>>() : otherwise;
+  };
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  if (const auto given = numbers("matrix", {}); given.size() == 16) {
+    return Eigen::Map<const Eigen::Matrix4d>(given.data());
+  }
+  const auto turn = numbers("rotation", {0, 0, 0, 1});
+  const auto size = numbers("scale", {1, 1, 1});
+  const auto shift = numbers("translation", {0, 0, 0});
+  const Eigen::Quaterniond rotation(turn.at(3), turn.at(0), turn.at(1), turn.at(2));
+  for (int d = 0; d < 3; ++d) {
+    matrix.block<3, 1>(0, d) = size.at(d) * rotation.toRotationMatrix().col(d);
+    matrix(d, 3) = shift.at(d);
+  }
+  return matrix;
+}
+
+// The box around all meshes where the nodes of the file put them. Skins are at rest where their
+// meshes are, whatever the transforms of their nodes.
+class SceneBox {
+ public:
+  explicit SceneBox(const GltfJson& gltf) : gltf_(gltf) {
+    if (!gltf.contains("nodes")) return;
+    std::set<std::size_t> children;
+    for (const auto& node : gltf.at("nodes")) {
+      for (const auto& child : node.value("children", GltfJson::array()))
+        children.insert(child.get<std::size_t>());
+    }
+    for (std::size_t k = 0; k < gltf.at("nodes").size(); ++k) {
+      if (children.count(k) == 0) add_node(k, Eigen::Matrix4d::Identity(), 0);
+    }
+  }
+
+  const Eigen::AlignedBox3d& box() const { return box_; }
+
+ private:
+  void add_node(std::size_t k, const Eigen::Matrix4d& parent, std::size_t depth) {
+    const auto& nodes = gltf_.at("nodes");
+    const auto& node = nodes.at(k);
+    if (depth > nodes.size())
+      throw GltfJson::other_error::create(501, "nodes form a circle", &node);
+    const Eigen::Matrix4d transform = parent * transform_of(node);
+    if (node.contains("mesh")) {
+      const auto mesh = node.at("mesh").get<std::size_t>();
+      for (const auto& primitive : gltf_.at("meshes").at(mesh).at("primitives")) {
+        add_primitive(primitive, node.contains("skin") ? Eigen::Matrix4d::Identity() : transform);
+      }
+    }
+    for (const auto& child : node.value("children", GltfJson::array())) {
+      add_node(child, transform, depth + 1);
+    }
+  }
+
+  void add_primitive(const GltfJson& primitive, const Eigen::Matrix4d& transform) {
+    const auto position = primitive.at("attributes").at("POSITION").get<std::size_t>();
+    const auto& accessor = gltf_.at("accessors").at(position);
+    const auto low = accessor.at("min").get<std::vector<double>>();
+    const auto high = accessor.at("max").get<std::vector<double>>();
+    for (int corner = 0; corner < 8; ++corner) {
+      Eigen::Vector4d point(0, 0, 0, 1);
+      for (int d = 0; d < 3; ++d) point[d] = (corner >> d & 1) != 0 ? high.at(d) : low.at(d);
+      box_.extend((transform * point).eval().head<3>());
+    }
+  }
+
+  const GltfJson& gltf_;
+  Eigen::AlignedBox3d box_;
+};
 
 struct Counts {
   std::int64_t vertices = 0, triangles = 0, joints = 0, influences = 0;
@@ -83,10 +156,17 @@ bool is_gltf_file(const std::string& path) {
 std::string describe_gltf(const std::string& path) {
   const auto bytes = io::read_file(path);
   try {
-    const auto counts = count(GltfJson::parse(json_of(bytes)));
+    const auto gltf = GltfJson::parse(json_of(bytes));
+    const auto counts = count(gltf);
+    const auto box = SceneBox(gltf).box();
     std::ostringstream text;
     text << path << ": glTF model of " << counts.vertices << " vertices, " << counts.triangles
          << " triangles\n";
+    if (!box.isEmpty()) {
+      const Eigen::IOFormat row(6, Eigen::DontAlignCols, ", ", ", ", "", "", "(", ")");
+      text << "  from " << box.min().transpose().format(row) << " to "
+           << box.max().transpose().format(row) << '\n';
+    }
     if (counts.joints > 0) {
       text << "  skin of " << counts.joints << " joints, at most " << counts.influences
            << " influences per vertex\n";

@@ -93,7 +93,13 @@ std::string facts_of(const gltf::ExportedSkin& skin, const Run<Dim>& run) {
   if (skin.influences > kFewJoints) {
     facts << "; readers of one set, such as three.js, use the largest 4";
   }
-  const double change = skin.position_change / bounding_box_diagonal<Dim>(run.shape().points);
+  const double size = bounding_box_diagonal<Dim>(run.shape().points);
+  const auto& error = skin.deformation_error;
+  if (error.max > 0) {
+    facts << "; deformation error " << 100 * error.rms / size << "% rms, " << 100 * error.max / size
+          << "% max of the size";
+  }
+  const double change = skin.position_change / size;
   if (change > kWorthReporting) {
     facts << "; single precision, which glTF uses, moves vertices by up to " << change
           << " of the size";

@@ -70,6 +70,8 @@ void compute_weights(Run<Dim>& run) {
   if (!report.parts.empty()) facts << ", " << report.parts.size() << " parts";
   if (report.iterations > 0) facts << ", " << describe_iterations(report);
   if (report.status != SolveStatus::kConverged) facts << " (not converged)";
+  const double smoothness = run.arguments.settings.options.smoothness.value_or(0);
+  if (smoothness > 0) facts << ", smoothness " << smoothness;
   facts << "; " << delivered.mean_influences
         << " influences above 1e-4 per vertex, smallest weight " << delivered.min_weight
         << ", reproduction error " << delivered.max_reproduction_error;

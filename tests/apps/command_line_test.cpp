@@ -112,6 +112,14 @@ TEST_F(CommandLine, ComparesFunctionsIn3D) {
                  "--compare in 3D needs --model");
 }
 
+TEST_F(CommandLine, MessagesThatNobodyReadsDoNotEndASolve) {
+  const std::string solve =
+      FLBC_PROGRAM " solve 2d/ring_cage.obj --method harmonic --vertices 500 -o ";
+  EXPECT_EQ(std::system(("bash -c 'set -o pipefail; " + solve + "w.npy 2>&1 | true'").c_str()), 0);
+  expect("solve 2d/ring_cage.obj --method harmonic --vertices 500 -o plain.npy");
+  EXPECT_EQ(slurp("w.npy"), slurp("plain.npy"));
+}
+
 TEST_F(CommandLine, TellsWhatIsInAFile) {
   auto result = expect("info 3d/torus_cage.obj");
   EXPECT_NE(result.output.find("a sound 3D cage of 48 control points and 96 triangles"),
@@ -138,6 +146,8 @@ TEST_F(CommandLine, TellsWhatIsInAFile) {
       EXPECT_EQ(words(info.output), words(run("info " + mesh).output));
     }
   }
+  io::write_weights("p.npy", SparseWeights(Eigen::MatrixXd{{0.0, 2.0}, {1.0, 5.0}, {-1.0, 3.0}}));
+  EXPECT_EQ(expect("info p.npy").output, "p.npy: 2 points in 3D\n  from (0, 1, -1) to (2, 5, 3)\n");
   result = expect("info " + file("scan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"));
   EXPECT_NE(result.output.find("4 vertices"), std::string::npos) << result.output;
   EXPECT_NE(result.output.find("no facets and no polylines"), std::string::npos) << result.output;

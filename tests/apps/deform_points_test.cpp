@@ -125,6 +125,8 @@ TEST_F(DeformPoints, KeepsAllOtherBytesOfPly) {
 TEST_F(DeformPoints, KeepsAllOtherBytesOfVtu) {
   for (const bool is_small : {false, true}) {
     write_vtu("p.vtu", points_, is_small);
+    const auto info = expect("info p.vtu").output;
+    EXPECT_EQ(info.find("p.vtu: 70000 points, appended to the file\n  from ("), 0U) << info;
     expect(deform("p.vtu", "q.vtu"), 0, "70000 vertices, 1 pose");
     const WeightMatrix rounded = is_small ? points_.cast<float>().cast<double>().eval() : points_;
     const auto expected = slurp(write_vtu("expected.vtu", moved(rounded), is_small));

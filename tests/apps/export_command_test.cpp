@@ -87,6 +87,13 @@ TEST_F(ExportCommand, InfoTellsWhatIsInASkin) {
   contains("animation of 1 s");
   contains("skin of " + std::to_string(skin.json["skins"][0]["joints"].size()) +
            " joints, at most 8 influences");
+  // Nodes move meshes that have no skin.
+  file("moved.gltf", R"({"nodes": [{"children": [1], "translation": [10, 0, 0]},
+                                   {"mesh": 0, "scale": [1, 2, 1], "rotation": [0, 0, 1, 0]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"count": 3, "min": [0, 0, 0], "max": [1, 1, 1]}]})");
+  const auto moved = expect("info moved.gltf").output;
+  EXPECT_NE(moved.find("from (9, -2, 0) to (10, 0, 1)"), std::string::npos) << moved;
   file("t.gltf", skin.json.dump());
   const auto words = [](const std::string& text) { return text.substr(text.find(": ")); };
   EXPECT_EQ(words(expect("info t.gltf").output), words(info));
