@@ -2,7 +2,6 @@
 // The start from a coarser mesh: what carries over exactly, and that the answer stays the same.
 #include "flbc/solver.h"
 
-#include "flbc/harmonic.h"
 #include "solver/methods/splitting/compact_splitting.h"
 #include "solver/plan/choices.h"
 #include "solver/start/transfer.h"

@@ -294,18 +294,6 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, RunsInHalfPrecisionConvergeToSmallTolera
   EXPECT_LT(squared_error(problem, half.weights, single.weights), 1e-7);
 }
 
-TEST_IN_2D_AND_3D(CompactSplittingTest, AMultigridCycleLeadsToTheSameLimit) {
-  const auto c = make_case<Dim>(Shape::kCorner);
-  const auto limit = [&](LinearSolver solver) {
-    CompactSplitting<double, Dim> splitting(c.problem, c.metric, {c.penalty, 1.5, solver});
-    splitting.start({});
-    splitting.iterate(0, 3000, false);
-    return splitting.all_weights();
-  };
-  const WeightMatrix direct = limit(LinearSolver::kDirect);
-  EXPECT_LT(squared_error(c.problem, limit(LinearSolver::kMultigrid), direct), 1e-9);
-}
-
 // kLbc2014 from its start to delivered weights, with the penalty of the literature: cells weigh
 // their squared measure, W = w weighs 1, relaxation 1.65, harmonic coordinates first.
 TEST_IN_2D_AND_3D(CompactSplittingTest, AGivenPenaltyRunsTheTextbookIteration) {
@@ -331,26 +319,6 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, AGivenPenaltyRunsTheTextbookIteration) {
       EXPECT_LT((solution.weights.dense() - weights).cwiseAbs().maxCoeff(), 1e-8) << iterations;
       EXPECT_NEAR(solution.report.published_penalty, 10, 1e-9);
     }
-  }
-}
-
-// The automatic penalty, computed from its definition.
-TEST_IN_2D_AND_3D(CompactSplittingTest, TheChosenPenaltyActsAsOneOfTheMeasure) {
-  for (const auto& sample : samples<Dim>()) {
-    SCOPED_TRACE(sample.name);
-    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
-    SolverOptions options;
-    options.method = Method::kLbc2014;
-    options.max_iterations = 1;
-    const double penalty = solve(problem, options).report.penalty;
-    double squares = 0, measure = 0;
-    for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
-      const double own = simplex_measure<Dim>(cell_corners(problem.mesh, s));
-      squares += own * own;
-      measure += own;
-    }
-    const double size = bounding_box_diagonal(problem.cage.points);
-    EXPECT_NEAR(penalty * squares, size / 30 * measure, 1e-9 * size * measure);
   }
 }
 

@@ -2,9 +2,6 @@
 // Editing a rest cage: the same optima as from scratch, in fewer iterations, for any path.
 #include "flbc/solver.h"
 
-#include <chrono>
-#include <thread>
-
 #include "support/coarse_sample_mesher.h"
 #include "support/many_iterations.h"
 #include "support/test.h"

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The library's solvers against optima of an interior-point method (tests/data/references): three
 // iterations and a fourth method that have nothing in common but the problem.
-#include "flbc/cell_locator.h"
-#include "flbc/certificate.h"
 #include "flbc/harmonic.h"
-#include "flbc/interpolate.h"
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
 #include "solver/methods/splitting/compact_splitting.h"
@@ -53,30 +50,28 @@ void expect_optimal(const LbcProblem<Dim>& problem, const WeightMatrix& weights,
   EXPECT_LT((weights - reference.weights).cwiseAbs().maxCoeff(), 1e-4);
 }
 
-TEST_IN_2D_AND_3D(OptimaTest, ValueFindsBothOptima) {
+template <int Dim>
+void expect_found(Method method, NonNegative non_negative) {
   for (const auto& reference : reference_optima<Dim>()) {
     SCOPED_TRACE(reference.name);
     const auto problem = problem_of(reference);
     expect_optimal(
-        problem,
-        solve(problem, accurate(problem, Method::kValue, NonNegative::kOff)).weights.dense(),
-        reference.unconstrained);
-    expect_optimal(
-        problem,
-        solve(problem, accurate(problem, Method::kValue, NonNegative::kConstraint)).weights.dense(),
-        reference.non_negative);
+        problem, solve(problem, accurate(problem, method, non_negative)).weights.dense(),
+        non_negative == NonNegative::kOff ? reference.unconstrained : reference.non_negative);
   }
 }
 
+TEST_IN_2D_AND_3D(OptimaTest, ValueFindsBothOptima) {
+  expect_found<Dim>(Method::kValue, NonNegative::kOff);
+  expect_found<Dim>(Method::kValue, NonNegative::kConstraint);
+}
+
+TEST_IN_2D_AND_3D(OptimaTest, GradientFindsTheUnconstrainedOptimum) {
+  expect_found<Dim>(Method::kGradient, NonNegative::kOff);
+}
+
 TEST_IN_2D_AND_3D(OptimaTest, TheOriginalSolverFindsTheUnconstrainedOptimum) {
-  for (const auto& reference : reference_optima<Dim>()) {
-    SCOPED_TRACE(reference.name);
-    const auto problem = problem_of(reference);
-    expect_optimal(
-        problem,
-        solve(problem, accurate(problem, Method::kLbc2014, NonNegative::kOff)).weights.dense(),
-        reference.unconstrained);
-  }
+  expect_found<Dim>(Method::kLbc2014, NonNegative::kOff);
 }
 
 // As published, W = w weighs 1 whatever the mesh, with which some of these would take millions of
@@ -100,17 +95,6 @@ TEST_IN_2D_AND_3D(OptimaTest, TheOriginalSolverFindsTheNonNegativeOptimum) {
     splitting.start_from_weights(harmonic_coordinates(problem));
     splitting.iterate(0, 8000, false);
     expect_optimal(problem, splitting.all_weights(), reference.non_negative);
-  }
-}
-
-TEST_IN_2D_AND_3D(OptimaTest, GradientFindsTheUnconstrainedOptimum) {
-  for (const auto& reference : reference_optima<Dim>()) {
-    SCOPED_TRACE(reference.name);
-    const auto problem = problem_of(reference);
-    expect_optimal(
-        problem,
-        solve(problem, accurate(problem, Method::kGradient, NonNegative::kOff)).weights.dense(),
-        reference.unconstrained);
   }
 }
 

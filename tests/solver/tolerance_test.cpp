@@ -106,46 +106,6 @@ TEST_IN_2D_AND_3D(ToleranceTest, HoldsOnMeshesGradedByAFactorOfAHundred) {
 
 // ---- few and many control points ----------------------------------------------------------------
 
-// An octahedron whose faces are subdivided and blown up; 4 k^2 + 2 control points.
-Cage<3> round_octahedron(Index k) {
-  // Corners are the points with integer coordinates |x| + |y| + |z| = k.
-  std::vector<Vector<3>> points;
-  const auto number = [&](const Vector<3>& point) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if ((points[i] - point).norm() < 0.5) return static_cast<Index>(i);
-    }
-    points.push_back(point);
-    return static_cast<Index>(points.size() - 1);
-  };
-  std::vector<Vector<3>> corners;  // three per face
-  for (int octant = 0; octant < 8; ++octant) {
-    const Vector<3> sign((octant & 1) ? -1 : 1, (octant & 2) ? -1 : 1, (octant & 4) ? -1 : 1);
-    const auto add = [&](Index a, Index b, int da, int db) {
-      const auto at = [&](Index x, Index y) {
-        return Vector<3>(sign.cwiseProduct(Vector<3>(x, y, k - x - y)));
-      };
-      const bool flip = sign.prod() * da * db < 0;
-      corners.push_back(at(a, b));
-      corners.push_back(flip ? at(a, b + db) : at(a + da, b));
-      corners.push_back(flip ? at(a + da, b) : at(a, b + db));
-    };
-    for (Index a = 0; a <= k; ++a) {
-      for (Index b = 0; a + b <= k; ++b) {
-        if (a + b < k) add(a, b, 1, 1);
-        if (a > 0 && b > 0) add(a, b, -1, -1);
-      }
-    }
-  }
-  Cage<3> cage;
-  cage.facets.resize(3, static_cast<Eigen::Index>(corners.size() / 3));
-  for (std::size_t c = 0; c < corners.size(); ++c) cage.facets.data()[c] = number(corners[c]);
-  cage.points.resize(3, static_cast<Eigen::Index>(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    cage.points.col(static_cast<Eigen::Index>(i)) = points[i].normalized();
-  }
-  return cage;
-}
-
 TEST(Tolerance2dTest, HoldsOnRegularPolygons) {
   for (const Index corners : {3, 4, 7, 15}) {
     SCOPED_TRACE(corners);
@@ -156,11 +116,9 @@ TEST(Tolerance2dTest, HoldsOnRegularPolygons) {
 }
 
 TEST(Tolerance3dTest, HoldsOnRoundCages) {
-  for (const Index k : {1, 2, 4}) {
-    const auto cage = round_octahedron(k);
+  for (const Index k : {1, 2, 3}) {
+    const auto cage = round_cage(k);
     SCOPED_TRACE(cage.size());
-    ASSERT_EQ(cage.size(), 4 * k * k + 2);
-    ASSERT_TRUE(find_defects(cage).empty());
     expect_promise_kept(cage, mesh_of(cage, 1500), 1500, 0.02);
   }
 }
@@ -206,7 +164,7 @@ TEST(Tolerance2dTest, IsNotClaimedTooSoonOnPolygonsOfManyCorners) {
 }
 
 TEST(Tolerance3dTest, IsNotClaimedTooSoonOnRoundCagesOfManyControlPoints) {
-  expect_no_claim(round_octahedron(8), 2000);
+  expect_no_claim(round_cage(6), 2000);
 }
 
 // Single precision ends all progress at some error, and no tolerance below it may be claimed.
@@ -257,22 +215,16 @@ void expect_promise_kept_on(const Model& model) {
   }
 }
 
-class LongTolerance2d : public ::testing::TestWithParam<Model> {};
-TEST_P(LongTolerance2d, Holds) {
-  expect_promise_kept_on<2>(GetParam());
+class LongTolerance : public ::testing::TestWithParam<Model> {};
+TEST_P(LongTolerance, Holds) {
+  GetParam().is_planar() ? expect_promise_kept_on<2>(GetParam())
+                         : expect_promise_kept_on<3>(GetParam());
 }
-INSTANTIATE_TEST_SUITE_P(Models, LongTolerance2d,
+INSTANTIATE_TEST_SUITE_P(Models, LongTolerance,
                          ::testing::Values(Model{"woody", "2d/woody-control-edgeset.obj", 2000},
                                            Model{"cactus", "2d/cactus-control-edgeset.obj", 2000},
-                                           Model{"logo", "2d/LBClogo-control-edgeset.obj", 2000}),
-                         name_of_model);
-
-class LongTolerance3d : public ::testing::TestWithParam<Model> {};
-TEST_P(LongTolerance3d, Holds) {
-  expect_promise_kept_on<3>(GetParam());
-}
-INSTANTIATE_TEST_SUITE_P(Models, LongTolerance3d,
-                         ::testing::Values(Model{"horse", "3d/horse_cage.obj", 2000},
+                                           Model{"logo", "2d/LBClogo-control-edgeset.obj", 2000},
+                                           Model{"horse", "3d/horse_cage.obj", 2000},
                                            Model{"shark", "3d/shark_cage.obj", 2000},
                                            Model{"beast", "3d/beast_cage.obj", 2000},
                                            Model{"arm", "3d/arm_cage.obj", 2500}),

@@ -179,6 +179,12 @@ Sample<Dim> make_sample(Shape shape, Index subdivisions, double jitter) {
   return sample;
 }
 
+Cage<3> round_cage(Index k) {
+  auto cage = boundary_of(make_sample<3>(Shape::kBox, k).mesh);
+  cage.points = (cage.points.array() - 0.5).matrix().colwise().normalized();
+  return cage;
+}
+
 template <int Dim>
 std::vector<Sample<Dim>> samples() {
   const bool flat = Dim == 2;

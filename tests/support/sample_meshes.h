@@ -26,6 +26,10 @@ struct Sample {
 template <int Dim>
 Cage<Dim> boundary_of(const DomainMesh<Dim>& mesh);
 
+//! The unit cube's surface, of 2 k^2 triangles a side, blown up to the unit ball; 6 k^2 + 2 control
+//! points.
+Cage<3> round_cage(Index k);
+
 //! \param subdivisions  k >= 1: every coarse cell becomes k^Dim cells
 //! \param jitter  moves interior vertices by up to this part of the least height of their cells,
 //!     the same way on every machine; 0 leaves them in place

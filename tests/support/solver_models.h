@@ -14,6 +14,8 @@ struct Model {
   const char* file;
   Index vertices;
   double finest = 0;  //!< tolerance to test; finer ones take thousands of iterations
+
+  bool is_planar() const { return file[0] == '2'; }
 };
 
 inline std::string name_of_model(const ::testing::TestParamInfo<Model>& info) {

@@ -34,8 +34,7 @@ void check_sizes(const TextbookInput<Dim>& input) {
   if (!(input.penalty > 0)) throw std::invalid_argument("textbook solver: penalty not positive");
 }
 
-}  // namespace
-
+// Projector onto the tangent space of a facet: e e^T for an edge, I - n n^T for a triangle.
 template <int Dim>
 Eigen::Matrix<double, Dim, Dim> tangent_projector(const PointList<Dim>& corners) {
   const PointList<Dim> edges = edges_of<Dim>(corners);
@@ -48,6 +47,8 @@ Eigen::Matrix<double, Dim, Dim> tangent_projector(const PointList<Dim>& corners)
     return Eigen::Matrix3d::Identity() - normal * normal.transpose();
   }
 }
+
+}  // namespace
 
 template <int Dim>
 TextbookAdmm<Dim>::TextbookAdmm(TextbookInput<Dim> input)
@@ -76,12 +77,12 @@ void TextbookAdmm<Dim>::find_facets() {
   for (const auto& [vertices, cells] : cells_by_facet(input_.mesh)) {
     if (cells.size() > 2) throw std::invalid_argument("textbook solver: a facet has three cells");
     if (cells.size() == 1) {
-      boundary_.push_back({vertices, cells});
+      boundary_.push_back(vertices);
       x_cells_.push_back(cells[0]);
       h_.push_back(linear_gradients<Dim>(corners_of<Dim>(input_.mesh.points, vertices),
                                          columns_of(input_.boundary_weights, vertices)));
     } else {
-      interior_.push_back({vertices, cells});
+      interior_.push_back(vertices);
       y_cells_.push_back(cells[0]);
       y_cells_.push_back(cells[1]);
     }
@@ -118,8 +119,7 @@ template <int Dim>
 void TextbookAdmm<Dim>::update_x() {
   const Eigen::MatrixXd p = select<Dim>(G_, x_cells_) - lambda_X_ / input_.penalty;
   for (std::size_t b = 0; b < boundary_.size(); ++b) {
-    const auto P =
-        tangent_projector<Dim>(corners_of<Dim>(input_.mesh.points, boundary_[b].vertices));
+    const auto P = tangent_projector<Dim>(corners_of<Dim>(input_.mesh.points, boundary_[b]));
     const Block p_b = p.middleRows(Dim * b, Dim);
     X_.middleRows(Dim * b, Dim) = p_b - P * (p_b - h_[b]);
   }
@@ -130,8 +130,7 @@ template <int Dim>
 void TextbookAdmm<Dim>::update_y() {
   const Eigen::MatrixXd q = select<Dim>(G_, y_cells_) - lambda_Y_ / input_.penalty;
   for (std::size_t e = 0; e < interior_.size(); ++e) {
-    const auto P =
-        tangent_projector<Dim>(corners_of<Dim>(input_.mesh.points, interior_[e].vertices));
+    const auto P = tangent_projector<Dim>(corners_of<Dim>(input_.mesh.points, interior_[e]));
     const Block q_1 = q.middleRows(2 * Dim * e, Dim);
     const Block q_2 = q.middleRows(2 * Dim * e + Dim, Dim);
     const Block d = 0.5 * P * (q_2 - q_1);
@@ -208,56 +207,11 @@ Eigen::Index TextbookAdmm<Dim>::num_residual_components() const {
 }
 
 template <int Dim>
-double TextbookAdmm<Dim>::objective() const {
-  double sum = 0;
-  for (Index s = 0; s < input_.mesh.num_cells(); ++s) {
-    for (Eigen::Index i = 0; i < n_; ++i) {
-      sum += input_.phi(i, s) * measures_[s] * G_.block(Dim * s, i, Dim, 1).norm();
-    }
-  }
-  return sum;
-}
-
-template <int Dim>
 auto TextbookAdmm<Dim>::gradient(Index cell) const -> Block {
   return G_.middleRows(Dim * cell, Dim);
 }
 
-template <int Dim>
-auto TextbookAdmm<Dim>::z(Index cell) const -> Block {
-  return Z_.middleRows(Dim * cell, Dim);
-}
-
-template <int Dim>
-auto TextbookAdmm<Dim>::lambda_z(Index cell) const -> Block {
-  return lambda_Z_.middleRows(Dim * cell, Dim);
-}
-
-template <int Dim>
-auto TextbookAdmm<Dim>::x(Index boundary_facet) const -> Block {
-  return X_.middleRows(Dim * boundary_facet, Dim);
-}
-
-template <int Dim>
-auto TextbookAdmm<Dim>::lambda_x(Index boundary_facet) const -> Block {
-  return lambda_X_.middleRows(Dim * boundary_facet, Dim);
-}
-
-template <int Dim>
-auto TextbookAdmm<Dim>::y(Index interior_facet, int side) const -> Block {
-  return Y_.middleRows(Dim * (2 * interior_facet + side), Dim);
-}
-
-template <int Dim>
-auto TextbookAdmm<Dim>::lambda_y(Index interior_facet, int side) const -> Block {
-  return lambda_Y_.middleRows(Dim * (2 * interior_facet + side), Dim);
-}
-
-#define FLBC_INSTANTIATE(Dim)                                                             \
-  template Eigen::Matrix<double, Dim, Dim> tangent_projector<Dim>(const PointList<Dim>&); \
-  template class TextbookAdmm<Dim>;
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+template class TextbookAdmm<2>;
+template class TextbookAdmm<3>;
 
 }  // namespace flbc::testing

@@ -9,11 +9,9 @@
 //! boundary values by a constant per boundary component.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "flbc/domain_mesh.h"
-#include "flbc/quality.h"
 #include "support/simplex.h"
 
 namespace flbc::testing {
@@ -37,12 +35,6 @@ class TextbookAdmm {
  public:
   using Block = PointList<Dim>;  //!< Dim x n, the gradients of w_1 .. w_n
 
-  //! A facet with its vertices ascending and its one (boundary) or two (interior) cells ascending.
-  struct Facet {
-    FacetKey<Dim> vertices;
-    std::vector<Index> cells;
-  };
-
   //! \throws std::invalid_argument if sizes do not fit, the penalty is not positive or the control
   //! points lie in a hyperplane.
   explicit TextbookAdmm(TextbookInput<Dim> input);
@@ -50,27 +42,10 @@ class TextbookAdmm {
   //! Steps 1 (X, Y, Z), 2 (G) and 3 (duals).
   void iterate();
 
-  Block gradient(Index cell) const;  //!< g_s
-  Block z(Index cell) const;         //!< z_s
-  Block lambda_z(Index cell) const;  //!< its dual
-
-  //! The facets by which x(), lambda_x() and y(), lambda_y() are numbered.
-  const std::vector<Facet>& boundary_facets() const { return boundary_; }
-  const std::vector<Facet>& interior_facets() const { return interior_; }
-
-  Block x(Index boundary_facet) const;
-  Block lambda_x(Index boundary_facet) const;
-  //! \param side  0 or 1, the place of the copy's cell in the facet's `cells`
-  Block y(Index interior_facet, int side) const;
-  Block lambda_y(Index interior_facet, int side) const;
-
-  //! Tangential gradients prescribed on a boundary facet (h_b).
-  const Block& boundary_gradient(Index boundary_facet) const { return h_[boundary_facet]; }
-
+  Block gradient(Index cell) const;              //!< g_s
   double primal_residual_norm() const;           //!< |[X - G S_X; Y - G S_Y; Z - G]|
   double dual_residual_norm() const;             //!< |mu [dG S_X; dG S_Y; dG]|, dG = change of G
   Eigen::Index num_residual_components() const;  //!< N_p = N_d
-  double objective() const;                      //!< sum_s sum_i phi A |g|, problem (7)
 
  private:
   void find_facets();
@@ -82,23 +57,17 @@ class TextbookAdmm {
   void update_duals();
 
   TextbookInput<Dim> input_;
-  Eigen::Index n_;                // control points
-  std::vector<Facet> boundary_;   // m_b facets
-  std::vector<Facet> interior_;   // m_e facets
-  std::vector<Index> x_cells_;    // S_X: the cell of each copy in X, m_b
-  std::vector<Index> y_cells_;    // S_Y: the cell of each copy in Y, 2 m_e
-  std::vector<Block> h_;          // m_b
-  std::vector<double> measures_;  // A_s
-  Block least_norm_;              // g~, Dim x n
-  Eigen::MatrixXd K_;             // n x n
+  Eigen::Index n_;                                  // control points
+  std::vector<FacetKey<Dim>> boundary_, interior_;  // m_b and m_e facets
+  std::vector<Index> x_cells_;                      // S_X: the cell of each copy in X, m_b
+  std::vector<Index> y_cells_;                      // S_Y: the cell of each copy in Y, 2 m_e
+  std::vector<Block> h_;                            // m_b
+  std::vector<double> measures_;                    // A_s
+  Block least_norm_;                                // g~, Dim x n
+  Eigen::MatrixXd K_;                               // n x n
   // Rows: Dim per cell or copy; columns: control points.
   Eigen::MatrixXd G_, previous_G_, Z_, X_, Y_, lambda_Z_, lambda_X_, lambda_Y_;
 };
-
-//! Projector onto the tangent space of a facet: e e^T for an edge, I - n n^T for a triangle.
-//! \param corners  Dim x Dim
-template <int Dim>
-Eigen::Matrix<double, Dim, Dim> tangent_projector(const PointList<Dim>& corners);
 
 extern template class TextbookAdmm<2>;
 extern template class TextbookAdmm<3>;
