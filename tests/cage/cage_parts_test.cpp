@@ -14,11 +14,6 @@ std::vector<Index> corners_from(Index first) {
   return numbers;
 }
 
-template <int Dim>
-Cage<Dim> box_beside(double low, double high) {
-  return box_cage<Dim>(Vector<Dim>::Constant(low), Vector<Dim>::Constant(high));
-}
-
 TEST_IN_2D_AND_3D(CagePartsTest, NestsAndNeighbours) {
   constexpr Index n = 1 << Dim;
   // A nest of five boxes around the origin, of which two are holes, given from the middle outward
@@ -27,8 +22,8 @@ TEST_IN_2D_AND_3D(CagePartsTest, NestsAndNeighbours) {
   cage = join(cage, box_cage<Dim>(1));
   cage = join(cage, box_cage<Dim>(0.3));  // a hole in the innermost but one
   cage = join(cage, reversed(box_cage<Dim>(0.1)));
-  cage = join(cage, box_beside<Dim>(5, 6));
-  cage = join(join(cage, box_beside<Dim>(2, 3)), box_beside<Dim>(2.2, 2.8));
+  cage = join(cage, box_cage<Dim>(5, 6));
+  cage = join(join(cage, box_cage<Dim>(2, 3)), box_cage<Dim>(2.2, 2.8));
   const auto parts = cage_parts(cage);
   ASSERT_EQ(parts.size(), 5u);
   EXPECT_EQ(measure_cage(cage).parts, 5);

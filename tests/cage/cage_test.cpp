@@ -202,8 +202,7 @@ TEST(Cage3Test, NonManifoldEdge) {
 
 TEST(Cage3Test, NonManifoldVertex) {
   // Two boxes that touch in one corner, which they share.
-  Cage<3> cage = join(box_cage<3>(Vector<3>::Zero(), Vector<3>::Ones()),
-                      box_cage<3>(Vector<3>::Ones(), Vector<3>::Constant(2)));
+  Cage<3> cage = join(box_cage<3>(0, 1), box_cage<3>(1, 2));
   for (Index& vertex : cage.facets.reshaped()) {
     if (vertex == 8) vertex = 7;
     if (vertex > 8) --vertex;

@@ -12,7 +12,7 @@ Cage<2> box_with_short_edge(double width) {
 }
 
 Cage<3> box_with_needles(double width) {
-  auto cage = flbc::testing::box_cage<3>(Vector<3>::Zero(), Vector<3>::Ones());
+  auto cage = flbc::testing::box_cage<3>(0, 1);
   cage.points.conservativeResize(3, 9);
   cage.points.col(8) << 1, 1 - width, 1;
   cage.facets.resize(3, 14);

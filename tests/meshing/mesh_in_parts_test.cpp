@@ -8,25 +8,11 @@
 namespace flbc::testing {
 namespace {
 
-template <int Dim>
-DomainMesh<Dim> fill(const Cage<Dim>& cage, const MeshingOptions<Dim>& options) {
-  if constexpr (Dim == 2) {
-    return triangulate(cage, options);
-  } else {
-    return tetrahedralize(cage, options);
-  }
-}
-
-template <int Dim>
-Cage<Dim> box_beside(double low, double high) {
-  return box_cage<Dim>(Vector<Dim>::Constant(low), Vector<Dim>::Constant(high));
-}
-
 // A box with a hole in which there is another box; and a large separate box.
 template <int Dim>
 Cage<Dim> three_parts() {
   return join(join(join(box_cage<Dim>(0.3), box_cage<Dim>(1)), reversed(box_cage<Dim>(0.6))),
-              box_beside<Dim>(3, 6));
+              box_cage<Dim>(3, 6));
 }
 
 TEST_IN_2D_AND_3D(MeshInPartsTest, PartsAreThoseMadeAlone) {

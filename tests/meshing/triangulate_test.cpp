@@ -68,64 +68,20 @@ TEST(TriangulateTest, LoopsMayComeInAnyOrder) {
   expect_fills(cage, triangulate(cage, vertices<2>(500)), 3);
 }
 
-TEST(TriangulateTest, IslandsAndSeparateLoopsAreRefused) {
-  const Cage<2> island = join(square_with_hole(false, false), box_cage<2>(0.25));
-  EXPECT_THROW(triangulate(island, vertices<2>(500)), InputError);
-  const Cage<2> apart = join(box_cage<2>({0, 0}, {1, 1}), box_cage<2>({2, 0}, {3, 1}));
-  EXPECT_THROW(triangulate(apart, vertices<2>(500)), InputError);
-}
-
 TEST(TriangulateTest, DefectiveCagesAreRefused) {
   const Cage<2> box = box_cage<2>(1);
-  const auto refusal = [](const Cage<2>& cage) {
-    return message_of<InputError>([&] { triangulate(cage); });
-  };
-  EXPECT_NE(refusal(without_facet(box, 1)).find("open"), std::string::npos);
+  expect_refused("open", [&] { triangulate(without_facet(box, 1)); });
   Cage<2> crossing = box;  // corners 1 and 3 swapped: a figure of eight
   crossing.points.col(1).swap(crossing.points.col(3));
-  EXPECT_NE(refusal(crossing).find("cross near (0, 0)"), std::string::npos);
+  expect_refused("cross near (0, 0)", [&] { triangulate(crossing); });
   const Cage<2> overlapping = join(box, box_cage<2>({0, 0}, {3, 3}));
-  EXPECT_NE(refusal(overlapping).find("cross"), std::string::npos);
+  expect_refused("cross", [&] { triangulate(overlapping); });
 }
 
-TEST(TriangulateTest, EmbeddedPointsFollowTheControlPoints) {
-  PointList<2> points{{0.1, -0.7, 0.123456789, -0.9999}, {-0.75, 0.7, 0.987654321, 0.1 + 0.2}};
-  const Cage<2> cage = square_with_hole(false, true);
-  for (Index count : {0, 2000}) {
-    const DomainMesh<2> mesh = triangulate(cage, vertices<2>(count, points));
-    expect_fills(cage, mesh, 3);
-    expect_vertices<2>(mesh, cage.size(), points);
-    if (count > 0) expect_count(mesh, count, 0.05);
-  }
-}
-
-TEST(TriangulateTest, PointsThatCannotBeEmbedded) {
+TEST(TriangulateTest, TheFewestVerticesThatQualityDemandsAreEnough) {
   const Cage<2> cage = square_with_hole(false, false);
-  const auto refusal = [&](const Vector<2>& second) {
-    PointList<2> points(2, 2);
-    points << Vector<2>(0.75, 0.75), second;
-    return message_of<InputError>([&] { triangulate(cage, vertices<2>(0, points)); });
-  };
-  EXPECT_NE(refusal({2, 0.5}).find("point 1 at (2, 0.5) cannot be embedded: it is outside"),
-            std::string::npos);
-  EXPECT_NE(refusal({0.1, 0.2}).find("outside"), std::string::npos) << "in the hole";
-  EXPECT_NE(refusal({1, 0.2}).find("on the cage"), std::string::npos);
-  EXPECT_NE(refusal({1, 1}).find("control point 3"), std::string::npos);
-  EXPECT_NE(refusal({1, 1}).find("distinct points"), std::string::npos);
-  EXPECT_NE(refusal({0.75, 0.75}).find("coincides with point 0"), std::string::npos);
-  EXPECT_NE(refusal({std::nan(""), 0.75}).find("not finite"), std::string::npos);
-}
-
-TEST(TriangulateTest, OptionsOutOfRange) {
-  const Cage<2> cage = square_with_hole(false, false);
-  const Index minimum = triangulate(cage).num_vertices();
-  const std::string text =
-      message_of<TooFewVertices>([&] { triangulate(cage, vertices<2>(minimum / 2)); });
-  EXPECT_NE(text.find("vertices: "), std::string::npos);
-  EXPECT_NE(text.find(std::to_string(minimum)), std::string::npos);
-  EXPECT_EQ(triangulate(cage, vertices<2>(minimum)).num_vertices(), minimum);
-  EXPECT_THROW(triangulate(cage, vertices<2>(-1)), OptionError);
-  EXPECT_THROW(triangulate(cage, vertices<2>(2000000000)), OptionError);
+  const Index fewest = triangulate(cage).num_vertices();
+  EXPECT_EQ(triangulate(cage, vertices<2>(fewest)).num_vertices(), fewest);
 }
 
 // Walls of a square ring that only millions of triangles of good shape would fill.
@@ -134,15 +90,9 @@ TEST(TriangulateTest, StopsAtTheTimeLimit) {
   MeshingOptions<2> options;
   options.time_limit = 0.2;
   const auto start = std::chrono::steady_clock::now();
-  const auto text = message_of<InputError>([&] { triangulate(ring, options); });
+  expect_refused("time limit of 0.2 s (time_limit)", [&] { triangulate(ring, options); });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  EXPECT_NE(text.find("time limit of 0.2 s (time_limit)"), std::string::npos) << text;
   EXPECT_LT(seconds.count(), 5);
-}
-
-TEST(TriangulateTest, RunsAgreeBitByBit) {
-  const Cage<2> cage = square_with_hole(true, false);
-  expect_reproducible([&] { return triangulate(cage, vertices<2>(3000)); });
 }
 
 TEST(TriangulateTest, RealCages) {
@@ -159,15 +109,6 @@ TEST(TriangulateTest, RealCages) {
     EXPECT_GT(smallest_angle_in_degrees(mesh), 20) << c.name;
     EXPECT_TRUE(covers_edges(cage, mesh)) << c.name;
   }
-}
-
-TEST(TriangulateTest, RealModelEmbedded) {
-  if (!has_model("2d/woody_model.obj")) GTEST_SKIP() << "the real models are absent";
-  const Cage<2> cage = load_cage<2>("2d/woody-control-edgeset.obj");
-  const PointList<2> model = load_cage<2>("2d/woody_model.obj").points;
-  const DomainMesh<2> mesh = triangulate(cage, vertices<2>(0, model));
-  expect_fills(cage, mesh, std::abs(enclosed_measure(cage)));
-  expect_vertices<2>(mesh, cage.size(), model);
 }
 
 }  // namespace

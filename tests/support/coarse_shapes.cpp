@@ -4,42 +4,27 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <stdexcept>
 
 namespace flbc::testing {
 namespace {
 
 // The coarse meshes have no vertices but the corners of the shape (and the center of the star).
 DomainMesh<2> coarse_polygon(Shape shape) {
-  DomainMesh<2> mesh;
   if (shape == Shape::kBox) {
-    mesh.points.resize(2, 4);
-    mesh.points << 0, 1, 0, 1,  //
-        0, 0, 1, 1;
-    mesh.cells.resize(3, 2);
-    mesh.cells << 0, 0,  //
-        1, 2,            //
-        3, 3;
-  } else if (shape == Shape::kCorner) {
-    mesh.points.resize(2, 6);
-    mesh.points << 0, 2, 2, 1, 1, 0,  //
-        0, 0, 1, 1, 2, 2;
-    mesh.cells.resize(3, 4);
-    mesh.cells << 0, 1, 0, 3,  //
-        1, 2, 3, 4,            //
-        3, 3, 5, 5;
-  } else {
-    mesh.points.resize(2, 8);
-    mesh.points << 0, 3, 3, 0, 1, 2, 2, 1,  //
-        0, 0, 3, 3, 1, 1, 2, 2;
-    mesh.cells.resize(3, 8);
-    for (Index k = 0; k < 4; ++k) {
-      const Index next = (k + 1) % 4;
-      mesh.cells.col(2 * k) << k, next, next + 4;
-      mesh.cells.col(2 * k + 1) << k, next + 4, k + 4;
-    }
+    return {PointList<2>{{0, 1, 0, 1}, {0, 0, 1, 1}}, CellList<2>{{0, 0}, {1, 2}, {3, 3}}};
   }
-  return mesh;
+  if (shape == Shape::kCorner) {
+    return {PointList<2>{{0, 2, 2, 1, 1, 0}, {0, 0, 1, 1, 2, 2}},
+            CellList<2>{{0, 1, 0, 3}, {1, 2, 3, 4}, {3, 3, 5, 5}}};
+  }
+  DomainMesh<2> ring{PointList<2>{{0, 3, 3, 0, 1, 2, 2, 1}, {0, 0, 3, 3, 1, 1, 2, 2}},
+                     CellList<2>(3, 8)};
+  for (Index k = 0; k < 4; ++k) {
+    const Index next = (k + 1) % 4;
+    ring.cells.col(2 * k) << k, next, next + 4;
+    ring.cells.col(2 * k + 1) << k, next + 4, k + 4;
+  }
+  return ring;
 }
 
 // Prisms of height 1 over the triangles, each cut into tetrahedra along the monotone paths through
@@ -118,19 +103,8 @@ DomainMesh<Dim> coarse_mesh(Shape shape) {
 }
 
 std::string shape_name(Shape shape) {
-  switch (shape) {
-    case Shape::kSimplex:
-      return "simplex";
-    case Shape::kBox:
-      return "box";
-    case Shape::kCorner:
-      return "corner";
-    case Shape::kRing:
-      return "ring";
-    case Shape::kStar:
-      return "star";
-  }
-  throw std::invalid_argument("sample mesh: unknown shape");
+  constexpr const char* kNames[] = {"simplex", "box", "corner", "ring", "star"};  // as in Shape
+  return kNames[static_cast<int>(shape)];
 }
 
 template DomainMesh<2> coarse_mesh<2>(Shape);

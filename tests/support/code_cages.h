@@ -33,10 +33,16 @@ Cage<Dim> box_cage(const Vector<Dim>& low, const Vector<Dim>& high) {
   return cage;
 }
 
+//! From (low, ..) to (high, ..).
+template <int Dim>
+Cage<Dim> box_cage(double low, double high) {
+  return box_cage<Dim>(Vector<Dim>::Constant(low), Vector<Dim>::Constant(high));
+}
+
 //! A box around the origin with sides of length 2 * half.
 template <int Dim>
 Cage<Dim> box_cage(double half) {
-  return box_cage<Dim>(Vector<Dim>::Constant(-half), Vector<Dim>::Constant(half));
+  return box_cage<Dim>(-half, half);
 }
 
 //! A closed loop through the points in order.

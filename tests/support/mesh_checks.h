@@ -16,6 +16,15 @@ MeshingOptions<Dim> vertices(Index count, const PointList<Dim>& embedded = Point
   return options;
 }
 
+template <int Dim>
+DomainMesh<Dim> fill(const Cage<Dim>& cage, const MeshingOptions<Dim>& options) {
+  if constexpr (Dim == 2) {
+    return triangulate(cage, options);
+  } else {
+    return tetrahedralize(cage, options);
+  }
+}
+
 //! Two runs are bit-identical. \param make  gives a mesh
 template <class Make>
 void expect_reproducible(const Make& make) {
@@ -145,18 +154,6 @@ void expect_fills(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, double int
 template <int Dim>
 void expect_count(const DomainMesh<Dim>& mesh, Index wanted, double tolerance) {
   EXPECT_NEAR(mesh.num_vertices(), wanted, tolerance * wanted);
-}
-
-//! Runs `action` and returns the text of the exception of type `Exception`, which it must throw.
-template <class Exception, class Action>
-std::string message_of(const Action& action) {
-  try {
-    action();
-  } catch (const Exception& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "the expected exception was not thrown";
-  return "";
 }
 
 }  // namespace flbc::testing
