@@ -9,85 +9,6 @@
 namespace flbc::testing {
 namespace {
 
-template <int Dim>
-struct ControlPoints {
-  std::string name;
-  PointList<Dim> points;
-};
-
-// The lattice points of a box with `side` points a side, inner ones left out: many in each facet,
-// many on each edge.
-template <int Dim>
-PointList<Dim> lattice(int side) {
-  PointList<Dim> points(Dim, 0);
-  for (int k = 0; k < std::pow(side, Dim); ++k) {
-    Vector<Dim> point;
-    bool outer = false;
-    for (int d = 0, rest = k; d < Dim; ++d, rest /= side) {
-      point[d] = rest % side;
-      outer |= rest % side == 0 || rest % side == side - 1;
-    }
-    if (!outer) continue;
-    points.conservativeResize(Dim, points.cols() + 1);
-    points.col(points.cols() - 1) = point / (side - 1);
-  }
-  return points;
-}
-
-template <int Dim>
-std::vector<ControlPoints<Dim>> awkward_control_points() {
-  Numbers numbers(3);
-  const PointList<Dim> box = lattice<Dim>(4);
-  PointList<Dim> twice(Dim, 2 * box.cols());
-  twice << box, box;
-  PointList<Dim> nearly_twice = twice;
-  nearly_twice.rightCols(box.cols()).array() += 1e-9;
-  PointList<Dim> flat = box;
-  flat.row(0) *= 1e-6;
-  PointList<Dim> in_plane = box;
-  in_plane.row(0).setConstant(0.5);
-  return {{"simplex", numbers.matrix(Dim, Dim + 1, -1, 1)},
-          {"few", numbers.matrix(Dim, 7, -1, 1)},
-          {"many", numbers.matrix(Dim, 250, -1, 1)},
-          {"box", box},
-          {"rough box", box + numbers.matrix(Dim, box.cols(), -1e-5, 1e-5)},
-          {"smooth box", box + numbers.matrix(Dim, box.cols(), -1e-12, 1e-12)},
-          {"twice", twice},
-          {"nearly twice", nearly_twice},
-          {"flat", flat},
-          {"in a plane", in_plane},
-          {"far", (box.array() + 1e3).matrix()},
-          {"large", 1e25 * box},
-          {"small", 1e-25 * box}};
-}
-
-// Points inside, in facets and edges of the hull, at control points and next to the hull.
-template <int Dim>
-PointList<Dim> awkward_points(const PointList<Dim>& control_points, Numbers& numbers, int count) {
-  const auto n = static_cast<int>(control_points.cols());
-  const double size = bounding_box_diagonal<Dim>(control_points);
-  PointList<Dim> points(Dim, count);
-  for (int k = 0; k < count; ++k) {
-    Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
-    Vector<Dim> aside = Vector<Dim>::Zero();
-    if (k % 4 == 0) weights = numbers.convex(n);
-    if (k % 4 == 1) weights[numbers.below(n)] = 1;
-    if (k % 4 == 2) weights(std::vector<int>{numbers.below(n), numbers.below(n)}).setConstant(0.5);
-    if (k % 4 == 3) {
-      // On the side of the hull where one coordinate is largest, or 1e-15 of the size outside it.
-      const int axis = numbers.below(Dim);
-      const double largest = control_points.row(axis).maxCoeff();
-      const Eigen::VectorXd mixture = numbers.convex(n);
-      for (int i = 0; i < n; ++i) {
-        if (control_points(axis, i) >= largest - 1e-7 * size) weights[i] = mixture[i];
-      }
-      aside[axis] = numbers.uniform(-1e-15, 1e-15) * size;
-    }
-    points.col(k) = control_points * (weights / weights.sum()) + aside;
-  }
-  return points;
-}
-
 // Rows that need anything from a small correction to a miracle.
 WeightMatrix awkward_rows(Eigen::Index n, Eigen::Index count, Numbers& numbers) {
   WeightMatrix rows = numbers.matrix(n, count, -1, 1);
@@ -219,31 +140,25 @@ TEST_IN_2D_AND_3D(NonNegativeTest, PointsOutsideAreNamed) {
   points(0, 321) = -1;
   const WeightMatrix rows = WeightMatrix::Constant(control_points.cols(), 400, -1);
   auto weights = rows;
-  expect_error<InputError>(
-      [&] { return project_non_negative<Dim>(control_points, points, weights); },
-      {"point 123", "(10.25, 5", "by 0.25"});
-  weights = rows;
+  const auto refused = [&](std::initializer_list<std::string> pieces) {
+    expect_error<InputError>(
+        [&] { return project_non_negative<Dim>(control_points, points, weights); }, pieces);
+  };
+  refused({"point 123", "(10.25, 5", "by 0.25"});
   const double inf = std::numeric_limits<double>::infinity();
   weights(2, 7) = inf;
-  expect_error<InputError>(
-      [&] { return project_non_negative<Dim>(control_points, points, weights); },
-      {"point 7", "(5, 5"});
+  refused({"point 7", "(5, 5"});
   weights = rows;
   points(0, 123) = inf;
-  expect_error<InputError>(
-      [&] { return project_non_negative<Dim>(control_points, points, weights); }, {"point 123"});
-  expect_error<InputError>(
-      [&] {
-        return project_non_negative<Dim>(control_points, points, weights, std::vector<Index>{400});
-      },
-      {"400"});
+  refused({"point 123"});
+  const std::vector<Index> absent{400};
+  expect_refused(
+      "400", [&] { return project_non_negative<Dim>(control_points, points, weights, absent); });
   points.conservativeResize(Dim, 300);
-  expect_error<InputError>(
-      [&] { return project_non_negative<Dim>(control_points, points, weights); }, {"300", "400"});
+  refused({"300", "400"});
   points(0, 123) = 10 + 2e-6 * size;
   weights.conservativeResize(control_points.cols(), 300);
-  expect_error<InputError>(
-      [&] { return project_non_negative<Dim>(control_points, points, weights); }, {"point 123"});
+  refused({"point 123"});
   points(0, 123) = 10 + 0.5e-6 * size;
   weights = project_non_negative<Dim>(control_points, points, weights).dense();
   EXPECT_LE((control_points * weights.col(123) - points.col(123)).norm(), 0.6e-6 * size);

@@ -2,7 +2,6 @@
 #include "flbc/sparsify.h"
 
 #include "flbc/poses.h"
-#include "support/io_files.h"
 #include "support/poisson_problem.h"
 #include "support/test.h"
 
@@ -11,9 +10,8 @@ namespace {
 
 TEST_IN_2D_AND_3D(PoissonReductionTest, KeepsTheConstraintsWhateverComes) {
   Numbers numbers(28);
-  int number = 0;
-  for (const auto& control_points : awkward_cages<Dim>()) {
-    SCOPED_TRACE("cage " + std::to_string(number++));
+  for (const auto& [name, control_points] : awkward_control_points<Dim>()) {
+    SCOPED_TRACE(name);
     auto problem = problem_on_a_curve<Dim>(control_points, 40, 0.3);
     const auto n = control_points.cols();
     // Every other row has negative weights, and does not reproduce.

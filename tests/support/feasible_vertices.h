@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! All basic feasible solutions of one row of weights, by trying every basis: what sums up the set
-//! of feasible weights of a point for few control points.
+//! Control points and points that could need special care, and all basic feasible solutions of one
+//! row of weights, by trying every basis: what sums up the set of feasible weights of a point for
+//! few control points.
 #pragma once
 
 #include "flbc/types.h"
@@ -58,5 +59,89 @@ class Numbers {
  private:
   std::mt19937 engine_;
 };
+
+//! Control points by a name for failing tests.
+template <int Dim>
+struct ControlPoints {
+  std::string name;
+  PointList<Dim> points;
+};
+
+//! The lattice points of a box with `side` points a side, inner ones left out: many in each facet,
+//! many on each edge.
+template <int Dim>
+PointList<Dim> lattice(int side) {
+  PointList<Dim> points(Dim, 0);
+  for (int k = 0; k < std::pow(side, Dim); ++k) {
+    Vector<Dim> point;
+    bool outer = false;
+    for (int d = 0, rest = k; d < Dim; ++d, rest /= side) {
+      point[d] = rest % side;
+      outer |= rest % side == 0 || rest % side == side - 1;
+    }
+    if (!outer) continue;
+    points.conservativeResize(Dim, points.cols() + 1);
+    points.col(points.cols() - 1) = point / (side - 1);
+  }
+  return points;
+}
+
+//! Control points of every kind that could need special care.
+template <int Dim>
+std::vector<ControlPoints<Dim>> awkward_control_points() {
+  Numbers numbers(3);
+  const PointList<Dim> box = lattice<Dim>(4);
+  PointList<Dim> twice(Dim, 2 * box.cols());
+  twice << box, box;
+  PointList<Dim> nearly_twice = twice;
+  nearly_twice.rightCols(box.cols()).array() += 1e-9;
+  PointList<Dim> flat = box;
+  flat.row(0) *= 1e-6;
+  PointList<Dim> in_plane = box;
+  in_plane.row(0).setConstant(0.5);
+  PointList<Dim> in_line = box;
+  in_line.topRows(Dim - 1).setConstant(0.5);
+  return {{"simplex", numbers.matrix(Dim, Dim + 1, -1, 1)},
+          {"few", numbers.matrix(Dim, 7, -1, 1)},
+          {"many", numbers.matrix(Dim, 250, -1, 1)},
+          {"box", box},
+          {"rough box", box + numbers.matrix(Dim, box.cols(), -1e-5, 1e-5)},
+          {"smooth box", box + numbers.matrix(Dim, box.cols(), -1e-12, 1e-12)},
+          {"twice", twice},
+          {"nearly twice", nearly_twice},
+          {"flat", flat},
+          {"in a plane", in_plane},
+          {"in a line", in_line},
+          {"far", (box.array() + 1e3).matrix()},
+          {"large", 1e25 * box},
+          {"small", 1e-25 * box}};
+}
+
+//! Points inside, in facets and edges of the hull, at control points and next to the hull.
+template <int Dim>
+PointList<Dim> awkward_points(const PointList<Dim>& control_points, Numbers& numbers, int count) {
+  const auto n = static_cast<int>(control_points.cols());
+  const double size = bounding_box_diagonal<Dim>(control_points);
+  PointList<Dim> points(Dim, count);
+  for (int k = 0; k < count; ++k) {
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
+    Vector<Dim> aside = Vector<Dim>::Zero();
+    if (k % 4 == 0) weights = numbers.convex(n);
+    if (k % 4 == 1) weights[numbers.below(n)] = 1;
+    if (k % 4 == 2) weights(std::vector<int>{numbers.below(n), numbers.below(n)}).setConstant(0.5);
+    if (k % 4 == 3) {
+      // On the side of the hull where one coordinate is largest, or 1e-15 of the size outside it.
+      const int axis = numbers.below(Dim);
+      const double largest = control_points.row(axis).maxCoeff();
+      const Eigen::VectorXd mixture = numbers.convex(n);
+      for (int i = 0; i < n; ++i) {
+        if (control_points(axis, i) >= largest - 1e-7 * size) weights[i] = mixture[i];
+      }
+      aside[axis] = numbers.uniform(-1e-15, 1e-15) * size;
+    }
+    points.col(k) = control_points * (weights / weights.sum()) + aside;
+  }
+  return points;
+}
 
 }  // namespace flbc::testing

@@ -91,29 +91,4 @@ void expect_sparse_coordinates(const PointList<Dim>& control_points, const Point
   }
 }
 
-//! Control points of every kind that could need special care.
-template <int Dim>
-std::vector<PointList<Dim>> awkward_cages() {
-  Numbers numbers(5);
-  PointList<Dim> box(Dim, static_cast<int>(std::pow(3, Dim)));
-  for (int k = 0; k < box.cols(); ++k) {
-    for (int axis = 0, rest = k; axis < Dim; ++axis, rest /= 3) box(axis, k) = rest % 3;
-  }
-  PointList<Dim> twice(Dim, 2 * box.cols());
-  twice << box, box;
-  PointList<Dim> in_plane = box, in_line = box, thin = box;
-  in_plane.row(0).setConstant(0.5);
-  in_line.topRows(Dim - 1).setConstant(0.5);
-  thin.row(0) *= 1e-7;
-  return {numbers.matrix(Dim, 12, -1, 1),
-          numbers.matrix(Dim, 80, -1, 1),
-          box,
-          twice,
-          in_plane,
-          in_line,
-          thin,
-          (box.array() + 1e3).matrix(),
-          1e20 * box};
-}
-
 }  // namespace flbc::testing
