@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "flbc/cell_locator.h"
-#include "flbc/interpolate.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
@@ -58,7 +56,7 @@ TEST_F(CheckCommand, EveryDefectIsListedAndTheFirstIsTheMessage) {
                {"not a cage, 4 defects", "control point 5 at (6, 6) belongs to no edge",
                 "open at control point 0 at (0, 0)"},
                {"bad.obj: control point 4 at (5, 5) belongs to no edge"});
-  const auto json = Json::parse(slurp("r.json"));
+  const auto json = json_in("r.json");
   EXPECT_EQ(json["fine"], false);
   EXPECT_EQ(json["cage"]["sound"], false);
   EXPECT_EQ(json["cage"]["defects"].size(), 4);
@@ -80,8 +78,6 @@ TEST_F(CheckCommand, DefectsOfPolygonsNameTheFacesOfTheFile) {
   }
 }
 
-// A cube with another corner so near the last that no mesher can separate them; reported before
-// meshing.
 // What is sound can be solved, also far from the origin, and the box keeps its digits there.
 // Farther away, cages are refused before anything is written.
 TEST_F(CheckCommand, CagesFarAwayAreSolvedOrRefused) {
@@ -120,6 +116,7 @@ TEST_F(CheckCommand, CagesFarAwayAreSolvedOrRefused) {
   }
 }
 
+// A cube with another corner so near the last that no mesher can separate them.
 TEST_F(CheckCommand, CagesTooThinAreRefusedBeforeTheyAreMeshed) {
   const auto cage = file("thin.obj",
                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"
@@ -144,12 +141,11 @@ TEST_F(CheckCommand, SmoothnessShowsInJumpsAndCreases) {
     expect("solve " + cage + " --model " + model + " --vertices 2000 --smoothness " + smoothness +
                " -o w" + end + ".npy --report s" + end + ".json",
            0);
-    EXPECT_EQ(Json::parse(slurp("s" + end + ".json"))["options"]["smoothness"],
-              std::stod(smoothness));
+    EXPECT_EQ(json_in("s" + end + ".json")["options"]["smoothness"], std::stod(smoothness));
     expect_check(cage + " --model " + model + " --weights w" + end +
                      ".npy --pose 3d/limb_cage_pose.obj --json c" + end + ".json",
                  0, {"Creases in the pose: "});
-    return Json::parse(slurp("c" + end + ".json"));
+    return json_in("c" + end + ".json");
   };
   const auto rough = measured("0"), smooth = measured("0.01");
   EXPECT_GT(rough["creases"]["edges"], 100);
@@ -166,7 +162,7 @@ TEST_F(CheckCommand, ModelsOutsideAreCountedAndNamed) {
   const auto model = file("model.obj", "v 1 1 0\nv 5 1 0\nv 2 -1 0\nv 0 2 0\n");
   expect_check(cage + " --model " + model + " --json r.json", 0,
                {"2 of 4 vertices are outside the cage; the farthest is vertex 1 at (5, 1)"});
-  const auto json = Json::parse(slurp("r.json"))["model"];
+  const auto json = json_in("r.json")["model"];
   EXPECT_EQ(json["outside"], 2);
   EXPECT_EQ(json["first_outside"]["point"], 1);
   EXPECT_EQ(json["farthest_outside"]["distance"], 1);
@@ -201,21 +197,18 @@ TEST_F(CheckCommand, WeightsOfModelsAndOnMeshes) {
     EXPECT_EQ(result.output.find("total variation"), std::string::npos) << result.output;
     expect_check(cage + " --domain " + domain_file + " --weights v.npy --json d.json", 0,
                  {"linear on facets", "influences / harmonic           1 "});
-    return std::pair(Json::parse(slurp("m.json")), Json::parse(slurp("d.json")));
+    return std::pair(json_in("m.json"), json_in("d.json"));
   };
   {
     const auto [at_model, on_mesh] = check("2d/letter", "d.obj");
-    expect_measures<2>(
-        at_model, "2d/letter_cage.obj",
-        io::to_points<2>(io::read_polygons("2d/letter_model.obj"), "2d/letter_model.obj"), "w.npy");
+    expect_measures<2>(at_model, "2d/letter_cage.obj", points_in<2>("2d/letter_model.obj"),
+                       "w.npy");
     expect_measures<2>(on_mesh, "2d/letter_cage.obj", io::read_domain<2>("d.obj").points, "v.npy");
     EXPECT_EQ(on_mesh["weights"]["control_points_found"], 24);
     EXPECT_NEAR(on_mesh["weights"]["mesh"]["influence_ratio"].get<double>(), 1, 1e-3);
   }
   const auto [at_model, on_mesh] = check("3d/limb", "d.mesh");
-  expect_measures<3>(at_model, "3d/limb_cage.obj",
-                     io::to_points<3>(io::read_polygons("3d/limb_model.obj"), "3d/limb_model.obj"),
-                     "w.npy");
+  expect_measures<3>(at_model, "3d/limb_cage.obj", points_in<3>("3d/limb_model.obj"), "w.npy");
   expect_measures<3>(on_mesh, "3d/limb_cage.obj", io::read_domain<3>("d.mesh").points, "v.npy");
   EXPECT_FALSE(at_model["weights"].contains("mesh"));
 }
@@ -230,9 +223,9 @@ TEST_F(CheckCommand, DefaultResultsAreFine) {
       expect_check("2d/figure_cage.obj --domain d.obj --weights w.npy --json c.json", 0,
                    {" deep (within solver accuracy), ", "weighted total"});
   EXPECT_EQ(checked.output.find("  no  "), std::string::npos) << checked.output;
-  const auto mesh = Json::parse(slurp("c.json"))["weights"]["mesh"];
+  const auto mesh = json_in("c.json")["weights"]["mesh"];
   const double weighted = mesh["weighted_variation"];
-  const double objective = Json::parse(slurp("r.json"))["objective"];
+  const double objective = json_in("r.json")["objective"];
   EXPECT_NEAR(weighted, objective, 1e-6 * objective);
   EXPECT_LT(weighted, 0.9 * mesh["harmonic_weighted_variation"].get<double>());
 }

@@ -19,7 +19,7 @@ TEST_F(CompareCommand, ListsAllCoordinatesWithFilesThatExist) {
     const std::string name = dim == "2d" ? "2d/figure" : "3d/limb";
     expect("compare " + name + "_cage.obj " + name + "_model.obj --pose " + name +
            "_cage.obj -q --vertices 500 -o " + folder);
-    const auto report = nlohmann::json::parse(slurp(folder + "/table.json"));
+    const auto report = json_in(folder + "/table.json");
     const auto& columns = report["columns"];
     EXPECT_EQ(columns.size(), dim == "2d" ? 9U : 8U);
     for (const auto& [method, facts] : columns.items()) {
@@ -45,11 +45,11 @@ TEST_F(CompareCommand, ListsAllCoordinatesWithFilesThatExist) {
 TEST_F(CompareCommand, TheMeshWithoutAModelHasTheRowOfCheck) {
   const std::string folder = "compared";
   expect("compare 2d/figure_cage.obj -q --vertices 500 --methods local,meanvalue -o " + folder);
-  const auto columns = nlohmann::json::parse(slurp(folder + "/table.json"))["columns"];
+  const auto columns = json_in(folder + "/table.json")["columns"];
   for (const std::string name : {"local", "local_smooth", "meanvalue"}) {
     expect("check 2d/figure_cage.obj --domain " + folder + "/domain.obj --weights " + folder +
            "/weights_" + name + ".npy --json check.json");
-    const auto properties = nlohmann::json::parse(slurp("check.json"))["weights"]["properties"];
+    const auto properties = json_in("check.json")["weights"]["properties"];
     EXPECT_EQ(properties.size(), 7U);
     for (const auto& [key, value] : properties.items()) {
       EXPECT_NEAR(value.get<double>(), columns[name][key].get<double>(), 1e-9) << name << key;
@@ -83,7 +83,7 @@ TEST_F(CompareCommand, PicturesAreSeenAsThoseOfDraw) {
 
 TEST_F(CompareCommand, AMethodThatFailsSaysWhyAndTheOthersContinue) {
   expect("compare 3d/limb_cage.obj -q --vertices 500 --methods blended,meanvalue -o compared");
-  const auto report = nlohmann::json::parse(slurp("compared/table.json"));
+  const auto report = json_in("compared/table.json");
   EXPECT_EQ(report["columns"].size(), 1U);
   EXPECT_NE(report["failures"]["blended"].get<std::string>().find("in 2D"), std::string::npos);
   EXPECT_NE(slurp("compared/table.txt").find("blended failed: "), std::string::npos);
@@ -116,7 +116,7 @@ TEST_F(CompareCommand, SolvesWithoutAMeshAsOnTheVerticesThemselves) {
     const auto on_mesh = io::read_weights("mesh.npy").dense();
     const auto at_model = io::read_weights("model.npy").dense();
     EXPECT_LT((on_mesh - at_model).cwiseAbs().maxCoeff(), 1e-9) << method;
-    EXPECT_EQ(nlohmann::json::parse(slurp("model.json"))["vertices"], 0);
+    EXPECT_EQ(json_in("model.json")["vertices"], 0);
   }
 }
 

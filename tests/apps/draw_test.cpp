@@ -4,8 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <map>
-#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -21,7 +19,9 @@
 #include "draw/slice_picture.h"
 #include "draw/view.h"
 #include "flbc/errors.h"
+#include "support/errors.h"
 #include "support/png_image.h"
+#include "support/sample_meshes.h"
 
 namespace flbc::draw {
 namespace {
@@ -46,67 +46,13 @@ bool is_highlight(Color color) {
   return color.r > 0.85 && color.g < 0.15 && color.b < 0.15;
 }
 
+// The box [0, size], whose edges are cut into n pieces each.
 template <int Dim>
-struct Sample {
-  Cage<Dim> cage;
-  DomainMesh<Dim> mesh;
-};
-
-// The rectangle [0, width] x [0, 1] in nx * ny * 2 triangles.
-Sample<2> rectangle(double width, int nx, int ny) {
-  Sample<2> s;
-  s.cage.points.resize(2, 4);
-  s.cage.points << 0, width, width, 0, 0, 0, 1, 1;
-  s.cage.facets.resize(2, 4);
-  s.cage.facets << 0, 1, 2, 3, 1, 2, 3, 0;
-  s.mesh.points.resize(2, (nx + 1) * (ny + 1));
-  s.mesh.cells.resize(3, 2 * nx * ny);
-  const auto id = [nx](int i, int j) { return j * (nx + 1) + i; };
-  for (int j = 0; j <= ny; ++j) {
-    for (int i = 0; i <= nx; ++i) s.mesh.points.col(id(i, j)) << width * i / nx, 1.0 * j / ny;
-  }
-  for (int j = 0, cell = 0; j < ny; ++j) {
-    for (int i = 0; i < nx; ++i) {
-      s.mesh.cells.col(cell++) << id(i, j), id(i + 1, j), id(i + 1, j + 1);
-      s.mesh.cells.col(cell++) << id(i, j), id(i + 1, j + 1), id(i, j + 1);
-    }
-  }
-  return s;
-}
-
-// The box [0, size] in n^3 cubes of six Kuhn tetrahedra each; its cage has 12 triangles.
-Sample<3> box(const Vector<3>& size, int n) {
-  Sample<3> s;
-  s.cage.points.resize(3, 8);
-  for (int k = 0; k < 8; ++k) s.cage.points.col(k) << (k & 1), ((k >> 1) & 1), ((k >> 2) & 1);
-  s.cage.points = size.asDiagonal() * s.cage.points;
-  s.cage.facets.resize(3, 12);
-  s.cage.facets << 0, 0, 4, 4, 0, 0, 2, 2, 0, 0, 1, 1,  //
-      3, 2, 5, 7, 1, 5, 7, 6, 4, 6, 3, 7,               //
-      1, 3, 7, 6, 5, 4, 3, 7, 6, 2, 7, 5;
-  const auto id = [n](const std::array<int, 3>& i) {
-    return (i[2] * (n + 1) + i[1]) * (n + 1) + i[0];
-  };
-  s.mesh.points.resize(3, (n + 1) * (n + 1) * (n + 1));
-  s.mesh.cells.resize(4, 6 * n * n * n);
-  int cell = 0;
-  for (int v = 0; v < s.mesh.num_vertices(); ++v) {
-    const std::array<int, 3> corner{v % (n + 1), v / (n + 1) % (n + 1), v / (n + 1) / (n + 1)};
-    s.mesh.points.col(v) =
-        size.cwiseProduct(Vector<3>(corner[0], corner[1], corner[2])) / static_cast<double>(n);
-    if (*std::max_element(corner.begin(), corner.end()) == n) continue;
-    std::array<int, 3> order{0, 1, 2};
-    do {
-      std::array<int, 3> at = corner;
-      s.mesh.cells(0, cell) = id(at);
-      for (int k = 0; k < 3; ++k) {
-        ++at[order[k]];
-        s.mesh.cells(k + 1, cell) = id(at);
-      }
-      ++cell;
-    } while (std::next_permutation(order.begin(), order.end()));
-  }
-  return s;
+testing::Sample<Dim> box(const Vector<Dim>& size, Index n) {
+  auto sample = testing::make_sample<Dim>(testing::Shape::kBox, n);
+  sample.cage.points = size.asDiagonal() * sample.cage.points;
+  sample.mesh.points = size.asDiagonal() * sample.mesh.points;
+  return sample;
 }
 
 template <int Dim>
@@ -330,23 +276,6 @@ TEST(Canvas, RefusesImpossibleSizes) {
   EXPECT_THROW(Canvas(30000, 30000, PictureFormat::kPdf), OptionError);
 }
 
-TEST(Canvas, TextHasTheHeightAndWidthItPromises) {
-  for (const std::string text : {"0123456789", "w", "<0", "-0.5", "estimated error", "+=%!?:"}) {
-    const double width = text_width(text, 18);
-    const Image image = drawn(static_cast<int>(width) + 20, 38, [&](Canvas& canvas) {
-      canvas.draw_text({10, 28}, text, 18, kBlack);
-    });
-    double inside = 0;
-    for (int y = 6; y < 36; ++y) {
-      for (int x = 8; x < static_cast<int>(10 + width) + 3; ++x) inside += 1 - image.at(x, y).g;
-    }
-    EXPECT_GT(inside, 20) << text;
-    EXPECT_NEAR(inside, darkness(image), 1e-6) << text;
-  }
-  EXPECT_EQ(text_width("", 18), 0);
-  EXPECT_NEAR(text_width("00", 36), 2 * text_width("00", 18), 1e-9);
-}
-
 TEST(Canvas, TextThatIsNoUnicodeIsAnError) {
   Canvas canvas(20, 20, PictureFormat::kPng);
   canvas.draw_text({1, 10}, "a\xff", 8, kBlack);
@@ -393,7 +322,7 @@ TEST(Colormap, DefectsLookLikeNoWeight) {
 
 TEST(Isolines, OfALinearFunctionAreStraightAndComplete) {
   // With 8 columns the level 0.5 runs through vertices, the others do not.
-  const auto s = rectangle(1, 8, 5);
+  const auto s = box<2>({1, 1}, 8);
   const auto values = evaluate<2>(s.mesh, [](const Vector<2>& p) { return p.x(); });
   for (const double level : {0.1, 0.5, 0.9}) {
     const auto segments = trace_isolines(s.mesh.points, s.mesh.cells, values, {level});
@@ -408,7 +337,7 @@ TEST(Isolines, OfALinearFunctionAreStraightAndComplete) {
 }
 
 TEST(Isolines, AreAbsentOnPlateaus) {
-  const auto s = rectangle(1, 6, 6);
+  const auto s = box<2>({1, 1}, 6);
   for (const double value : {0.0, 0.5, 1.0}) {
     const Eigen::VectorXd values = Eigen::VectorXd::Constant(s.mesh.num_vertices(), value);
     EXPECT_TRUE(
@@ -431,7 +360,7 @@ Vector<2> pixel_of(const Cage<2>& cage, const Vector<2>& p, const WeightPictureO
 }
 
 TEST(WeightPicture, ShowsTheColorsOfInterpolatedValues) {
-  const auto s = rectangle(1.5, 3, 2);
+  const auto s = box<2>({1.5, 1}, 3);
   const auto f = [](const Vector<2>& p) { return 0.1 + 0.3 * p.x() + 0.4 * p.y(); };
   const auto options = without_lines();
   const Image image = decode_png(draw_weights(s.cage, s.mesh, evaluate<2>(s.mesh, f), 2, options));
@@ -447,7 +376,7 @@ TEST(WeightPicture, ShowsTheColorsOfInterpolatedValues) {
 
 TEST(WeightPicture, IsWhiteOutsideAndRedAtTheControlPoint) {
   // An L: the notch is within the bounding box but outside the cage.
-  Sample<2> s;
+  testing::Sample<2> s;
   s.cage.points.resize(2, 6);
   s.cage.points << 0, 2, 2, 1, 1, 0, 0, 0, 1, 1, 2, 2;
   s.cage.facets.resize(2, 6);
@@ -472,25 +401,9 @@ TEST(WeightPicture, IsWhiteOutsideAndRedAtTheControlPoint) {
   }
 }
 
-TEST(WeightPicture, ZeroFunctionHasNoIsolines) {
-  const auto s = rectangle(1, 20, 20);
-  WeightPictureOptions options = without_lines();
-  options.isolines = 10;
-  options.support_level = 1e-3;
-  const Image image = decode_png(
-      draw_weights(s.cage, s.mesh, Eigen::VectorXd::Zero(s.mesh.num_vertices()), 0, options));
-  const Vector<2> low = pixel_of(s.cage, {0.1, 0.9}, options);
-  const Vector<2> high = pixel_of(s.cage, {0.9, 0.1}, options);
-  for (int y = static_cast<int>(low.y()); y < static_cast<int>(high.y()); ++y) {
-    for (int x = static_cast<int>(low.x()); x < static_cast<int>(high.x()); ++x) {
-      ASSERT_LT(difference(image.at(x, y), weight_color(0)), 0.003) << x << ' ' << y;
-    }
-  }
-}
-
 TEST(WeightPicture, IsolinesAreEquallyWideInSteepAndFlatAreas) {
   // 0.4 to 0.9 on the first tenth, then slowly down: level 0.5 is crossed steeply and flatly.
-  const auto s = rectangle(1, 20, 4);
+  const auto s = box<2>({1, 1}, 20);
   const auto f = [](const Vector<2>& p) {
     return p.x() < 0.1 ? 0.4 + 5 * p.x() : 0.9 - 0.6 * (p.x() - 0.1);
   };
@@ -517,16 +430,8 @@ TEST(WeightPicture, IsolinesAreEquallyWideInSteepAndFlatAreas) {
   EXPECT_NEAR(steep, flat, 0.1 * flat);
 }
 
-TEST(WeightPicture, ShowsDefects) {
-  const auto s = rectangle(1, 4, 4);
-  const auto options = without_lines();
-  const Image image = decode_png(draw_weights(
-      s.cage, s.mesh, Eigen::VectorXd::Constant(s.mesh.num_vertices(), -0.05), 0, options));
-  EXPECT_LT(difference(image.at(200, image.height / 2), weight_color(-0.05)), 0.003);
-}
-
 TEST(WeightPicture, NamesWhatIsWrong) {
-  const auto s = rectangle(1, 2, 2);
+  const auto s = box<2>({1, 1}, 2);
   Eigen::VectorXd values = Eigen::VectorXd::Zero(9);
   EXPECT_THROW(draw_weights(s.cage, s.mesh, values, 4), OptionError);
   EXPECT_THROW(draw_weights(s.cage, s.mesh, values, -1), OptionError);
@@ -535,16 +440,11 @@ TEST(WeightPicture, NamesWhatIsWrong) {
   options.width = 10;
   EXPECT_THROW(draw_weights(s.cage, s.mesh, values, 0, options), OptionError);
   values[7] = std::numeric_limits<double>::quiet_NaN();
-  try {
-    draw_weights(s.cage, s.mesh, values, 0);
-    FAIL() << "a value that is not finite must be refused";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("vertex 7"), std::string::npos) << error.what();
-  }
+  testing::expect_refused("vertex 7", [&] { draw_weights(s.cage, s.mesh, values, 0); });
 }
 
 TEST(WeightPicture, SheetHasOnePanelPerControlPoint) {
-  const auto s = rectangle(1, 4, 4);
+  const auto s = box<2>({1, 1}, 4);
   const WeightMatrix weights = WeightMatrix::Zero(4, s.mesh.num_vertices());
   WeightPictureOptions options;
   options.width = 600;
@@ -564,7 +464,7 @@ TEST(WeightPicture, SheetHasOnePanelPerControlPoint) {
 // ---------------------------------------------------------------------------------------- Slices
 
 TEST(Slice, OfACubeHasTheAreaAndOutlineOfTheSection) {
-  const auto s = box({1, 1, 1}, 4);
+  const auto s = box<3>({1, 1, 1}, 4);
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(s.mesh.num_vertices());
   struct Case {
     Vector<3> origin, normal;
@@ -586,7 +486,7 @@ TEST(Slice, OfACubeHasTheAreaAndOutlineOfTheSection) {
 }
 
 TEST(Slice, InterpolatesLinearFunctionsExactly) {
-  const auto s = box({1, 2, 3}, 3);
+  const auto s = box<3>({1, 2, 3}, 3);
   const auto f = [](const Vector<3>& p) { return 0.2 + 0.3 * p.x() - 0.1 * p.y() + 0.05 * p.z(); };
   const Plane plane = plane_through({0.4, 0.9, 1.3}, {1, 2, -0.7});
   const Slice slice = cut(s.cage, s.mesh, evaluate<3>(s.mesh, f), plane);
@@ -609,7 +509,7 @@ TEST(Slice, PlanesHaveRightHandedAxes) {
 }
 
 TEST(Slice, PlanesAreSpreadAndOneMeetsTheControlPoint) {
-  auto s = box({1, 1, 4}, 4);
+  auto s = box<3>({1, 1, 4}, 4);
   // A control point in the middle of an edge would be anywhere else on the axis.
   s.cage.points.conservativeResize(3, 9);
   s.cage.points.col(8) << 1, 1, 1.7;
@@ -657,7 +557,7 @@ Vector<2> pixel_of(const Cage<3>& cage, const ObliqueView& view, const Vector<3>
 
 TEST(SlicePicture, NearestSliceShowsTheColorsOfTheFunction) {
   // So short, with so many slices, that they hide each other: the order of painting matters.
-  const auto s = box({1.2, 1, 1}, 6);
+  const auto s = box<3>({1.2, 1, 1}, 6);
   const auto f = [](const Vector<3>& p) { return 0.2 + 0.3 * p.y() + 0.4 * p.z(); };
   const auto values = evaluate<3>(s.mesh, f);
   WeightPictureOptions options = without_lines();
@@ -690,7 +590,7 @@ TEST(SlicePicture, NearestSliceShowsTheColorsOfTheFunction) {
 }
 
 TEST(SlicePicture, DoesNotDependOnTheOrientationOfTheCage) {
-  const auto s = box({1, 1, 1}, 3);
+  const auto s = box<3>({1, 1, 1}, 3);
   const auto values = evaluate<3>(s.mesh, [](const Vector<3>& p) { return p.prod(); });
   Cage<3> reversed = s.cage;
   reversed.facets.row(0).swap(reversed.facets.row(1));
@@ -701,7 +601,7 @@ TEST(SlicePicture, DoesNotDependOnTheOrientationOfTheCage) {
 }
 
 TEST(SlicePicture, PanelsShowEachSlice) {
-  const auto s = box({3, 1, 1}, 6);
+  const auto s = box<3>({3, 1, 1}, 6);
   const Eigen::VectorXd values = Eigen::VectorXd::Constant(s.mesh.num_vertices(), 0.8);
   WeightPictureOptions options = without_lines();
   const auto colored = [&](const Image& image) {
@@ -718,7 +618,7 @@ TEST(SlicePicture, PanelsShowEachSlice) {
 }
 
 TEST(SlicePicture, ShowsTheModel) {
-  const auto s = box({3, 1, 1}, 6);
+  const auto s = box<3>({3, 1, 1}, 6);
   const Eigen::VectorXd values = Eigen::VectorXd::Zero(s.mesh.num_vertices());
   Cage<3> model = s.cage;
   model.points = 0.5 * model.points;
@@ -729,7 +629,7 @@ TEST(SlicePicture, ShowsTheModel) {
 }
 
 TEST(SlicePicture, NamesWhatIsWrong) {
-  const auto s = box({1, 1, 1}, 2);
+  const auto s = box<3>({1, 1, 1}, 2);
   const Eigen::VectorXd values = Eigen::VectorXd::Zero(s.mesh.num_vertices());
   EXPECT_THROW(draw_slices(s.cage, s.mesh, values, 8, 3), OptionError);
   EXPECT_THROW(draw_slices(s.cage, s.mesh, values, 0, 0), OptionError);

@@ -10,18 +10,12 @@
 #include "flbc/io/cage_io.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
-#include "flbc/io/weights_io.h"
 #include "support/command_line.h"
 #include "support/glb_file.h"
 #include "support/model_cages.h"
 
 namespace flbc::testing {
 namespace {
-
-// 3 x P.
-PointList<3> points_of(const std::string& path) {
-  return io::to_points<3>(io::read_polygons(path), path);
-}
 
 double distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).colwise().norm().maxCoeff();
@@ -40,7 +34,7 @@ class ExportCommand : public CommandLineTest {
         file("square.obj",
              "v 0.125 0.125 0.25\nv 0.25 0.125 0.25\nv 0.25 0.25 0.25\nv 0.125 0.25 0.25\n"
              "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
-    return model + " --weights " + linear_weights(points_of(model)) + " --cage " + tetrahedron();
+    return model + " --weights " + linear_weights(points_in<3>(model)) + " --cage " + tetrahedron();
   }
 
   // A sample, moved by its pose: the skin does what flbc deform does with as few influences.
@@ -58,11 +52,11 @@ class ExportCommand : public CommandLineTest {
                                       0, "at most 4 influences per vertex (before ");
     EXPECT_NE(result.errors.find("2 poses in 0.25 s"), std::string::npos) << result.errors;
     const auto file = skin("s.glb");
-    const double size = bounding_box_diagonal<3>(points_of(model));
-    EXPECT_LT(distance(file.skinned(file.joints()), points_of(model)), 1e-6 * size);
-    EXPECT_LT(distance(file.skinned(file.joints(0)), points_of(model)), 1e-6 * size);
-    EXPECT_LT(distance(file.skinned(file.joints(0.25)), points_of("posed.obj")), 1e-6 * size);
-    EXPECT_GT(distance(points_of(model), points_of("posed.obj")), 0.1 * size);
+    const double size = bounding_box_diagonal<3>(points_in<3>(model));
+    EXPECT_LT(distance(file.skinned(file.joints()), points_in<3>(model)), 1e-6 * size);
+    EXPECT_LT(distance(file.skinned(file.joints(0)), points_in<3>(model)), 1e-6 * size);
+    EXPECT_LT(distance(file.skinned(file.joints(0.25)), points_in<3>("posed.obj")), 1e-6 * size);
+    EXPECT_GT(distance(points_in<3>(model), points_in<3>("posed.obj")), 0.1 * size);
   }
 };
 
@@ -145,8 +139,8 @@ TEST_F(ExportCommand, MaterialsAndPicturesOfObj) {
            "mtllib look.mtl\nv 0.1 0.1 0.1\nv 0.2 0.1 0.1\nv 0.2 0.2 0.1\nv 0.1 0.2 0.1\n"
            "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nusemtl photo\nf 1/1 3/3 4/4\n"
            "usemtl red one\nf 4/4 3/3 2/2\nusemtl photo\nf 2/2 3/3 1/1\n");
-  const auto rest =
-      " --weights " + linear_weights(points_of(model)) + " --cage " + tetrahedron() + " -o s.glb";
+  const auto rest = " --weights " + linear_weights(points_in<3>(model)) + " --cage " +
+                    tetrahedron() + " -o s.glb";
   EXPECT_EQ(expect_export(model + rest, 0, "4 triangles").errors.find("does not contain all"),
             std::string::npos);
   const auto skinned = skin("s.glb");
@@ -192,7 +186,7 @@ TEST_F(ExportCommand, PictureOfPly) {
            "property float t\nelement face 1\nproperty list uchar int vertex_indices\n"
            "end_header\n0.125 0.125 0.125 0 0\n0.25 0.125 0.125 1 0\n0.25 0.25 0.125 1 1\n"
            "3 0 1 2\n");
-  expect_export(model + " --weights " + linear_weights(points_of(model)) + " --cage " +
+  expect_export(model + " --weights " + linear_weights(points_in<3>(model)) + " --cage " +
                     tetrahedron() + " -o s.glb",
                 0, "1 triangles");
   const auto skinned = skin("s.glb");
@@ -211,7 +205,7 @@ TEST_F(ExportCommand, TheCagesWireIsInASceneThatIsNotShown) {
   EXPECT_EQ(lines["mode"], 1);
   EXPECT_EQ(json["accessors"][lines["indices"].get<std::size_t>()]["count"], 12);  // 6 edges
   const auto points = skinned.accessor(lines["attributes"]["POSITION"].get<std::size_t>());
-  EXPECT_EQ(points, points_of("cage.obj"));
+  EXPECT_EQ(points, points_in<3>("cage.obj"));
   std::size_t node = 0;
   while (json["nodes"][node].value("mesh", 0) != 1) ++node;
   EXPECT_EQ(json["nodes"][node]["skin"], 0);
@@ -229,8 +223,8 @@ TEST_F(ExportCommand, AttributesOfOtherFormats) {
                           "v 0.25 0.25 0.125 1 0 0.2\nv 0.5 0.25 0.125 0 0.4 0\n"
                           "v 0.25 0.5 0.125 0 0.6 1\nvt 0.25 0.5\nvt 1 0\nvt 0.5 1\n"
                           "vn 0 0.6 0.8\nvn 0 0 1\nvn 0.8 0 0.6\nf 1/1/1 2/2/2 3/3/3\n");
-  const auto rest = " --weights " + linear_weights(points_of(model)) + " --cage " + tetrahedron() +
-                    " -q -o s.glb";
+  const auto rest = " --weights " + linear_weights(points_in<3>(model)) + " --cage " +
+                    tetrahedron() + " -q -o s.glb";
   expect_export(model + rest, 0, "");
   const auto expected = skin("s.glb");
   EXPECT_LT((expected.attribute("NORMAL").col(0) - Vector<3>(0, 0.6, 0.8)).norm(), 1e-6);
@@ -334,7 +328,7 @@ TEST_F(ExportCommand, FilesThatDoNotFitAndWrongUsage) {
   const auto torn = file("torn.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n");
   refused(torn + weights + cage + output, 2, "torn.obj:4: the index 7 is out of range");
   const auto outside = file("outside.obj", "v 0.5 0.5 0.25\nv 0 0 0\nv 0 1 0\nf 1 2 3\n");
-  refused(outside + " --weights " + linear_weights(points_of(outside)) + cage + output, 2,
+  refused(outside + " --weights " + linear_weights(points_in<3>(outside)) + cage + output, 2,
           "outside.obj: point 0 at (0.5, 0.5, 0.25) lies outside");
   const auto plane = file("plane.obj", "v 0 0\nv 4 0\nv 0 4\nl 1 2 3 1\n");
   refused(model + weights + " --cage " + plane + output, 2, "has weights of 3 points");
@@ -357,7 +351,7 @@ TEST_F(ExportCommand, ARealModelWithTextureAndNormals) {
   ASSERT_TRUE(file.has("TEXCOORD_0"));
   const Eigen::MatrixXd lengths = file.attribute("NORMAL").colwise().norm();
   EXPECT_LT((lengths.array() - 1).abs().maxCoeff(), 1e-6);
-  const auto points = points_of(model);
+  const auto points = points_in<3>(model);
   // Seams part vertices, and all of them are there.
   const auto sources = file.sources();
   EXPECT_GT(sources.size(), points.cols());

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <set>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "flbc/bounding_box.h"
-#include "flbc/cage.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/io/mesh_io.h"
@@ -18,7 +16,6 @@
 #include "support/dimensions.h"
 #include "support/glb_file.h"
 #include "support/harmonic_weights.h"
-#include "support/io_files.h"
 #include "support/usda_file.h"
 
 namespace flbc::testing {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Manual pages and completion: they have all that --help has, man takes the pages without a
 // warning, and a shell completes.
-#include <algorithm>
 #include <regex>
 #include <set>
 #include <sstream>

@@ -30,7 +30,7 @@ TEST_F(MesherCommand, NetgenMeshesWhatTetgenCannot) {
   EXPECT_NE(refused.errors.find("--mesher netgen"), std::string::npos) << refused.errors;
   for (const std::string mesher : {"", " --mesher netgen"}) {
     const auto solved = expect(solve + mesher);
-    const auto report = nlohmann::json::parse(slurp("report.json"));
+    const auto report = json_in("report.json");
     EXPECT_EQ(report["mesher"], "netgen");
     const bool is_second = mesher != " --mesher netgen";
     EXPECT_EQ(solved.errors.find("the mesh was made by netgen") != std::string::npos, is_second)
@@ -44,7 +44,7 @@ TEST_F(MesherCommand, NetgenMeshesWhatTetgenCannot) {
 
 TEST_F(MesherCommand, SoundCagesAreMeshedByTheFirst) {
   expect("run 3d/limb_cage.obj --vertices 1000 -q -o out");
-  const auto report = nlohmann::json::parse(slurp("out/report.json"));
+  const auto report = json_in("out/report.json");
   EXPECT_EQ(report["solve"]["mesher"], "tetgen");
   EXPECT_EQ(report["mesh"]["mesher"], "tetgen");
 }

@@ -24,9 +24,6 @@ class OutsideCommand : public CommandLineTest {
     return "solve " + square() + " --vertices 300 --model model.obj -o w.npy --report report.json" +
            ' ' + options;
   }
-  nlohmann::json report(const std::string& name) const {
-    return nlohmann::json::parse(slurp(name));
-  }
 };
 
 TEST_F(OutsideCommand, AHairHasOneAnswer) {
@@ -37,12 +34,12 @@ TEST_F(OutsideCommand, AHairHasOneAnswer) {
               std::string::npos);
     expect(solve(""), 0, "2 vertices within");
     EXPECT_GE(io::read_weights("w.npy").dense().minCoeff(), 0);
-    EXPECT_EQ(report("report.json")["outside"]["on_cage"]["count"], 2);
-    EXPECT_EQ(report("report.json")["outside"]["outside"]["count"], 0);
+    EXPECT_EQ(json_in("report.json")["outside"]["on_cage"]["count"], 2);
+    EXPECT_EQ(json_in("report.json")["outside"]["outside"]["count"], 0);
     expect("check " + square() + " --model " + of + " --weights w.npy");
     expect("sparsify w.npy --cage " + square() + " --points " + of + " -k 3 -q -o few.npy");
     expect("run " + square() + ' ' + of + " --vertices 300 -q -o out");
-    EXPECT_EQ(report("out/report.json")["solve"]["outside"]["on_cage"]["count"], 2);
+    EXPECT_EQ(json_in("out/report.json")["solve"]["outside"]["on_cage"]["count"], 2);
   }
   const auto of = model("0.00001");
   EXPECT_NE(run("check " + square() + " --model " + of).output.find("2 of 3 vertices are outside"),
@@ -83,9 +80,9 @@ TEST_F(OutsideCommand, FartherPointsGoTheWayThatIsAskedFor) {
   EXPECT_GE(nearest.minCoeff(), 0);
   EXPECT_NEAR(nearest(0, 1), 0.7, 1e-12);  // (0.3, 0) between control points 0 and 1
   EXPECT_NEAR(nearest(1, 1), 0.3, 1e-12);
-  EXPECT_EQ(report("report.json")["outside"]["outside"]["count"], 2);
-  EXPECT_NEAR(report("report.json")["outside"]["outside"]["distance"], 0.25, 1e-12);
-  EXPECT_EQ(report("report.json")["options"]["outside"], "nearest");
+  EXPECT_EQ(json_in("report.json")["outside"]["outside"]["count"], 2);
+  EXPECT_NEAR(json_in("report.json")["outside"]["outside"]["distance"], 0.25, 1e-12);
+  EXPECT_EQ(json_in("report.json")["options"]["outside"], "nearest");
   expect(solve("--outside extend"));
   const auto extended = io::read_weights("w.npy").dense();
   EXPECT_NEAR(extended.col(1).sum(), 1, 1e-12);

@@ -36,13 +36,8 @@ class PartsCommand : public CommandLineTest {
   static constexpr int kVertices = kDim == 2 ? 500 : 900;
   static constexpr int kOfSmall = kVertices / (1 + (1 << kDim));
 
-  nlohmann::json report(const std::string& name) const {
-    return nlohmann::json::parse(slurp(name));
-  }
   static Cage<kDim> small() { return box_cage<kDim>(0.5); }
-  static Cage<kDim> large() {
-    return box_cage<kDim>(Vector<kDim>::Constant(2), Vector<kDim>::Constant(4));
-  }
+  static Cage<kDim> large() { return box_cage<kDim>(2, 4); }
   std::string both() const { return file("both.obj", text_of(join(small(), large()))); }
   std::string domain() const { return (kDim == 2 ? "domain.obj" : "domain.mesh"); }
   std::string vertices(int count = kVertices) const {
@@ -73,7 +68,7 @@ TYPED_TEST(PartsCommand, SolvesEachAsAlone) {
                0, "2 parts, " + std::to_string(2 * n) + " control points");
   this->expect("check " + cage + " --domain " + this->domain() + " --weights w.npy", 0);
   const auto weights = io::read_weights("w.npy").dense();
-  const auto report = this->report("report.json");
+  const auto report = json_in("report.json");
   ASSERT_EQ(report["parts"].size(), 2u);
   Index next = 2 * n;
   double objective = 0;
@@ -89,7 +84,7 @@ TYPED_TEST(PartsCommand, SolvesEachAsAlone) {
     const WeightMatrix rows = weights(Eigen::all, vertices);
     EXPECT_EQ(WeightMatrix(rows.middleRows(k * n, n)), expected);
     EXPECT_EQ(rows.middleRows((1 - k) * n, n).cwiseAbs().maxCoeff(), 0);
-    const auto alone_report = this->report("alone.json");
+    const auto alone_report = json_in("alone.json");
     for (const char* name : {"control_points", "vertices", "iterations", "objective", "lower_bound",
                              "relative_gap", "criterion"}) {
       EXPECT_EQ(report["parts"][k][name], alone_report[name]) << name;
@@ -122,7 +117,7 @@ TYPED_TEST(PartsCommand, RunDoesAllOfIt) {
   this->expect(
       "run " + cage + ' ' + of + this->vertices() + "--certify --pose " + pose + " -o " + out, 0,
       ", 2 parts");
-  const auto report = this->report("out/report.json");
+  const auto report = json_in("out/report.json");
   EXPECT_TRUE(report["check"]["fine"]);
   EXPECT_EQ(report["solve"]["parts"].size(), 2u);
   // The small part stays where it is, the large one moves by 1.
@@ -209,7 +204,7 @@ TEST_F(PartsOfPicture, SilhouetteInPiecesRuns) {
   EXPECT_GE(check["cage"]["parts"], 2);
   expect("solve cage.obj --vertices 800 -o w.npy");
   expect("run " + picture + " --auto-cage --vertices 800 -o out");
-  const auto report = nlohmann::json::parse(slurp("out/report.json"));
+  const auto report = json_in("out/report.json");
   EXPECT_EQ(report["solve"]["parts"].size(), report["check"]["cage"]["parts"]);
   EXPECT_TRUE(report["check"]["fine"]);
   EXPECT_EQ(report["inputs"], nlohmann::json::array({picture}));

@@ -15,7 +15,7 @@ class PlotCommand : public CommandLineTest {
                         const std::string& options) const {
     const auto report = name + ".json";
     expect("solve " + cage + " -q --vertices 400 -o w.npy --report " + report + " " + options);
-    return nlohmann::json::parse(slurp(report));
+    return json_in(report);
   }
 };
 

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -57,7 +56,7 @@ class RunCommand : public CommandLineTest {
     return names;
   }
   nlohmann::json report(const std::string& folder) const {
-    return nlohmann::json::parse(slurp(folder + "/report.json"));
+    return json_in(folder + "/report.json");
   }
 
   // The command on its own makes the same file.
@@ -111,13 +110,13 @@ class RunCommand : public CommandLineTest {
                 "f.png", "out/function.png");
 
     // All reports are in one.
-    EXPECT_EQ(json["sparsify"]["error"], nlohmann::json::parse(slurp("sparsify.json"))["error"]);
+    EXPECT_EQ(json["sparsify"]["error"], json_in("sparsify.json")["error"]);
     EXPECT_EQ(json["sparsify"]["after"]["max_nonzeros"], 6);
-    const auto solved = nlohmann::json::parse(slurp("solve.json"));
+    const auto solved = json_in("solve.json");
     EXPECT_EQ(json["solve"]["objective"], solved["objective"]);
     EXPECT_EQ(json["solve"]["converged"], true);
     expect("check " + cage + " --weights d.npy --domain " + domain + " --json check.json");
-    const auto checked = nlohmann::json::parse(slurp("check.json"));
+    const auto checked = json_in("check.json");
     EXPECT_EQ(json["check"]["cage"], checked["cage"]);
     EXPECT_EQ(json["check"]["weights"]["worst"], checked["weights"]["worst"]);
     EXPECT_EQ(json["check"]["weights"]["mesh"], checked["weights"]["mesh"]);

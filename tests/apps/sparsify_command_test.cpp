@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "flbc/cell_locator.h"
-#include "flbc/interpolate.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
@@ -40,17 +38,12 @@ class SparsifyCommand : public CommandLineTest {
 };
 
 template <int Dim>
-PointList<Dim> read_points(const std::string& path) {
-  return io::to_points<Dim>(io::read_polygons(path), path);
-}
-
-template <int Dim>
 void expect_sparse(const std::string& cage_file, const PointList<Dim>& points,
                    const std::string& before_file, const std::string& after_file, int most,
                    const Json& report) {
   const auto before = io::read_weights(before_file).dense();
   const auto after = io::read_weights(after_file).dense();
-  const auto quality = measure_quality<Dim>(read_points<Dim>(cage_file), points, after);
+  const auto quality = measure_quality<Dim>(points_in<Dim>(cage_file), points, after);
   EXPECT_GE(quality.min_weight, 0);
   EXPECT_LE(quality.max_partition_error, 1e-13);
   EXPECT_LE(quality.max_reproduction_error, 1e-13);
@@ -61,7 +54,7 @@ void expect_sparse(const std::string& cage_file, const PointList<Dim>& points,
   EXPECT_EQ(report["after"]["max_nonzeros"], most);
   // Influences are counted as flbc check and flbc solve count them.
   EXPECT_NEAR(report["before"]["mean_influences"].get<double>(),
-              measure_quality<Dim>(read_points<Dim>(cage_file), points, before).mean_influences,
+              measure_quality<Dim>(points_in<Dim>(cage_file), points, before).mean_influences,
               1e-12);
   EXPECT_EQ(report["before"]["bytes"], std::filesystem::file_size(before_file));
   EXPECT_EQ(report["after"]["bytes"], std::filesystem::file_size(after_file));
@@ -95,18 +88,18 @@ TEST_F(SparsifyCommand, ModelsIn2DAnd3D) {
     expect("check " + cage + " --weights d.npy --domain " + domain_file);
   };
   sparsify("2d/ring", "ring.vtu", 5);
-  expect_sparse<2>("2d/ring_cage.obj", read_points<2>("2d/ring_model.obj"), "w.npy", "s.mtx", 5,
-                   Json::parse(slurp("s.json")));
+  expect_sparse<2>("2d/ring_cage.obj", points_in<2>("2d/ring_model.obj"), "w.npy", "s.mtx", 5,
+                   json_in("s.json"));
   sparsify("3d/limb", "limb.mesh", 6);
-  expect_sparse<3>("3d/limb_cage.obj", read_points<3>("3d/limb_model.obj"), "w.npy", "s.mtx", 6,
-                   Json::parse(slurp("s.json")));
+  expect_sparse<3>("3d/limb_cage.obj", points_in<3>("3d/limb_model.obj"), "w.npy", "s.mtx", 6,
+                   json_in("s.json"));
 }
 
 TEST_F(SparsifyCommand, PoissonOnAModelAndOnAMesh) {
   const auto sparsify = [&](const std::string& arguments, const std::string& method) {
     expect("sparsify " + arguments + " -k 4 -q --reduction " + method + " -o " + method +
            ".npy --report r.json");
-    const auto report = Json::parse(slurp("r.json"));
+    const auto report = json_in("r.json");
     EXPECT_EQ(report["method"], method);
     EXPECT_LE(report["after"]["max_influences"], 4);
     EXPECT_GE(report["after"]["min_weight"], 0);
@@ -148,7 +141,7 @@ TEST_F(SparsifyCommand, PoissonMakesTheErrorSmallInThePosesGiven) {
                          io::read_weights(name).dense());
   };
   EXPECT_LT(error("with.npy").rms, 0.9 * error("without.npy").rms);
-  const auto poses = Json::parse(slurp("r.json"))["error"]["edge"]["poses"];
+  const auto poses = json_in("r.json")["error"]["edge"]["poses"];
   ASSERT_EQ(poses.size(), 1);
   EXPECT_EQ(poses[0]["file"], "pose.obj");
   EXPECT_NEAR(poses[0]["rms"].get<double>(), error("with.npy").rms, 1e-12);
@@ -162,7 +155,7 @@ TEST_F(SparsifyCommand, PoissonNeedsNeighbours) {
   expect_refusal(arguments + " -k 3 --reduction cubic", 1, "choose from auto|poisson|quadratic");
   // Without neighbors there are no edges to measure.
   expect("sparsify " + arguments + " -k 3 -q -o s.npy --report r.json");
-  const auto report = Json::parse(slurp("r.json"));
+  const auto report = json_in("r.json");
   EXPECT_EQ(report["method"], "quadratic");
   EXPECT_FALSE(report["error"].contains("edge"));
   // A line is enough.
@@ -175,8 +168,8 @@ TEST_F(SparsifyCommand, TripletsAndThresholds) {
   expect("sparsify " + arguments + " -k 3 -q -o s.dmat");
   const auto sparse = io::read_weights("s.dmat").dense();
   EXPECT_LE((sparse.array() != 0).colwise().count().maxCoeff(), 3);
-  const PointList<2> points = read_points<2>("cage.obj") * sparse;
-  EXPECT_LE((points - read_points<2>("model.obj")).norm(), 1e-13);
+  const PointList<2> points = points_in<2>("cage.obj") * sparse;
+  EXPECT_LE((points - points_in<2>("model.obj")).norm(), 1e-13);
   // Nothing is below the threshold: the weights stay.
   expect("sparsify " + arguments + " --threshold 0.1 -q -o t.npy");
   const auto same = io::read_weights("t.npy").dense();

@@ -13,7 +13,10 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include "flbc/io/cage_io.h"
+#include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "support/scratch.h"
 
@@ -30,6 +33,16 @@ struct Ended {
 inline std::string slurp(const std::filesystem::path& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline nlohmann::json json_in(const std::string& path) {
+  return nlohmann::json::parse(slurp(path));
+}
+
+//! The vertices of a model.
+template <int Dim>
+PointList<Dim> points_in(const std::string& path) {
+  return io::to_points<Dim>(io::read_polygons(path), path);
 }
 
 //! The working directory is a new folder for every test, with links to the samples: 2d and 3d.

@@ -6,8 +6,6 @@
 
 #include <cctype>
 #include <map>
-#include <set>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
