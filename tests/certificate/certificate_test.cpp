@@ -7,7 +7,6 @@
 #include "mesh/cell_geometry.h"
 #include "polytope/vertex_linear_program.h"
 #include "support/feasible_vertices.h"
-#include "support/io_files.h"
 #include "support/test.h"
 
 namespace flbc::testing {
@@ -56,24 +55,16 @@ Field<Scalar, Dim> aligned_flux(const LbcProblem<Dim>& problem, const WeightMatr
   return field;
 }
 
-template <int Dim>
-std::vector<Index> interior_of(const LbcProblem<Dim>& problem) {
-  std::vector<Index> interior;
-  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
-    if (problem.boundary.boundary_index[v] < 0) interior.push_back(v);
-  }
-  return interior;
-}
-
 // The known values on the boundary, and inside the row nearest to the given one.
 template <int Dim>
 WeightMatrix feasible(const LbcProblem<Dim>& problem, WeightMatrix weights) {
   const auto boundary = harmonic_coordinates(problem);
-  const auto interior = interior_of(problem);
   for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
     if (problem.boundary.boundary_index[v] >= 0) weights.col(v) = boundary.col(v);
   }
-  return project_non_negative(problem.cage.points, problem.mesh.points, weights, interior).dense();
+  return project_non_negative(problem.cage.points, problem.mesh.points, weights,
+                              problem.boundary.interior_vertices())
+      .dense();
 }
 
 TEST_IN_2D_AND_3D(CertificateTest, LinearProgramFindsTheBestVertex) {
@@ -168,7 +159,7 @@ TEST_IN_2D_AND_3D(CertificateTest, BoundIsTheOptimumInASimplex) {
   phi.col(0).setZero();
   phi.col(1).setConstant(1e-300);
   problem.phi = phi;
-  ASSERT_FALSE(interior_of(problem).empty());
+  ASSERT_FALSE(problem.boundary.interior_vertices().empty());
   const auto weights = harmonic_coordinates(problem);
   const double optimum = testing::objective(problem.mesh, weights, problem.phi.dense());
   auto field = aligned_flux<double>(problem, weights);

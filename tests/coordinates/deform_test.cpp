@@ -52,17 +52,6 @@ TEST_IN_2D_AND_3D(Deform, ThreadsChangeNoBit) {
   for (const int threads : {0, 2, 3}) EXPECT_EQ(deform(weights, pose, threads), alone) << threads;
 }
 
-TEST_IN_2D_AND_3D(Deform, FollowsAffineMapsOfTheCage) {
-  const auto weights = Deform<Dim>::make_weights(300);
-  const auto pose = Deform<Dim>::make_pose();
-  Eigen::Matrix<double, Dim, Dim> linear;
-  for (int k = 0; k < Dim * Dim; ++k) linear(k) = std::sin(4.0 * k);
-  const Vector<Dim> shift = Vector<Dim>::LinSpaced(3, -2);
-  const PointList<Dim> mapped_pose = (linear * pose).colwise() + shift;
-  const PointList<Dim> expected = (linear * deform(weights, pose)).colwise() + shift;
-  EXPECT_LT((deform(weights, mapped_pose) - expected).cwiseAbs().maxCoeff(), 1e-12);
-}
-
 TEST_IN_2D_AND_3D(Deform, MeasuresDisplacements) {
   const PointList<Dim> pose = Deform<Dim>::make_pose();
   PointList<Dim> moved = pose;

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/mean_value.h"
 
-#include "flbc/cell_locator.h"
-#include "flbc/interpolate.h"
 #include "support/cages_of_all_kinds.h"
-#include "support/hollow_sample.h"
 #include "support/test.h"
 
 namespace flbc::testing {

@@ -2,8 +2,6 @@
 #include "flbc/check.h"
 
 #include "flbc/cage_facts.h"
-#include "flbc/cell_locator.h"
-#include "flbc/interpolate.h"
 #include "support/harmonic_weights.h"
 #include "support/hollow_sample.h"
 #include "support/test.h"

@@ -35,30 +35,14 @@ void read_mesh_beside(const std::string& path) {
 }
 
 DomainMesh<3> two_tetrahedra() {
-  DomainMesh<3> mesh;
-  mesh.points.resize(3, 5);
-  mesh.points << 0, 1, 0, 0, 1,  //
-      0, 0, 1, 0, 1,             //
-      0, 0, 0, 1, 1.0 / 3;
-  mesh.cells.resize(4, 2);
-  mesh.cells << 0, 1,  //
-      1, 3,            //
-      2, 2,            //
-      3, 4;
+  DomainMesh<3> mesh{PointList<3>{{0, 1, 0, 0, 1}, {0, 0, 1, 0, 1}, {0, 0, 0, 1, 1.0 / 3}},
+                     CellList<3>{{0, 1}, {1, 3}, {2, 2}, {3, 4}}};
   normalize_and_validate(mesh);
   return mesh;
 }
 
 DomainMesh<2> two_triangles() {
-  DomainMesh<2> mesh;
-  mesh.points.resize(2, 4);
-  mesh.points << 0, 1, 1, 0,  //
-      0, 0, 1.0 / 3, 1;
-  mesh.cells.resize(3, 2);
-  mesh.cells << 0, 0,  //
-      1, 2,            //
-      2, 3;
-  return mesh;
+  return {PointList<2>{{0, 1, 1, 0}, {0, 0, 1.0 / 3, 1}}, CellList<2>{{0, 0}, {1, 2}, {2, 3}}};
 }
 
 template <int Dim>

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Models and cages.
-#include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <string>
 #include <variant>

@@ -3,7 +3,6 @@
 #include <sstream>
 #include <string>
 
-#include "flbc/errors.h"
 #include "flbc/io/model_file.h"
 #include "flbc/openmesh/influences.h"
 #include "flbc/openmesh/mesh_io.h"

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "flbc/errors.h"
+#include "support/errors.h"
 #include "support/scratch.h"
 #include "support/splats.h"
 
@@ -35,12 +35,7 @@ class SplatFileTest : public ::testing::Test {
   }
 
   void expect_refused(const std::string& content, const std::string& words) const {
-    try {
-      io::SplatFile refused(file(content));
-      FAIL() << "not refused: " << words;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
-    }
+    testing::expect_refused(words, [&] { io::SplatFile(file(content)); });
   }
 
   ScratchFolder folder_;

@@ -87,14 +87,6 @@ TEST_F(WeightsFile, RoundTripsAreBitEqual) {
   }
 }
 
-TEST_F(WeightsFile, OnlyFiniteWeightsAreWritten) {
-  WeightMatrix weights = WeightMatrix::Random(7, 50);
-  weights(3, 8) = std::numeric_limits<double>::infinity();
-  expect_error<InputError>([&] { write_weights(path("w.mtx"), weights); },
-                           {"control point 3", "point 8", "not finite"});
-  EXPECT_FALSE(std::filesystem::exists(path("w.mtx")));
-}
-
 TEST_F(WeightsFile, CsvHasALinePerPoint) {
   write_weights(path("weights.csv"), small_weights());
   EXPECT_EQ(content("weights.csv"), "1,4\n2,5\n3,6\n");

@@ -123,24 +123,6 @@ class PanelCholeskyTest : public ::testing::Test {
 using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(PanelCholeskyTest, Scalars);
 
-TYPED_TEST(PanelCholeskyTest, SolvesADenseSystem) {
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Random(90, 90);
-  dense = (dense * dense.transpose() + 9 * Eigen::MatrixXd::Identity(90, 90)).eval();
-  const PanelCholesky<TypeParam> cholesky(dense.sparseView());
-  auto rows = random_rows<TypeParam>(90, 8);
-  const Eigen::Map<RowMajor<TypeParam>> x(rows.data(), 90, 8);
-  const Eigen::MatrixXd b = x.template cast<double>();
-  cholesky.solve(rows.data(), 8);
-  Eigen::MatrixXd image = Eigen::MatrixXd::Zero(90, 8);
-  for (Index i = 0; i < 90; ++i) {
-    for (Index j = 0; j < 90; ++j) {
-      image.row(cholesky.position()[i]) +=
-          dense(i, j) * x.row(cholesky.position()[j]).template cast<double>();
-    }
-  }
-  EXPECT_LT((image - b).cwiseAbs().maxCoeff(), 10 * TestFixture::kTolerance);
-}
-
 TYPED_TEST(PanelCholeskyTest, EverySliceGivesTheSameBits) {
   for (const auto& [name, matrix] : matrices()) {
     const PanelCholesky<TypeParam> cholesky(matrix);

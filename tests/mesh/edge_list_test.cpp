@@ -5,7 +5,6 @@
 #include "flbc/sparsify_error.h"
 #include "problem/laplacian.h"
 #include "support/feasible_vertices.h"
-#include "support/io_files.h"
 #include "support/test.h"
 
 namespace flbc::testing {
@@ -128,16 +127,11 @@ TEST(EdgesOfPolygons, DegenerateOnesKeepFiniteWeights) {
 
 TEST(EdgesOfPolygons, RefusesWhatCannotBe) {
   const PointList<3> points = PointList<3>::Random(3, 4);
-  expect_error<InputError>(
-      [&] {
-        edges_of_polygons<3>(points, {{0, 1, 2}, {0, 1, 4}});
-      },
-      {"polygon 1 has vertex 4", "4 points"});
-  expect_error<InputError>(
-      [&] {
-        edges_of_polygons<3>(points, {}, {{0, -1}});
-      },
-      {"polyline 0 has vertex -1"});
+  const std::vector<std::vector<Index>> polygons{{0, 1, 2}, {0, 1, 4}}, polylines{{0, -1}};
+  expect_error<InputError>([&] { edges_of_polygons<3>(points, polygons); },
+                           {"polygon 1 has vertex 4", "4 points"});
+  expect_error<InputError>([&] { edges_of_polygons<3>(points, {}, polylines); },
+                           {"polyline 0 has vertex -1"});
   DomainMesh<3> mesh{points, CellList<3>(4, 1)};
   mesh.cells << 0, 1, 2, 9;
   expect_error<InputError>([&] { edges_of_cells(mesh); }, {"cell 0 has vertex 9"});

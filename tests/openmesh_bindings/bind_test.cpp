@@ -20,13 +20,6 @@ struct ModelCase {
           ? 1e-6
           : 1e-12;
 };
-template <class Mesh>
-void add_square(Mesh& mesh, const std::array<int, 4>& corners) {
-  std::vector<OpenMesh::VertexHandle> handles;
-  for (const int corner : corners) handles.emplace_back(corner);
-  mesh.add_face(handles);
-}
-
 template <class Case>
 class Bind : public ::testing::Test {
  protected:
@@ -39,24 +32,16 @@ class Bind : public ::testing::Test {
     const Vector<kDim> middle = sample_.cage.points.rowwise().mean();
     const PointList<kDim> spread = sample_.cage.points.colwise() - middle;
     constexpr int kSide = 6;
-    for (int y = 0; y <= kSide; ++y) {
-      for (int x = 0; x <= kSide; ++x) {
-        const double a = 0.6 * x / kSide, b = 0.6 * y / kSide;
-        // Inside: a mean of control points with non-negative weights.
-        const Vector<kDim> place =
-            middle + 0.5 * (a - 0.3) * spread.col(0) + 0.5 * (b - 0.3) * spread.col(1);
-        typename Mesh::Point point;
-        for (int d = 0; d < 3; ++d) {
-          point[d] = static_cast<typename Mesh::Scalar>(d < kDim ? place[d] : 0.25);
-        }
-        model_.add_vertex(point);
+    model_ = make_squares<Mesh>(kSide);
+    for (const auto v : model_.vertices()) {
+      auto point = model_.point(v);
+      // Inside: a mean of control points with non-negative weights.
+      const Vector<kDim> place =
+          middle + spread.leftCols(2) * Vector<2>(0.05 * point[0] - 0.15, 0.05 * point[1] - 0.15);
+      for (int d = 0; d < 3; ++d) {
+        point[d] = static_cast<typename Mesh::Scalar>(d < kDim ? place[d] : 0.25);
       }
-    }
-    for (int y = 0; y < kSide; ++y) {
-      for (int x = 0; x < kSide; ++x) {
-        const int k = y * (kSide + 1) + x;
-        add_square(model_, {k, k + 1, k + kSide + 2, k + kSide + 1});
-      }
+      model_.set_point(v, point);
     }
     rest_ = points();
   }

@@ -43,15 +43,6 @@ TEST(CoarseStart, IsThereInSpace) {
   EXPECT_FALSE(openmesh::solve(mesh, sample.cage, options).coarse_levels.empty());
 }
 
-template <int Dim>
-auto mesh_of(const DomainMesh<Dim>& domain) {
-  if constexpr (Dim == 2) {
-    return openmesh::to_mesh<DoubleTri>(domain);
-  } else {
-    return openmesh::TetMesh::from(domain);
-  }
-}
-
 // All that saves time in solve() of a cage and a mesh is used here, too.
 template <int Dim>
 void expect_solve_of_cage_and_mesh(const Cage<Dim>& cage, const DomainMesh<Dim>& domain) {
@@ -61,7 +52,8 @@ void expect_solve_of_cage_and_mesh(const Cage<Dim>& cage, const DomainMesh<Dim>&
     options.active_set = pairs;
     const auto mesher = openmesh::internal::coarse_mesher(openmesh::internal::linked_mesher<Dim>());
     const auto expected = solve<Dim>(cage, domain, options, mesher);
-    auto mesh = mesh_of(domain);
+    using Mesh = std::conditional_t<Dim == 2, DoubleTri, openmesh::TetMesh>;
+    auto mesh = openmesh::to_mesh<Mesh>(domain);
     const auto report = openmesh::solve(mesh, cage, options);
     EXPECT_EQ(report.iterations, expected.report.iterations);
     EXPECT_EQ(report.distances.source, expected.report.distances.source);

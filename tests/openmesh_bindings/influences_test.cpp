@@ -126,15 +126,6 @@ TEST(InfluencesProperty, DamagedFilesAreNamed) {
 }
 
 template <class Mesh>
-Mesh build(const DomainMesh<2>& domain) {
-  return openmesh::to_mesh<Mesh>(domain);
-}
-template <class Mesh>
-Mesh build(const DomainMesh<3>& domain) {
-  return TetMesh::from(domain);
-}
-
-template <class Mesh>
 class MeshWeights : public ::testing::Test {
  protected:
   static constexpr int kDim = openmesh::kDimension<Mesh>;
@@ -142,7 +133,7 @@ class MeshWeights : public ::testing::Test {
 
   MeshWeights() : sample_(make_sample<kDim>(Shape::kCorner, 3, 0.2)) {
     normalize_and_validate(sample_.mesh);
-    mesh_ = build<Mesh>(sample_.mesh);
+    mesh_ = openmesh::to_mesh<Mesh>(sample_.mesh);
     openmesh::solve(mesh_, sample_.cage);
     weights_ = openmesh::get_weights(mesh_);
     pose_ = sample_.cage;

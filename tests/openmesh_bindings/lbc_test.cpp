@@ -119,32 +119,6 @@ TYPED_TEST(LbcTest, GradientsAreAPropertyOnRequest) {
   EXPECT_FALSE(mesh.get_property_handle(handle, openmesh::gradients_name()));
 }
 
-// An affine motion of the cage moves every point along.
-TYPED_TEST(LbcTest, DeformFollowsTheCage) {
-  constexpr int kDimension = kDim<TypeParam>;
-  const auto sample = make_sample<kDimension>(Shape::kCorner, 3, 0.2);
-  auto mesh = by_hand<TypeParam>(sample.mesh);
-  openmesh::solve(mesh, sample.cage);
-  Eigen::Matrix<double, kDimension, kDimension> linear =
-      Eigen::Matrix<double, kDimension, kDimension>::Identity();
-  linear(0, 1) = 0.5;
-  linear(1, 0) = -0.25;
-  auto cage = sample.cage;
-  cage.points = (linear * cage.points).colwise() + Vector<kDimension>::Constant(0.75);
-  openmesh::deform(mesh, cage);
-  for (const auto v : mesh.vertices()) {
-    const Vector<kDimension> expected =
-        linear * sample.mesh.points.col(v.idx()) + Vector<kDimension>::Constant(0.75);
-    for (int d = 0; d < kDimension; ++d) {
-      EXPECT_NEAR(mesh.point(v)[d], expected[d], kExact<TypeParam> ? 1e-12 : 1e-5);
-    }
-  }
-  cage.points.conservativeResize(kDimension, cage.points.cols() - 1);
-  expect_refused("do not match a cage with", [&] { openmesh::deform(mesh, cage); });
-  auto bare = by_hand<TypeParam>(sample.mesh);
-  expect_refused("has no weights", [&] { openmesh::deform(bare, sample.cage); });
-}
-
 template <class Mesh>
 class LbcTriangleTest : public ::testing::Test {};
 using TriangleMeshes = ::testing::Types<FloatTri, DoubleTri, PlaneTri, EigenMesh>;

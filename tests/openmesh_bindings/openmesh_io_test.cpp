@@ -1,32 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <OpenMesh/Core/IO/MeshIO.hh>
-#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <fstream>
 
 #include "flbc/openmesh/mesh_io.h"
+#include "support/openmesh_model.h"
 #include "support/scratch.h"
 #include "support/test.h"
 
 namespace flbc::openmesh {
 namespace {
 
-struct DoubleTraits : OpenMesh::DefaultTraits {
-  using Point = OpenMesh::Vec3d;
-};
-using BoxMesh = OpenMesh::PolyMesh_ArrayKernelT<DoubleTraits>;
-
-// A box without lid, in quadrilaterals, with thirds as coordinates.
-BoxMesh open_box() {
-  BoxMesh mesh;
-  std::vector<BoxMesh::VertexHandle> v;
-  for (int k = 0; k < 8; ++k) {
-    v.push_back(mesh.add_vertex(BoxMesh::Point((k & 1) / 3.0, (k & 2) / 3.0, (k & 4) / 3.0)));
-  }
-  mesh.add_face(v[0], v[2], v[3], v[1]);
-  mesh.add_face(v[0], v[1], v[5], v[4]);
-  mesh.add_face(v[1], v[3], v[7], v[5]);
-  mesh.add_face(v[3], v[2], v[6], v[7]);
-  mesh.add_face(v[2], v[0], v[4], v[6]);
+// With thirds as coordinates.
+testing::OpenMeshModel open_box() {
+  auto mesh = testing::box_with_attributes();
+  for (const auto vertex : mesh.vertices()) mesh.point(vertex) /= 3;
   return mesh;
 }
 
@@ -37,9 +24,9 @@ TEST(OpenMeshIo, KeepsPolygonsAndTheirOrder) {
     const auto path = testing::scratch_path("box." + extension);
     ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, path));
     const auto soup = read_polygons(path);
-    ASSERT_EQ(soup.points.size(), 8U);
-    ASSERT_EQ(soup.polygons.size(), 5U);
-    for (const auto& polygon : soup.polygons) EXPECT_EQ(polygon.size(), 4U);
+    ASSERT_EQ(soup.points.size(), 9U);
+    ASSERT_EQ(soup.polygons.size(), 6U);
+    for (std::size_t f = 0; f < 6; ++f) EXPECT_EQ(soup.polygons[f].size(), f < 5 ? 4U : 3U);
     for (const auto vertex : mesh.vertices()) {
       const auto& point = mesh.point(vertex);
       for (int d = 0; d < 3; ++d) EXPECT_NEAR(soup.points[vertex.idx()][d], point[d], 1e-5);
@@ -50,7 +37,7 @@ TEST(OpenMeshIo, KeepsPolygonsAndTheirOrder) {
 TEST(OpenMeshIo, KeepsDoublePointsOfOmFiles) {
   const auto path = testing::scratch_path("exact.om");
   ASSERT_TRUE(OpenMesh::IO::write_mesh(open_box(), path));
-  EXPECT_EQ(read_polygons(path).points[1].x(), 1 / 3.0);
+  EXPECT_EQ(read_polygons(path).points[1].x(), 0.25 / 3);
 }
 
 TEST(OpenMeshIo, MergesTheCornersOfStlFiles) {
@@ -59,8 +46,8 @@ TEST(OpenMeshIo, MergesTheCornersOfStlFiles) {
   const auto path = testing::scratch_path("box.stl");
   ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, path));
   const auto soup = read_polygons(path);
-  EXPECT_EQ(soup.points.size(), 8U);
-  EXPECT_EQ(soup.polygons.size(), 10U);
+  EXPECT_EQ(soup.points.size(), 9U);
+  EXPECT_EQ(soup.polygons.size(), 11U);
 }
 
 // Three triangles at one edge: no half-edge mesh could hold them, the soup must.
@@ -82,14 +69,14 @@ TEST(OpenMeshIo, SurvivesDamagedPlyFiles) {
   using OpenMesh::IO::Options;
   for (const int flags : {0, int(Options::Binary), Options::Binary | Options::MSB}) {
     ASSERT_TRUE(OpenMesh::IO::write_mesh(open_box(), path, Options(flags)));
-    EXPECT_EQ(read_polygons(path).polygons.size(), 5U);
+    EXPECT_EQ(read_polygons(path).polygons.size(), 6U);
     std::ifstream file(path, std::ios::binary);
     const std::string sound{std::istreambuf_iterator<char>(file), {}};
     const auto survives = [&](const std::string& content) {
       std::ofstream(path, std::ios::binary) << content;
       try {
         for (const auto& polygon : read_polygons(path).polygons) {
-          for (const Index corner : polygon) ASSERT_LT(corner, 8);
+          for (const Index corner : polygon) ASSERT_LT(corner, 9);
         }
       } catch (const InputError& error) {
         EXPECT_EQ(std::string(error.what()).find(path), 0U) << error.what();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Wide properties in .om files, written and read by OpenMesh itself.
 #include <sys/resource.h>
-#include <fstream>
 
 #include "../../openmesh_bindings/src/number_stream.h"
 #include "flbc/openmesh/wide_property.h"
@@ -63,16 +62,7 @@ std::vector<Scalar> delicate_numbers() {
 }
 
 template <class Case>
-struct WidePropertyIo : ::testing::Test {
-  using Numbers = Wide<typename Case::Scalar>;
-  using Vertices = OpenMesh::VPropHandleT<Numbers>;
-  using Halfedges = OpenMesh::HPropHandleT<Numbers>;
-  using Edges = OpenMesh::EPropHandleT<Numbers>;
-  using Faces = OpenMesh::FPropHandleT<Numbers>;
-  using OfMesh = OpenMesh::MPropHandleT<Numbers>;
-
-  typename Case::Mesh mesh_ = testing::make_squares<typename Case::Mesh>();
-};
+struct WidePropertyIo : testing::WidePropertyTest<Case> {};
 TYPED_TEST_SUITE(WidePropertyIo, testing::WideCases);
 
 template <class Handle, class Mesh>

@@ -16,16 +16,7 @@ using testing::is_zero;
 using testing::key;
 
 template <class Case>
-struct WideProperty : ::testing::Test {
-  using Numbers = Wide<typename Case::Scalar>;
-  using Vertices = OpenMesh::VPropHandleT<Numbers>;
-  using Halfedges = OpenMesh::HPropHandleT<Numbers>;
-  using Edges = OpenMesh::EPropHandleT<Numbers>;
-  using Faces = OpenMesh::FPropHandleT<Numbers>;
-  using OfMesh = OpenMesh::MPropHandleT<Numbers>;
-
-  typename Case::Mesh mesh_ = testing::make_squares<typename Case::Mesh>();
-};
+struct WideProperty : testing::WidePropertyTest<Case> {};
 TYPED_TEST_SUITE(WideProperty, testing::WideCases);
 
 TYPED_TEST(WideProperty, LaysRowsOutElementMajor) {

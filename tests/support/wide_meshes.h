@@ -91,6 +91,19 @@ void fill(openmesh::RowsView<Scalar> rows, int key) {
   }
 }
 
+//! A mesh and the kinds of properties of such numbers.
+template <class Case>
+struct WidePropertyTest : ::testing::Test {
+  using Numbers = openmesh::Wide<typename Case::Scalar>;
+  using Vertices = OpenMesh::VPropHandleT<Numbers>;
+  using Halfedges = OpenMesh::HPropHandleT<Numbers>;
+  using Edges = OpenMesh::EPropHandleT<Numbers>;
+  using Faces = OpenMesh::FPropHandleT<Numbers>;
+  using OfMesh = OpenMesh::MPropHandleT<Numbers>;
+
+  typename Case::Mesh mesh_ = make_squares<typename Case::Mesh>();
+};
+
 //! Shape and numbers.
 template <class Scalar>
 bool is_filled(openmesh::RowsView<const Scalar> rows, int key, std::size_t components,

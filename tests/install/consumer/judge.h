@@ -20,12 +20,12 @@ int judge(const flbc::Cage<Dim>& cage, const flbc::PointList<Dim>& points,
 
 // The unit square.
 inline flbc::Cage<2> square() {
-  flbc::Cage<2> cage;
-  cage.points.resize(2, 4);
-  cage.points << 0, 1, 1, 0,  //
-      0, 0, 1, 1;
-  cage.facets.resize(2, 4);
-  cage.facets << 0, 1, 2, 3,  //
-      1, 2, 3, 0;
-  return cage;
+  return {flbc::PointList<2>{{0, 1, 1, 0}, {0, 0, 1, 1}},
+          flbc::FacetList<2>{{0, 1, 2, 3}, {1, 2, 3, 0}}};
+}
+
+inline flbc::Cage<3> octahedron() {
+  return {flbc::PointList<3>{{1, 0, 0, -1, 0, 0}, {0, 1, 0, 0, -1, 0}, {0, 0, 1, 0, 0, -1}},
+          flbc::FacetList<3>{
+              {0, 1, 3, 4, 1, 3, 4, 0}, {1, 3, 4, 0, 0, 1, 3, 4}, {2, 2, 2, 2, 5, 5, 5, 5}}};
 }

@@ -7,9 +7,6 @@ int main() {
   flbc::DomainMesh<2> mesh;
   mesh.points.resize(2, 5);
   mesh.points << cage.points, Eigen::Vector2d(0.25, 0.5);
-  mesh.cells.resize(3, 4);
-  mesh.cells << 0, 1, 2, 3,  //
-      1, 2, 3, 0,            //
-      4, 4, 4, 4;
+  mesh.cells = flbc::CellList<2>{{0, 1, 2, 3}, {1, 2, 3, 0}, {4, 4, 4, 4}};
   return judge<2>(cage, mesh.points, flbc::solve(cage, mesh).weights.dense());
 }

@@ -3,15 +3,7 @@
 #include "judge.h"
 
 int main() {
-  flbc::Cage<3> cage;
-  cage.points.resize(3, 6);
-  cage.points << 1, 0, 0, -1, 0, 0,  //
-      0, 1, 0, 0, -1, 0,             //
-      0, 0, 1, 0, 0, -1;
-  cage.facets.resize(3, 8);
-  cage.facets << 0, 1, 3, 4, 1, 3, 4, 0,  //
-      1, 3, 4, 0, 0, 1, 3, 4,             //
-      2, 2, 2, 2, 5, 5, 5, 5;
+  const auto cage = octahedron();
   const auto mesh = flbc::tetrahedralize(cage, {300});
   return judge<3>(cage, mesh.points, flbc::solve(cage, mesh).weights.dense());
 }
