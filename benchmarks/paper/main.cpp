@@ -17,11 +17,10 @@ constexpr struct {
   const char* name;
   bool (*run)(const Context&);
 } kExperiments[] = {
-    {"table1", run_table1},       {"table2", run_table2},        {"figure2", run_figure2},
-    {"figure3", run_figure3},     {"figure4", run_figure4},      {"figure5", run_figure5},
-    {"figure6", run_figure6},     {"speed", run_speed},          {"race", run_race},
-    {"many", run_many},           {"growth", run_growth},        {"models", run_models},
-    {"tolerance", run_tolerance}, {"smoothness", run_smoothness}};
+    {"table1", run_table1},   {"table2", run_table2},       {"figure3", run_figure3},
+    {"figure5", run_figure5}, {"figure6", run_figure6},     {"speed", run_speed},
+    {"race", run_race},       {"many", run_many},           {"growth", run_growth},
+    {"models", run_models},   {"tolerance", run_tolerance}, {"smoothness", run_smoothness}};
 
 bool run_all(const Context& context, const std::vector<std::string>& only) {
   std::filesystem::create_directories(context.out);

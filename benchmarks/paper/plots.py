@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes tables.md and the figures from the CSV files of flbc_bench_paper.
 
-    plots.py MODELS_FOLDER OUT_FOLDER FLBC_PROGRAM
+    plots.py OUT_FOLDER
 """
 
 import pathlib
-import subprocess
 import sys
 
 import tables
@@ -20,22 +19,18 @@ def write_tables(out):
     return path
 
 
-def main(models, out, flbc):
+def main(out):
     print(write_tables(out))
     try:
         import curves
-        import pictures
     except ImportError:
         sys.exit("plots.py: no pictures without matplotlib: install the Debian package python3-matplotlib "
                  f"and run again; the numbers are in {out}")
-    try:
-        for path in [*curves.draw_all(out, out), *pictures.draw_all(models, out, flbc)]:
-            print(path)
-    except subprocess.CalledProcessError as error:
-        sys.exit(f"plots.py: {' '.join(error.cmd)} failed")
+    for path in curves.draw_all(out, out):
+        print(path)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 4:
+    if len(sys.argv) != 2:
         sys.exit(__doc__.strip())
-    main(*(pathlib.Path(argument).resolve() for argument in sys.argv[1:]))
+    main(pathlib.Path(sys.argv[1]).resolve())

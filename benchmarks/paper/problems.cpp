@@ -43,21 +43,19 @@ std::string hash_of(const Matrices&... matrices) {
 
 const std::vector<Model>& models() {
   static const std::vector<Model> kModels = {
-      {"logo", 2, "2d/LBClogo-control-edgeset.obj", 26800, 0, {3.18e-4, 4.94, 5.72e-5, 2.78}},
+      {"logo", 2, "2d/LBClogo-control-edgeset.obj", 26800, {3.18e-4, 4.94, 5.72e-5, 2.78}},
       {"woody",
        2,
        "2d/woody-control-edgeset.obj",
        10800,
-       12,
        {2.43e-4, 19.30, 2.30e-4, 12.43, 1.723e-10}},
       {"cactus",
        2,
        "2d/cactus-control-edgeset.obj",
        10850,
-       4,
        {5.87e-4, 22.60, 2.2e-4, 16.98, 4.083e-10}},
-      {"horse", 3, "3d/horse_cage.obj", 5850, 27, {1.66e-5, 39.35, 1.21e-5, 21.87}},
-      {"armadillo", 3, "3d/armadillo_cage.obj", 6640, 53, {5.2e-5, 134.65, 4.16e-5, 120.85}},
+      {"horse", 3, "3d/horse_cage.obj", 5850, {1.66e-5, 39.35, 1.21e-5, 21.87}},
+      {"armadillo", 3, "3d/armadillo_cage.obj", 6640, {5.2e-5, 134.65, 4.16e-5, 120.85}},
       {"shark", 3, "3d/shark_cage.obj", 6000},
       {"beast", 3, "3d/beast_cage.obj", 6000},
   };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Models, methods, and from a model to a problem, its optimum, and the columns of its rows.
+// Models, methods, and from a model to a problem, its optimum, and the columns of its rows.
 #pragma once
 
 #include <omp.h>
@@ -31,9 +30,8 @@ struct PaperNumbers {
 struct Model {
   std::string name;
   int dim;
-  std::string cage;         //!< file under the models folder
-  Index paper_size = 0;     //!< vertices for tables 1 and 2
-  Index control_point = 0;  //!< the one whose coordinate function is drawn
+  std::string cage;      //!< file under the models folder
+  Index paper_size = 0;  //!< vertices for tables 1 and 2
   PaperNumbers paper{};
 };
 

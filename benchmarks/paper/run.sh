@@ -41,5 +41,5 @@ commit=$(git describe --always --dirty 2>/dev/null || echo unknown)$note
 build/release/benchmarks/flbc_bench_paper "$models" "$out" --commit "$commit" "$@" || status=$?
 /usr/bin/python3 -B benchmarks/paper/programs.py "$models" "$out" build/release --commit "$commit" "$@" || status=$?
 [[ -d $out ]] || exit "$status"
-/usr/bin/python3 -B benchmarks/paper/plots.py "$models" "$out" build/release/flbc || status=$?
+/usr/bin/python3 -B benchmarks/paper/plots.py "$out" || status=$?
 exit "$status"

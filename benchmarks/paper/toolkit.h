@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! What all experiments share: settings, processes, rows of a table, time, and memory.
+// What all experiments share: settings, processes, rows of a table, time, and memory.
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -12,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/stopwatch.h"
 #include "flbc/types.h"
 
 namespace flbc::bench {
@@ -37,16 +36,6 @@ struct Context {
 
   //! Most iterations of a method that has `full` in a full run.
   int iterations(int full) const { return quick ? std::min(full, 200) : full; }
-};
-
-class Stopwatch {
- public:
-  //! Seconds since construction.
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
 };
 
 //! Cells of a line, each with the name of its column.

@@ -1,50 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Figures 2 and 4 of the paper, which are pictures of coordinate functions, and figure 3: time and
-// memory against the resolution of the mesh.
-#include <filesystem>
-
+// Figure 3 of the paper: time and memory against the resolution of the mesh.
 #include "experiments.h"
-#include "flbc/io/weights_io.h"
 #include "problems.h"
 
 namespace flbc::bench {
 namespace {
-
-struct Picture {
-  const char* model;
-  Index vertices;
-  int slices;  // 0 in 2D
-};
-
-// The weights, and a row of the options of `flbc draw`.
-template <int Dim>
-Row compute(const std::string& figure, const Setting<Dim>& setting, int slices) {
-  SolverOptions options;
-  options.tolerance = 1e-8;  // below what a picture shows
-  options.threads = setting.context.threads;
-  const auto stem = figure + "-" + setting.name;
-  std::filesystem::create_directories(setting.context.out + "/weights");
-  io::write_weights(setting.context.out + "/weights/" + stem + ".npy",
-                    solve(setting.problem, options).weights);
-  return mesh_row(setting)
-      .add("picture", "pictures/" + stem + ".png")
-      .add("domain", domain_path(setting.model, setting.name))
-      .add("weights", "weights/" + stem + ".npy")
-      .add("cage", setting.model.cage)
-      .add("control_point", setting.model.control_point)
-      .add("slices", slices);
-}
-
-bool run_pictures(const Context& context, const char* figure, const std::vector<Picture>& pictures,
-                  const std::string& about) {
-  ResultTable table(context, figure);
-  for (const auto& picture : pictures) {
-    add_rows(table, model(picture.model), picture.vertices,
-             [&](const auto& setting) { return Rows{compute(figure, setting, picture.slices)}; });
-  }
-  return table.write(about +
-                     "; domain, weights and picture are in this folder, cage in the models'");
-}
 
 // The methods of the paper's kind, with a global system and without, and the default one.
 struct Curve {
@@ -81,17 +41,6 @@ Row measure(const Setting<Dim>& setting, const Curve& curve) {
 
 }  // namespace
 
-bool run_figure2(const Context& context) {
-  return run_pictures(context, "figure2",
-                      {{"woody", 2000, 0},
-                       {"woody", 10000, 0},
-                       {"woody", 50000, 0},
-                       {"horse", 2000, 1},
-                       {"horse", 10000, 1},
-                       {"horse", 40000, 1}},
-                      "figure 2: one function at growing resolution");
-}
-
 bool run_figure3(const Context& context) {
   const std::vector<Curve> curves = {
       {{"paper", Method::kPaper, 0}, LinearSolver::kNone, 40000},
@@ -116,11 +65,6 @@ bool run_figure3(const Context& context) {
       "boundary values and phi; solve = peak beyond that, the weights included; peak = of the "
       "whole "
       "process");
-}
-
-bool run_figure4(const Context& context) {
-  return run_pictures(context, "figure4", {{"horse", 5850, 3}, {"armadillo", 6640, 3}},
-                      "figure 4: one function on three slices");
 }
 
 }  // namespace flbc::bench
