@@ -9,7 +9,7 @@
 namespace flbc::openmesh {
 namespace {
 
-constexpr std::array<char, 8> kPairsMagic = {'f', 'l', 'b', 'c', 'i', 'n', 'f', '1'};
+constexpr Magic kPairsMagic = {'f', 'l', 'b', 'c', 'i', 'n', 'f', '1'};
 constexpr Count kPairBytes = sizeof(std::uint32_t) + sizeof(double);
 
 // Header before the pairs; all control points come before all weights. The size is stored
@@ -21,22 +21,9 @@ constexpr std::size_t kPairsHeaderBytes = kPairsMagic.size() + sizeof(PairsHeade
 
 PairsHeader read_pairs_header(std::istream& in, bool swap, const std::string& name,
                               Count elements) {
-  std::array<char, kPairsMagic.size()> magic{};
-  std::array<Count, 4> fields{};
-  if (!read_numbers(in, magic.data(), magic.size(), false)) {
-    refuse_stored(name, "the file ends before the property");
-  }
-  if (magic != kPairsMagic) {
-    refuse_stored(name, "the file has a property of another type under this name");
-  }
-  if (!read_numbers(in, fields.data(), fields.size(), swap)) {
-    refuse_stored(name, "the file ends within the property");
-  }
+  const auto fields = read_header<4>(in, swap, name, kPairsMagic);
   const PairsHeader header{fields[0], fields[1], fields[2], fields[3]};
-  if (header.elements != elements) {
-    refuse_stored(name, "the file has it for " + std::to_string(header.elements) +
-                            " elements, but the mesh has " + std::to_string(elements));
-  }
+  require_elements(name, header.elements, elements);
   if (header.data_bytes > kMostStoredBytes || header.most > kMostStoredBytes ||
       product(product(header.elements, header.most), kPairBytes) != header.data_bytes) {
     refuse_stored(name, "its shape is damaged");
@@ -75,10 +62,9 @@ std::size_t store_block(std::ostream& out, bool swap, const std::string& name,
                         const InfluenceBlock& block) {
   const std::size_t size = stored_size(block);
   require_storable(name, size);
-  const std::array<Count, 4> fields = {block.num_control_points(), block.most(), block.size(),
-                                       size - kPairsHeaderBytes};
-  write_numbers(out, kPairsMagic.data(), kPairsMagic.size(), false);
-  write_numbers(out, fields.data(), fields.size(), swap);
+  write_header<4>(
+      out, swap, kPairsMagic,
+      {block.num_control_points(), block.most(), block.size(), size - kPairsHeaderBytes});
   const std::size_t count = block.size() * block.most();
   if (count > 0) {
     write_numbers(out, block.control_points(), count, swap);

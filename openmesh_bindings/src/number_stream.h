@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Shared input and output of numbers in .om files. Sizes are checked against the stream before
-//! allocation, so damaged files cause an error.
+// Shared input and output of numbers in .om files. Sizes are checked against the stream before
+// allocation, so damaged files cause an error.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <istream>
 #include <limits>
@@ -58,6 +58,38 @@ bool read_numbers(std::istream& in, Number* numbers, std::size_t count, bool swa
   in.read(reinterpret_cast<char*>(numbers), static_cast<std::streamsize>(count * sizeof(Number)));
   if (swap) std::for_each(numbers, numbers + count, reverse_bytes<Number>);
   return in.good();
+}
+
+using Magic = std::array<char, 8>;  // names the kind of a property
+
+template <std::size_t N>
+void write_header(std::ostream& out, bool swap, const Magic& magic,
+                  const std::array<Count, N>& fields) {
+  write_numbers(out, magic.data(), magic.size(), false);
+  write_numbers(out, fields.data(), fields.size(), swap);
+}
+
+template <std::size_t N>
+std::array<Count, N> read_header(std::istream& in, bool swap, const std::string& name,
+                                 const Magic& magic) {
+  Magic found{};
+  std::array<Count, N> fields{};
+  if (!read_numbers(in, found.data(), found.size(), false)) {
+    refuse_stored(name, "the file ends before the property");
+  }
+  if (found != magic) {
+    refuse_stored(name, "the file has a property of another type under this name");
+  }
+  if (!read_numbers(in, fields.data(), fields.size(), swap)) {
+    refuse_stored(name, "the file ends within the property");
+  }
+  return fields;
+}
+
+inline void require_elements(const std::string& name, Count found, Count expected) {
+  if (found == expected) return;
+  refuse_stored(name, "the file has it for " + std::to_string(found) +
+                          " elements, but the mesh has " + std::to_string(expected));
 }
 
 //! The product, saturated at the maximum.

@@ -11,7 +11,7 @@
 namespace flbc::openmesh {
 namespace {
 
-constexpr std::array<char, 8> kRowsMagic = {'f', 'l', 'b', 'c', 'r', 'o', 'w', '1'};
+constexpr Magic kRowsMagic = {'f', 'l', 'b', 'c', 'r', 'o', 'w', '1'};
 
 // Header before the values. The size is stored redundantly with the shape, to detect damage.
 struct RowsHeader {
@@ -28,23 +28,13 @@ RowsHeader header_of(const RowBlock<Scalar>& rows) {
 
 template <class Scalar>
 RowsHeader read_rows_header(std::istream& in, bool swap, const std::string& name, Count elements) {
-  std::array<char, kRowsMagic.size()> magic{};
-  std::array<Count, 5> fields{};
-  if (!read_numbers(in, magic.data(), magic.size(), false))
-    refuse_stored(name, "the file ends before the property");
-  if (magic != kRowsMagic)
-    refuse_stored(name, "the file has a property of another type under this name");
-  if (!read_numbers(in, fields.data(), fields.size(), swap))
-    refuse_stored(name, "the file ends within the property");
+  const auto fields = read_header<5>(in, swap, name, kRowsMagic);
   const RowsHeader header{fields[0], fields[1], fields[2], fields[3], fields[4]};
   if (header.scalar_bytes != sizeof(Scalar)) {
     refuse_stored(name, "the file has it in another precision than the mesh, " +
                             std::string(sizeof(Scalar) == sizeof(float) ? "float" : "double"));
   }
-  if (header.elements != elements) {
-    refuse_stored(name, "the file has it for " + std::to_string(header.elements) +
-                            " elements, but the mesh has " + std::to_string(elements));
-  }
+  require_elements(name, header.elements, elements);
   const Count rows = product(header.elements, header.components);
   if (header.data_bytes > kMostStoredBytes || header.components > kMostStoredBytes ||
       header.width > kMostStoredBytes ||
@@ -89,10 +79,9 @@ std::size_t store_block(std::ostream& out, bool swap, const std::string& name,
   const std::size_t size = stored_size(rows);
   require_storable(name, size);
   const auto header = header_of(rows);
-  const std::array<Count, 5> fields = {header.scalar_bytes, header.components, header.width,
-                                       header.elements, header.data_bytes};
-  write_numbers(out, kRowsMagic.data(), kRowsMagic.size(), false);
-  write_numbers(out, fields.data(), fields.size(), swap);
+  write_header<5>(
+      out, swap, kRowsMagic,
+      {header.scalar_bytes, header.components, header.width, header.elements, header.data_bytes});
   write_numbers(out, rows.data(), rows.size() * rows.element_size(), swap);
   return out.good() ? size : 0;
 }

@@ -4,15 +4,127 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <iterator>
 #include <vector>
 
 #include <OpenMesh/Core/Mesh/Handles.hh>
+#include <OpenMesh/Core/Utils/Property.hh>
 
 #include "flbc/domain_mesh.h"
-#include "flbc/openmesh/tet_handles.h"
-#include "flbc/openmesh/tet_ranges.h"
 
 namespace flbc::openmesh {
+
+//! Handle of a tetrahedron. Like OpenMesh handles, it is invalid unless it has an index.
+struct CellHandle : OpenMesh::BaseHandle {
+  explicit CellHandle(int index = -1) : OpenMesh::BaseHandle(index) {}
+};
+
+//! Handle of a property of the cells.
+template <class T>
+struct CPropHandleT : OpenMesh::BasePropHandleT<T> {
+  using Value = T;
+  using value_type = T;
+  using Handle = CellHandle;
+
+  explicit CPropHandleT(int index = -1) : OpenMesh::BasePropHandleT<T>(index) {}
+  explicit CPropHandleT(const OpenMesh::BasePropHandleT<T>& base)
+      : OpenMesh::BasePropHandleT<T>(base) {}
+};
+
+}  // namespace flbc::openmesh
+
+namespace OpenMesh {
+
+template <>
+struct PropHandle<flbc::openmesh::CellHandle> {
+  template <class T>
+  using type = flbc::openmesh::CPropHandleT<T>;
+};
+
+}  // namespace OpenMesh
+
+template <>
+struct std::hash<flbc::openmesh::CellHandle> {
+  std::size_t operator()(const flbc::openmesh::CellHandle& cell) const {
+    return static_cast<std::size_t>(cell.idx());
+  }
+};
+
+namespace flbc::openmesh {
+
+namespace internal {
+
+//! Types of a forward iterator over handles, which are created from indices on access.
+template <class HandleType>
+struct HandleIterator {
+  using iterator_category = std::forward_iterator_tag;
+  using value_type = HandleType;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const HandleType*;
+  using reference = HandleType;
+};
+
+}  // namespace internal
+
+//! All elements of one kind, ascending. Valid until the elements of the mesh change, as
+//! HandleRange.
+template <class Handle>
+class ElementRange {
+ public:
+  class iterator : public internal::HandleIterator<Handle> {
+   public:
+    explicit iterator(int index = 0) : index_(index) {}
+    Handle operator*() const { return Handle(index_); }
+    iterator& operator++() { return ++index_, *this; }
+    iterator operator+(int count) const { return iterator(index_ + count); }
+    iterator operator++(int) { return iterator(index_++); }
+    bool operator==(const iterator& other) const { return index_ == other.index_; }
+    bool operator!=(const iterator& other) const { return index_ != other.index_; }
+
+   private:
+    int index_;
+  };
+
+  explicit ElementRange(std::size_t size) : size_(static_cast<int>(size)) {}
+  iterator begin() const { return iterator(0); }
+  iterator end() const { return iterator(size_); }
+  std::size_t size() const { return static_cast<std::size_t>(size_); }
+
+ private:
+  int size_;
+};
+
+//! The neighbors of an element.
+template <class Handle>
+class HandleRange {
+ public:
+  class iterator : public internal::HandleIterator<Handle> {
+   public:
+    explicit iterator(const int* place = nullptr) : place_(place) {}
+    Handle operator*() const { return Handle(*place_); }
+    iterator& operator++() { return ++place_, *this; }
+    iterator operator++(int) { return iterator(place_++); }
+    bool operator==(const iterator& other) const { return place_ == other.place_; }
+    bool operator!=(const iterator& other) const { return place_ != other.place_; }
+
+   private:
+    const int* place_;
+  };
+
+  HandleRange(const int* first, std::size_t size) : first_(first), size_(size) {}
+  iterator begin() const { return iterator(first_); }
+  iterator end() const { return iterator(first_ + size_); }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+
+  //! No range check is performed.
+  Handle operator[](std::size_t k) const { return Handle(first_[k]); }
+
+ private:
+  const int* first_;
+  std::size_t size_;
+};
 
 //! The part of TetMesh without points. Vertices and cells keep their order in the DomainMesh. Faces
 //! are numbered as build_topology() does, edges by their first vertex, then their second.
