@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Weights from one format to another.
+// Weights from one format to another.
 #pragma once
 
 #include <string>
@@ -19,7 +18,6 @@ struct WeightConversion {
   bool transpose = false;  //!< the input has control points as rows
 };
 
-//! Weights in all formats.
 constexpr std::initializer_list<io::Content> kWeightFiles = {io::Content::kWeights,
                                                              io::Content::kTriplets};
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Moves files of points of any size, batch by batch.
+// Moves files of points of any size, batch by batch.
 #pragma once
 
 #include <string>
@@ -10,7 +9,6 @@
 
 namespace flbc::app {
 
-//! Where points move.
 struct PointMotion {
   std::string input;
   io::PointLayout layout{};  //!< of the input

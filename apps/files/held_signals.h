@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Interrupts wait while results are written, so that no temporary file is left behind.
+// Interrupts wait while results are written, so that no temporary file is left behind.
 #pragma once
 
 #include <csignal>
@@ -26,7 +25,6 @@ class HeldSignals {
     if (came() != 0) raise(came());
   }
 
-  //! Whether one came.
   bool has_signal() const { return came() != 0; }
 
   HeldSignals(const HeldSignals&) = delete;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Loading what the subcommands work on, with the file's name in every message.
+// Loading what the subcommands work on, with the file's name in every message.
 #pragma once
 
 #include <string>
@@ -64,13 +63,10 @@ void require_control_point(Index control_point, Eigen::Index count);
 //! Writes a result of text; signals wait meanwhile. \throws IoError
 void write_text(const std::string& path, const std::string& text);
 
-//! The formats of weights, for help.
 constexpr const char* kWeightFormats = ".mtx, .dmat, .npy, .csv, .mat, .lbw";
 
-//! What a file of weights holds, and its formats, for help.
 std::string describe_weight_file();
 
-//! The formats of meshes of the interior, for help.
 std::string mesh_formats();
 
 //! \throws OptionError before any work is done if a result would replace a file that is read, or

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Models as cages are made round them, and cages as files.
+// Models as cages are made round them, and cages as files.
 #pragma once
 
 #include <string>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Models and meshes of the interior: read once, shown, moved, written in every format.
+// Models and meshes of the interior: read once, shown, moved, written in every format.
 #pragma once
 
 #include <optional>
@@ -17,7 +16,6 @@
 
 namespace flbc::app {
 
-//! Models and meshes of the interior in all formats.
 constexpr std::initializer_list<io::Content> kMeshFiles = {
     io::Content::kModel, io::Content::kMesh2D, io::Content::kMesh3D};
 

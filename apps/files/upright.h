@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Which axis of a model points up in pictures, pages, and exports, and from where pictures show
-//! it.
+// Which axis of a model points up in pictures, pages, and exports, and from where pictures show
+// it.
 #pragma once
 
 #include <vector>

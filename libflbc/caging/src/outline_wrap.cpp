@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "caging/cage_steps.h"
 #include "caging/surface_tools.h"
-#include "caging/wrap.h"
 
 namespace flbc {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "caging/simplified.h"
+#include "caging/cage_steps.h"
 
 #include <algorithm>
 #include <array>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "base/instantiate.h"
 #include "base/parallel.h"
 #include "flbc/errors.h"
 #include "problem/laplacian.h"
@@ -159,10 +160,6 @@ WeightMatrix bounded_biharmonic_weights(const LbcProblem<Dim>& problem) {
   return weights;
 }
 
-#define FLBC_INSTANTIATE(Dim) \
-  template WeightMatrix bounded_biharmonic_weights(const LbcProblem<Dim>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(bounded_biharmonic_weights)
 
 }  // namespace flbc

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/instantiate.h"
 #include "base/parallel.h"
 #include "base/shape_checks.h"
 #include "coordinates/weighted_sums.h"
@@ -54,9 +55,7 @@ Eigen::VectorXd displacements(const PointList<Dim>& before, const PointList<Dim>
   return lengths;
 }
 
-template PointList<2> deform(const SparseWeights&, const PointList<2>&, int);
-template PointList<3> deform(const SparseWeights&, const PointList<3>&, int);
-template Eigen::VectorXd displacements(const PointList<2>&, const PointList<2>&);
-template Eigen::VectorXd displacements(const PointList<3>&, const PointList<3>&);
+FLBC_INSTANTIATE_FUNCTION(deform)
+FLBC_INSTANTIATE_FUNCTION(displacements)
 
 }  // namespace flbc

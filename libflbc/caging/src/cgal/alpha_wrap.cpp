@@ -6,7 +6,7 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/alpha_wrap_3.h>
 
-#include "caging/wrap.h"
+#include "caging/cage_steps.h"
 
 namespace flbc {
 

@@ -181,8 +181,7 @@ Passage passage(const Vector<Dim>& from, const Vector<Dim>& to, const Simplex<Di
   return *low == 0 || *high == 0 ? Passage::kUnclear : Passage::kThrough;
 }
 
-template bool intersect(const Simplex<2>&, const Simplex<2>&);
-template bool intersect(const Simplex<3>&, const Simplex<3>&);
+FLBC_INSTANTIATE_FUNCTION(intersect)
 FLBC_INSTANTIATE_FUNCTION(simplex_of)
 FLBC_INSTANTIATE_FUNCTION(intersect_improperly)
 FLBC_INSTANTIATE_FUNCTION(passage)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The table of all formats with their readers and writers.
+// The table of all formats with their readers and writers.
 #pragma once
 
 #include <iosfwd>

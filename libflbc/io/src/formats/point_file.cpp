@@ -3,21 +3,119 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <ostream>
 #include <system_error>
 
+#include <pugixml.hpp>
+
+#include "base/instantiate.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
-#include "mesh/vtu_points.h"
 #include "model/ply_reader.h"
+#include "text/bytes.h"
 #include "text/text_reader.h"
 #include "weights/npy_header.h"
 
 namespace flbc::io {
 namespace {
+
+// Where a VTK XML file has its points as raw bytes after the XML.
+struct VtuPoints {
+  std::size_t block = 0;       // position of the block: its size in bytes, then the coordinates
+  std::size_t size_width = 0;  // bytes of this size: 4 or 8, little-endian
+  std::int64_t count = 0;      // points, of 3 coordinates
+  bool is_double = false;      // float64, otherwise float32
+};
+
+class VtuHeader {
+ public:
+  // \param tag  position of "<AppendedData"
+  VtuHeader(const std::string& path, const std::string& start, std::size_t tag)
+      : path_(path), end_(start.find('>', tag)) {
+    // Bytes after the tag are not XML.
+    const auto xml = start.substr(0, end_) + "></AppendedData></VTKFile>";
+    const auto parsed =
+        document_.load_buffer(xml.data(), xml.size(), pugi::parse_default, pugi::encoding_utf8);
+    if (end_ == std::string::npos || !parsed) {
+      fail(std::string("the XML is malformed: ") + parsed.description());
+    }
+    data_ = start.find_first_not_of(" \t\r\n", end_ + 1);
+    if (data_ == std::string::npos || start[data_] != '_') {
+      fail("the appended data have no \"_\" at their start");
+    }
+    ++data_;
+  }
+
+  // \return nothing if the points are not part of the appended data
+  // \throws InputError if the XML is malformed, or appended points are not raw, not little-endian,
+  // compressed, in several pieces, or not 3 floating-point numbers each
+  std::optional<VtuPoints> read() const {
+    const auto file = document_.document_element();
+    if (file.name() != std::string("VTKFile")) fail("the first tag must be <VTKFile>");
+    const auto piece = file.child("UnstructuredGrid").child("Piece");
+    if (!piece) fail("the file has no unstructured grid");
+    const auto array = piece.child("Points").child("DataArray");
+    if (array.attribute("format").value() != std::string("appended")) return {};
+    if (piece.next_sibling("Piece")) fail("the grid has more than one piece; merge them");
+    if (file.attribute("compressor")) {
+      fail("the data are compressed; save the file without compression");
+    }
+    require(file.child("AppendedData"), "encoding", "encoding", "raw");
+    require(file, "byte_order", "byte order", "LittleEndian");
+    if (array.attribute("NumberOfComponents").value() != std::string("3")) {
+      fail("points need 3 components");
+    }
+    VtuPoints points;
+    points.count = whole_number(piece, "NumberOfPoints");
+    points.block = data_ + static_cast<std::size_t>(whole_number(array, "offset"));
+    points.size_width = is_larger(file, "header_type", "header type", "UInt32", "UInt64") ? 8 : 4;
+    points.is_double = is_larger(array, "type", "points of type", "Float32", "Float64");
+    return points;
+  }
+
+ private:
+  // Whether an attribute has the second of two values; without it, it has the first.
+  bool is_larger(const pugi::xml_node& node, const char* attribute, const std::string& what,
+                 const std::string& smaller, const std::string& larger) const {
+    const std::string value = node.attribute(attribute).as_string(smaller.c_str());
+    if (value == smaller || value == larger) return value == larger;
+    fail("the " + what + " " + in_quotes(value) + " is not supported; only " + smaller + " and " +
+         larger + " are");
+  }
+
+  void require(const pugi::xml_node& node, const char* attribute, const std::string& what,
+               const std::string& expected) const {
+    const std::string value = node.attribute(attribute).value();
+    if (value == expected) return;
+    fail("the appended data have the " + what + " " + in_quotes(value) + "; only " +
+         in_quotes(expected) + " is supported");
+  }
+
+  std::int64_t whole_number(const pugi::xml_node& node, const char* attribute) const {
+    const std::string text = node.attribute(attribute).value();
+    std::int64_t number = -1;
+    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() || number < 0) {
+      fail(std::string(attribute) + " " + in_quotes(text) + " is not a number from 0");
+    }
+    return number;
+  }
+
+  [[noreturn]] void fail(const std::string& message) const {
+    throw InputError(path_ + ": " + message);
+  }
+
+  const std::string& path_;
+  std::size_t end_;
+  std::size_t data_ = 0;
+  pugi::xml_document document_;
+};
 
 constexpr std::size_t kMostHeader = 1 << 16;
 constexpr std::int64_t kPointsAtOnce = 1 << 16;
@@ -94,7 +192,9 @@ std::optional<PointLayout> ply_layout(const std::string& path, const std::string
 
 std::optional<PointLayout> vtu_layout(const std::string& path, const std::string& start,
                                       PointInput& input) {
-  const auto points = find_vtu_points(path, start);
+  const auto tag = start.find("<AppendedData");
+  if (tag == std::string::npos) return {};
+  const auto points = VtuHeader(path, start, tag).read();
   if (!points) return {};
   const std::size_t width = points->is_double ? 8 : 4;
   const PointLayout layout{points->block + points->size_width,
@@ -106,27 +206,13 @@ std::optional<PointLayout> vtu_layout(const std::string& path, const std::string
   if (input.read_at(points->block, bytes, points->size_width) != points->size_width) {
     fail_short(path, layout.count);
   }
-  std::uint64_t size;
-  std::memcpy(&size, bytes, sizeof size);
+  const auto size = number_at<std::uint64_t>(bytes);
   const auto expected = static_cast<std::uint64_t>(layout.count) * layout.stride;
   if (size != expected) {
     throw InputError(path + ": the block of points has " + std::to_string(size) + " bytes, not " +
                      std::to_string(expected));
   }
   return layout;
-}
-
-template <class Scalar>
-double load_number(const char* bytes) {
-  Scalar number;
-  std::memcpy(&number, bytes, sizeof number);
-  return number;
-}
-
-template <class Scalar>
-void store_number(double value, char* bytes) {
-  const auto number = static_cast<Scalar>(value);
-  std::memcpy(bytes, &number, sizeof number);
 }
 
 }  // namespace
@@ -175,7 +261,7 @@ void rewrite_points(
     for (std::int64_t p = 0; p < count; ++p) {
       for (int d = 0; d < Dim; ++d) {
         const char* const place = bytes.data() + p * layout.stride + layout.offsets[d];
-        points(d, p) = layout.is_double ? load_number<double>(place) : load_number<float>(place);
+        points(d, p) = layout.is_double ? number_at<double>(place) : number_at<float>(place);
       }
       if (!points.col(p).allFinite()) {
         throw InputError(path + ": point " + std::to_string(first + p) + " is not finite");
@@ -185,8 +271,8 @@ void rewrite_points(
     for (std::int64_t p = 0; p < count; ++p) {
       for (int d = 0; d < Dim; ++d) {
         char* const place = bytes.data() + p * layout.stride + layout.offsets[d];
-        layout.is_double ? store_number<double>(moved(d, p), place)
-                         : store_number<float>(moved(d, p), place);
+        layout.is_double ? put_number(moved(d, p), place)
+                         : put_number(static_cast<float>(moved(d, p)), place);
       }
     }
     out.write(bytes.data(), static_cast<std::streamsize>(size));
@@ -196,11 +282,6 @@ void rewrite_points(
   }
 }
 
-template void rewrite_points<2>(
-    const std::string&, const PointLayout&, std::ostream&,
-    const std::function<PointList<2>(const PointList<2>&, std::int64_t)>&);
-template void rewrite_points<3>(
-    const std::string&, const PointLayout&, std::ostream&,
-    const std::function<PointList<3>(const PointList<3>&, std::int64_t)>&);
+FLBC_INSTANTIATE_FUNCTION(rewrite_points)
 
 }  // namespace flbc::io

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Writes binary glTF 2.0, limited to a skin whose joints only translate. Only glb_writer.cpp
-//! includes the underlying library.
+// Writes binary glTF 2.0 and Universal Scene Description, limited to a skin whose joints only
+// translate. Only glb_writer.cpp includes the glTF library.
 #pragma once
 
 #include <string>
@@ -46,5 +45,10 @@ struct GlbScene {
 //! "cage_wire".
 //! \throws InputError if it exceeds the 4 GB limit of the format
 std::string encode_glb(const GlbScene& scene);
+
+//! Makes the content of a .usda file: a SkelRoot "model" with the mesh "surface", the skeleton
+//! "cage" and, if something moves, its animation "poses". Its joints are a root "cage", which never
+//! moves, and its children, the control points. Influences are not limited to sets of four.
+std::string encode_usda(const GlbScene& scene);
 
 }  // namespace flbc::gltf

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Weights in the format of skins: a few joints and weights per point.
+// Weights in the format of skins: a few joints and weights per point.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Materials and images of a surface for glTF.
+// Materials and images of a surface for glTF.
 #pragma once
 
 #include <string>

@@ -10,7 +10,6 @@
 #include "flbc/poses.h"
 #include "flbc/sparsify_error.h"
 #include "gltf/glb_writer.h"
-#include "gltf/usd_writer.h"
 
 namespace flbc::gltf {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! A model that moves with its cage, for engines and viewers: a glTF skin in which every control
-//! point is a joint that only translates. Joint i moves from c_i to c_i', and so a point x to sum
-//! w_i (x + c_i' - c_i), which is sum w_i c_i' because the weights sum to 1 and reproduce x.
-//! Normals do not change, because the joints do not rotate.
+// A model that moves with its cage, for engines and viewers: a glTF skin in which every control
+// point is a joint that only translates. Joint i moves from c_i to c_i', and so a point x to sum
+// w_i (x + c_i' - c_i), which is sum w_i c_i' because the weights sum to 1 and reproduce x.
+// Normals do not change, because the joints do not rotate.
 #pragma once
 
 #include <string>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The surface of a model for rendering: triangles whose corners are vertices with all attributes.
-//! A model vertex with two texture coordinates becomes two vertices.
+// The surface of a model for rendering: triangles whose corners are vertices with all attributes.
+// A model vertex with two texture coordinates becomes two vertices.
 #pragma once
 
 #include <vector>

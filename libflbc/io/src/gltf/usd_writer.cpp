@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "gltf/usd_writer.h"
+#include "gltf/glb_writer.h"
 
 #include <limits>
 #include <sstream>

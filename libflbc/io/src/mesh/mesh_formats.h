@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The domain mesh file formats, one source file each. Contracts as in flbc/io/mesh_io.h, but
-//! readers leave orientation and validation to their caller.
+// The domain mesh file formats, one source file each. Contracts as in flbc/io/mesh_io.h, but
+// readers leave orientation and validation to their caller.
 #pragma once
 
 #include <cstdint>

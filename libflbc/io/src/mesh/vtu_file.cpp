@@ -2,9 +2,10 @@
 // Writes the VTK XML format for unstructured grids, as text.
 #include <ostream>
 
+#include "base/instantiate.h"
 #include "flbc/io/files.h"
 #include "mesh/mesh_formats.h"
-#include "text/escaped.h"
+#include "text/text_writer.h"
 
 namespace flbc::io {
 namespace {
@@ -81,9 +82,6 @@ void write_vtu(const std::string& path, const DomainMesh<Dim>& mesh,
   });
 }
 
-template void write_vtu(const std::string&, const DomainMesh<2>&, const std::vector<VertexField>&,
-                        GmshVersion);
-template void write_vtu(const std::string&, const DomainMesh<3>&, const std::vector<VertexField>&,
-                        GmshVersion);
+FLBC_INSTANTIATE_FUNCTION(write_vtu)
 
 }  // namespace flbc::io

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Updates normals of a model when its vertices move.
+// Updates normals of a model when its vertices move.
 #pragma once
 
 #include "flbc/io/model.h"

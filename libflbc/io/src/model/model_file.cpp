@@ -4,19 +4,77 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <ostream>
 #include <string_view>
+#include <utility>
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "formats/format_table.h"
 #include "model/following_normals.h"
-#include "model/likely_format.h"
+#include "text/bytes.h"
 #include "text/text_writer.h"
 
 namespace flbc::io {
 namespace {
+
+bool begins_with(std::string_view text, std::string_view prefix) {
+  return text.substr(0, prefix.size()) == prefix;
+}
+
+bool is_binary_stl(const std::string& content) {
+  constexpr std::size_t kHeader = 84, kTriangle = 50;
+  if (content.size() < kHeader) return false;
+  const auto count = number_at<std::uint32_t>(content.data() + kHeader - sizeof(std::uint32_t));
+  return count > 0 && content.size() == kHeader + kTriangle * std::size_t{count};
+}
+
+// The first line that is neither empty nor a comment.
+std::string_view first_line(std::string_view text) {
+  while (!text.empty()) {
+    auto line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(text.size(), line.size() + 1));
+    const auto begin = line.find_first_not_of(" \t\r");
+    if (begin == std::string_view::npos || line[begin] == '#') continue;
+    return line.substr(begin);
+  }
+  return {};
+}
+
+bool is_off_header(std::string_view line) {
+  const auto word = line.substr(0, line.find_first_of(" \t\r"));
+  constexpr std::string_view kEnd = "OFF";
+  return word.size() >= kEnd.size() && word.size() <= 6 &&
+         word.substr(word.size() - kEnd.size()) == kEnd;
+}
+
+bool is_obj_line(std::string_view line) {
+  for (const char* keyword : {"v ", "vn ", "vt ", "f ", "l ", "o ", "g ", "mtllib ", "usemtl "}) {
+    if (begins_with(line, keyword)) return true;
+  }
+  return false;
+}
+
+// The extension of the model format that a content looks like, or of another format that users
+// have (glb, fbx, png, vtu); "binary" for other bytes that are no text; empty if unknown.
+std::string likely_format(const std::string& content) {
+  using Signature = std::pair<std::string_view, const char*>;
+  constexpr Signature kSignatures[] = {{"glTF", "glb"},   {"Kaydara FBX", "fbx"}, {"; FBX", "fbx"},
+                                       {"ply\n", "ply"},  {"ply\r\n", "ply"},     {"OM", "om"},
+                                       {"\x89PNG", "png"}};
+  const std::string_view text = content;
+  for (const auto& [signature, format] : kSignatures) {
+    if (begins_with(text, signature)) return format;
+  }
+  if (is_binary_stl(content)) return "stl";
+  if (text.find('\0') != std::string_view::npos) return "binary";
+  if (text.find("<VTKFile") != std::string_view::npos) return "vtu";
+  const auto line = first_line(text);
+  if (is_off_header(line)) return "off";
+  if (begins_with(line, "solid")) return "stl";
+  return is_obj_line(line) ? "obj" : "";
+}
 
 std::string upper(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -55,7 +113,7 @@ ModelScan scan(const std::string& path, Extent extent) {
 template <class Scalar>
 std::string_view bytes_of(double value, bool is_big_endian, char (&bytes)[8]) {
   const auto scalar = static_cast<Scalar>(value);
-  std::memcpy(bytes, &scalar, sizeof scalar);
+  put_number(scalar, bytes);
   if (is_big_endian) std::reverse(bytes, bytes + sizeof scalar);
   return {bytes, sizeof scalar};
 }

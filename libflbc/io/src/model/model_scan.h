@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Reads content of model files and the locations of their numbers, with one source file per
-//! format.
+// Reads content of model files and the locations of their numbers, with one source file per
+// format.
 #pragma once
 
 #include <array>

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <sstream>
 
 #include "flbc/errors.h"
+#include "text/bytes.h"
 #include "text/text_reader.h"
 
 namespace flbc::io {
@@ -18,21 +18,6 @@ constexpr PlyType kTypes[] = {{"char", "int8", 1, 'i'},     {"uchar", "uint8", 1
                               {"short", "int16", 2, 'i'},   {"ushort", "uint16", 2, 'u'},
                               {"int", "int32", 4, 'i'},     {"uint", "uint32", 4, 'u'},
                               {"float", "float32", 4, 'f'}, {"double", "float64", 8, 'f'}};
-
-template <class T>
-double as(const unsigned char* bytes) {
-  T value;
-  std::memcpy(&value, bytes, sizeof value);
-  return static_cast<double>(value);
-}
-
-double decode(const PlyType& type, const unsigned char* bytes) {
-  if (type.kind == 'f') return type.bytes == 4 ? as<float>(bytes) : as<double>(bytes);
-  const bool is_signed = type.kind == 'i';
-  if (type.bytes == 4) return is_signed ? as<std::int32_t>(bytes) : as<std::uint32_t>(bytes);
-  if (type.bytes == 2) return is_signed ? as<std::int16_t>(bytes) : as<std::uint16_t>(bytes);
-  return is_signed ? as<std::int8_t>(bytes) : as<std::uint8_t>(bytes);
-}
 
 }  // namespace
 
@@ -169,8 +154,8 @@ PlyReader::Number PlyReader::text_number(const PlyType& type) {
 
 PlyReader::Number PlyReader::binary_number(const PlyType& type) {
   if (bytes_left() < type.bytes) fail("the file ends within its numbers");
-  unsigned char bytes[8];
-  std::memcpy(bytes, content_.data() + position_, type.bytes);
+  char bytes[8];
+  content_.copy(bytes, type.bytes, position_);
   if (is_big_endian_) std::reverse(bytes, bytes + type.bytes);
   const auto big = [this](NumberForm little_endian, NumberForm big_endian) {
     return is_big_endian_ ? big_endian : little_endian;
@@ -180,7 +165,7 @@ PlyReader::Number PlyReader::binary_number(const PlyType& type) {
                                             : big(NumberForm::kDouble, NumberForm::kBigDouble);
   const NumberPlace place{position_, type.bytes, form};
   position_ += type.bytes;
-  return {decode(type, bytes), place};
+  return {decode_number(bytes, type.bytes, type.kind == 'f', type.kind == 'i'), place};
 }
 
 }  // namespace flbc::io

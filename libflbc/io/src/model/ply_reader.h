@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The structure of PLY files: a header of lines that declares elements with typed properties, then
-//! their values, as words or as bytes.
+// The structure of PLY files: a header of lines that declares elements with typed properties, then
+// their values, as words or as bytes.
 #pragma once
 
 #include <cstdint>

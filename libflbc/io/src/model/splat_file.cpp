@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <ostream>
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -19,11 +19,75 @@
 #include "linear/dense.h"
 #include "model/following_normals.h"
 #include "model/ply_reader.h"
-#include "model/turned_harmonics.h"
+#include "text/bytes.h"
 #include "text/text_reader.h"
 
 namespace flbc::io {
 namespace {
+
+// Real spherical harmonics of one degree, in the order and with the signs of 3D Gaussian
+// splatting.
+template <int Degree>
+Eigen::Matrix<double, 2 * Degree + 1, 1> harmonics(const Eigen::Vector3d& d) {
+  const double x = d.x(), y = d.y(), z = d.z();
+  const double xx = x * x, yy = y * y, zz = z * z;
+  Eigen::Matrix<double, 2 * Degree + 1, 1> values;
+  if constexpr (Degree == 1) {
+    values << -y, z, -x;
+    values *= 0.4886025119029199;
+  } else if constexpr (Degree == 2) {
+    values << 1.0925484305920792 * x * y, -1.0925484305920792 * y * z,
+        0.31539156525252005 * (2 * zz - xx - yy), -1.0925484305920792 * x * z,
+        0.5462742152960396 * (xx - yy);
+  } else {
+    static_assert(Degree == 3);
+    values << -0.5900435899266435 * y * (3 * xx - yy), 2.890611442640554 * x * y * z,
+        -0.4570457994644658 * y * (4 * zz - xx - yy),
+        0.3731763325901154 * z * (2 * zz - 3 * xx - 3 * yy),
+        -0.4570457994644658 * x * (4 * zz - xx - yy), 1.445305721320277 * z * (xx - yy),
+        -0.5900435899266435 * x * (xx - 3 * yy);
+  }
+  return values;
+}
+
+// Rotates functions that are given by coefficients: f'(d) = f(R^T d). Harmonics of one degree are
+// determined by their values in 2 Degree + 1 directions, so the rotated function is interpolated
+// from these.
+template <int Degree>
+class TurnedHarmonics {
+ public:
+  static constexpr int kSize = 2 * Degree + 1;
+  //! Coefficients of red, green, and blue.
+  using Coefficients = Eigen::Matrix<double, kSize, 3>;
+
+  // Directions that are evenly spread over half a sphere: opposite ones would give the same values,
+  // up to the sign.
+  TurnedHarmonics() {
+    constexpr double kGoldenAngle = 2.399963229728653;
+    Eigen::Matrix<double, kSize, kSize> values;
+    for (int k = 0; k < kSize; ++k) {
+      const double z = (k + 0.5) / kSize;
+      const double radius = std::sqrt(1 - z * z);
+      const double angle = k * kGoldenAngle;
+      directions_.col(k) << radius * std::cos(angle), radius * std::sin(angle), z;
+      values.row(k) = harmonics<Degree>(directions_.col(k)).transpose();
+    }
+    from_values_ = values.inverse();
+  }
+
+  Coefficients turn(const Eigen::Matrix3d& rotation, const Coefficients& coefficients) const {
+    Coefficients values;
+    for (int k = 0; k < kSize; ++k) {
+      const Eigen::Vector3d before = rotation.transpose() * directions_.col(k);
+      values.row(k) = harmonics<Degree>(before).transpose() * coefficients;
+    }
+    return from_values_ * values;
+  }
+
+ private:
+  Eigen::Matrix<double, 3, kSize> directions_;
+  Eigen::Matrix<double, kSize, kSize> from_values_;
+};
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -57,9 +121,7 @@ struct SplatFile::Content {
                                         const std::array<std::size_t, N>& offsets) const {
     Eigen::Matrix<double, int(N), 1> values;
     for (std::size_t k = 0; k < N; ++k) {
-      float value = 0;
-      std::memcpy(&value, text.data() + byte(splat, offsets[k]), sizeof value);
-      values[static_cast<int>(k)] = value;
+      values[static_cast<int>(k)] = number_at<float>(text.data() + byte(splat, offsets[k]));
     }
     return values;
   }
@@ -76,7 +138,7 @@ struct SplatFile::Content {
     for (std::size_t k = 0; k < N; ++k) {
       const auto value = static_cast<float>(values[static_cast<int>(k)]);
       if (!std::isfinite(value)) return false;
-      std::memcpy(moved + offsets[k], &value, sizeof value);
+      put_number(value, moved + offsets[k]);
     }
     return true;
   }

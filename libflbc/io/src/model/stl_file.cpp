@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // STL stores triangles with a normal and three points each; coincident points are one vertex.
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <string_view>
 #include <unordered_map>
 
 #include "flbc/errors.h"
 #include "model/model_scan.h"
+#include "text/bytes.h"
+#include "text/text_reader.h"
 
 namespace flbc::io {
 namespace {
@@ -29,20 +29,6 @@ struct Hash {
     return hash;
   }
 };
-
-template <class T>
-T read_at(const std::string& bytes, std::size_t position) {
-  T value;
-  std::memcpy(&value, bytes.data() + position, sizeof value);
-  return value;
-}
-
-std::string lower(std::string_view word) {
-  std::string result(word);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
 
 // Rounds once, from decimal to single precision; too small numbers become 0.
 float to_single(std::string_view word) {
@@ -76,17 +62,17 @@ class StlScanner {
     const auto& text = scan_.text;
     const bool has_binary_size =
         text.size() >= kBytesBeforeTriangles &&
-        text.size() ==
-            kBytesBeforeTriangles + kBytesPerTriangle * read_at<std::uint32_t>(text, kHeaderBytes);
+        text.size() == kBytesBeforeTriangles +
+                           kBytesPerTriangle * number_at<std::uint32_t>(text.data() + kHeaderBytes);
     if (has_binary_size) return false;
     const std::size_t begin = std::min(text.find_first_not_of(" \t\r\n"), text.size());
-    return lower(std::string_view(text).substr(begin, 5)) == "solid";
+    return lower_case(std::string_view(text).substr(begin, 5)) == "solid";
   }
 
   void scan_binary() {
     const auto& bytes = scan_.text;
     if (bytes.size() < kBytesBeforeTriangles) throw InputError(path_ + ": not an STL file");
-    const std::size_t declared = read_at<std::uint32_t>(bytes, kHeaderBytes);
+    const std::size_t declared = number_at<std::uint32_t>(bytes.data() + kHeaderBytes);
     const std::size_t held = (bytes.size() - kBytesBeforeTriangles) / kBytesPerTriangle;
     if (declared > held) {
       throw InputError(path_ + ": the file ends after " + std::to_string(held) + " of " +
@@ -97,7 +83,7 @@ class StlScanner {
       std::size_t position = kBytesBeforeTriangles + t * kBytesPerTriangle;
       begin_triangle(binary_numbers(position));
       for (int k = 0; k < 3; ++k) add_corner(binary_numbers(position));
-      if (read_at<std::uint16_t>(bytes, position) != 0) {
+      if (number_at<std::uint16_t>(bytes.data() + position) != 0) {
         add_other(scan_.model, "attributes of triangles");
       }
     }
@@ -107,7 +93,7 @@ class StlScanner {
     PlacedNumbers numbers;
     for (int d = 0; d < 3; ++d) {
       numbers.places[d] = {position, sizeof(float), NumberForm::kFloat};
-      numbers.values[d] = read_at<float>(scan_.text, position);
+      numbers.values[d] = number_at<float>(scan_.text.data() + position);
       position += sizeof(float);
     }
     return numbers;
@@ -118,7 +104,7 @@ class StlScanner {
     std::size_t corners = 3;
     bool is_open = true;
     while (reader.next_line()) {
-      const std::string keyword = lower(reader.word());
+      const std::string keyword = lower_case(reader.word());
       if ((keyword == "facet" || keyword == "endfacet") && corners < 3) {
         reader.fail("a facet has fewer than 3 vertices");
       }

@@ -2,7 +2,6 @@
 #include "flbc/io/files.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include <utility>
 
 #include "flbc/errors.h"
+#include "text/text_reader.h"
 
 namespace flbc::io {
 namespace {
@@ -162,9 +162,7 @@ void write_file(const std::string& path, const std::function<void(std::ostream&)
 std::string extension_of(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
   if (!extension.empty()) extension.erase(0, 1);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  return lower_case(extension);
 }
 
 }  // namespace flbc::io

@@ -2,6 +2,7 @@
 #include "text/text_reader.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -42,6 +43,13 @@ bool is_underflow(std::string_view word) {
 }
 
 }  // namespace
+
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMaxLength = 40;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Reads a text file word by word and tracks the line number.
+// Reads a text file word by word and tracks the line number.
 #pragma once
 
 #include <cstddef>
@@ -107,6 +106,8 @@ class TextReader {
   std::int64_t line_;
   bool started_ = false;
 };
+
+std::string lower_case(std::string_view text);
 
 //! A quoted piece of a file for messages: short and printable.
 std::string in_quotes(std::string_view text);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Fast text output of numbers.
+// Fast text output of numbers.
 #pragma once
 
 #include <charconv>
@@ -14,6 +13,30 @@
 #include "flbc/errors.h"
 
 namespace flbc::io {
+
+//! The text for XML and HTML, with entities in place of markup characters.
+inline std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
 
 //! Buffers text and writes it to a stream in large pieces. Numbers do not depend on the locale and
 //! have enough digits to read the same double back, at most 17.

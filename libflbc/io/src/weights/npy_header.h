@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The header of NumPy array files.
+// The header of NumPy array files.
 #pragma once
 
 #include <cstddef>

@@ -2,11 +2,11 @@
 // Blocks of numbers shared by several weight formats.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "base/messages.h"
 #include "flbc/errors.h"
+#include "text/bytes.h"
 #include "text/text_reader.h"
 #include "weights/weights_formats.h"
 
@@ -87,8 +87,7 @@ WeightMatrix BinaryBlock::read(std::int64_t num_points, std::int64_t num_control
   const std::int64_t inner = by_point ? num_controls : num_points;
   for (std::int64_t i = 0; i < outer; ++i) {
     for (std::int64_t k = 0; k < inner; ++k, next += sizeof(Scalar)) {
-      Scalar value;
-      std::memcpy(&value, next, sizeof value);  // the numbers need not be aligned
+      const auto value = number_at<Scalar>(next);
       const std::int64_t point = by_point ? i : k;
       const std::int64_t control = by_point ? k : i;
       if (!std::isfinite(value)) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The weight file formats, one source file each. Contracts as in flbc/io/weights_io.h.
+// The weight file formats, one source file each. Contracts as in flbc/io/weights_io.h.
 #pragma once
 
 #include <cstddef>

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "flbc/errors.h"
+#include "text/bytes.h"
 #include "weights/weights_formats.h"
 
 namespace flbc::io {
@@ -27,13 +28,6 @@ void write_numbers(std::ostream& out, const std::vector<Number>& numbers) {
             static_cast<std::streamsize>(sizeof(Number) * numbers.size()));
 }
 
-template <class Number>
-Number number_at(const std::string& content, std::size_t byte) {
-  Number number;
-  std::memcpy(&number, content.data() + byte, sizeof number);
-  return number;
-}
-
 }  // namespace
 
 SparseWeights read_lbw(const std::string& path, std::string content) {
@@ -42,9 +36,10 @@ SparseWeights read_lbw(const std::string& path, std::string content) {
       std::memcmp(content.data(), kLbwMagic, sizeof kLbwMagic) != 0) {
     fail("not an LBW file");
   }
-  const std::size_t num_points = number_at<std::uint32_t>(content, 4);
-  const std::size_t num_controls = number_at<std::uint32_t>(content, 8);
-  if (number_at<std::uint32_t>(content, 12) != kPerVertex) fail("must have 8 weights per vertex");
+  const std::size_t num_points = number_at<std::uint32_t>(content.data() + 4);
+  const std::size_t num_controls = number_at<std::uint32_t>(content.data() + 8);
+  if (number_at<std::uint32_t>(content.data() + 12) != kPerVertex)
+    fail("must have 8 weights per vertex");
   constexpr std::size_t kBytes = kPerVertex * (sizeof(std::uint16_t) + sizeof(float));
   if (content.size() != kLbwHeader + num_points * kBytes) {
     fail("has " + std::to_string(content.size()) + " bytes, but " + std::to_string(num_points) +
@@ -58,9 +53,9 @@ SparseWeights read_lbw(const std::string& path, std::string content) {
   for (std::size_t p = 0; p < num_points; ++p) {
     std::vector<std::pair<std::uint32_t, double>> influences;
     for (std::size_t k = kPerVertex * p; k < kPerVertex * (p + 1); ++k) {
-      const auto value = number_at<float>(content, first_value + k * sizeof(float));
+      const auto value = number_at<float>(content.data() + first_value + k * sizeof(float));
       if (value == 0) continue;
-      influences.emplace_back(number_at<std::uint16_t>(content, kLbwHeader + 2 * k), value);
+      influences.emplace_back(number_at<std::uint16_t>(content.data() + kLbwHeader + 2 * k), value);
     }
     std::sort(influences.begin(), influences.end());
     for (const auto& [control_point, value] : influences) {

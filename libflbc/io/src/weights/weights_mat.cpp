@@ -5,12 +5,12 @@
 // elements share four bytes.
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <initializer_list>
 #include <limits>
 #include <ostream>
 
 #include "flbc/errors.h"
+#include "text/bytes.h"
 #include "weights/weights_formats.h"
 
 namespace flbc::io {
@@ -63,15 +63,12 @@ class MatReader {
   template <class T>
   T number(const Element& element, std::size_t k) const {
     if ((k + 1) * sizeof(T) > element.size) refuse("an element is too short");
-    T value;
-    std::memcpy(&value, content_.data() + element.begin + k * sizeof(T), sizeof value);
-    return value;
+    return number_at<T>(content_.data() + element.begin + k * sizeof(T));
   }
 
   Element next() {
     if (content_.size() < position_ + kTag) refuse("the file ends within the matrix");
-    std::array<std::uint32_t, 2> tag{};
-    std::memcpy(tag.data(), content_.data() + position_, kTag);
+    const auto tag = number_at<std::array<std::uint32_t, 2>>(content_.data() + position_);
     constexpr std::uint32_t kShortSize = 16;  // bits
     Element element{tag[0], tag[1], position_ + kTag, 0};
     if (tag[0] >> kShortSize != 0) {

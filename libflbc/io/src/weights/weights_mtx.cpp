@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Matrix Market: one entry of the #points x n matrix per line, numbered from 1.
 #include <algorithm>
-#include <cctype>
 #include <initializer_list>
 #include <numeric>
 #include <tuple>
@@ -15,20 +14,13 @@
 namespace flbc::io {
 namespace {
 
-std::string lower_case_word(TextReader& reader) {
-  std::string word(reader.word());
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return word;
-}
-
 // Reads "%%MatrixMarket matrix FORMAT FIELD SYMMETRY". \return whether the format is coordinate
 bool read_header(TextReader& reader) {
-  if (!reader.next_line() || lower_case_word(reader) != "%%matrixmarket") {
+  if (!reader.next_line() || lower_case(reader.word()) != "%%matrixmarket") {
     reader.fail("not a Matrix Market file: the first line must start with %%MatrixMarket");
   }
   const auto choose = [&reader](const char* what, std::initializer_list<const char*> supported) {
-    std::string found = lower_case_word(reader);
+    std::string found = lower_case(reader.word());
     if (std::find(supported.begin(), supported.end(), found) != supported.end()) return found;
     std::string list;
     for (const char* word : supported) list += (list.empty() ? "" : " or ") + std::string(word);

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Steps of cage_from_model().
+#pragma once
+
+#include "caging/enclosure.h"
+#include "flbc/cage.h"
+
+namespace flbc {
+
+//! Merges vertices within cells of a grid, as Rossignac and Borrel ("Multi-resolution 3D
+//! approximations for rendering complex scenes", 1993). Every vertex moves by less than the
+//! diagonal of a cell. \param cell  its side, in model units
+//! \return facets without repetition. A vertex that loses all its facets remains as a point
+template <int Dim>
+Cage<Dim> simplified(const PointList<Dim>& points, const FacetList<Dim>& facets, double cell);
+
+//! The volume of the convex hull. \param points  not all in a plane
+double hull_volume(const PointList<3>& points);
+
+//! Volume of the solid that triangles bound, within about a percent. They may be open or intersect.
+//! Points count as inside if the signed crossings of a line with the triangles before them do not
+//! add up to zero. Lines that pass through an opening do not count. The result is the median of
+//! lines along x, y, and z.
+//! \return 0 if the triangles bound nothing, or are oriented at random
+double solid_volume(const PointList<3>& points, const FacetList<3>& facets);
+
+//! A closed surface (2D: lines) around a model, finer than the final cage.
+struct WrapSize {
+  double alpha;   //!< narrower gaps and hollows are bridged
+  double offset;  //!< distance from the model
+};
+
+//! Alpha wrapping of Portaneri et al. ("Alpha wrapping with an offset", 2022), by CGAL.
+//! \return outward normals; no facets if wrapping failed
+Cage<3> wrap(const Enclosure<3>& model, const WrapSize& size);
+
+//! Boundary of the grid cells within the offset of the model. Enclosed cells are filled. \return
+//! counterclockwise
+Cage<2> wrap(const Enclosure<2>& model, const WrapSize& size);
+
+}  // namespace flbc
