@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Moves the points of one rank of an OpenFOAM mesh with a cage.
+// Moves the points of one rank of an OpenFOAM mesh with a cage.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The subcommands.
+// The subcommands.
 #pragma once
 
 #include <CLI/CLI.hpp>

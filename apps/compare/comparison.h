@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! What flbc compare compares: kinds of coordinates of one cage.
+// What flbc compare compares: kinds of coordinates of one cage.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -75,7 +74,6 @@ struct Comparison {
   }
 };
 
-//! The names of --methods, as they are given.
 std::vector<std::string> comparable_methods();
 
 //! A column for each method, but two for local coordinates: of smoothness 0 and of the default for
@@ -105,7 +103,6 @@ std::string comparison_page(const Comparison<Dim>& all, const std::vector<std::s
 template <int Dim>
 std::string comparison_text(const Comparison<Dim>& all);
 
-//! Names of the pictures, in the format of the arguments.
 std::vector<std::string> names_of_grids(const CompareArguments& arguments);
 
 }  // namespace flbc::app

@@ -7,7 +7,7 @@
 #include "compare/comparison.h"
 #include "flbc/io/files.h"
 #include "report/properties.h"
-#include "text/escaped.h"
+#include "text/text_writer.h"
 #include "view/model_page.h"
 
 namespace flbc::app {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Numbers inside of text.
+// Numbers inside of text.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +12,6 @@ namespace flbc::draw {
 //! The bytes in base64 (RFC 4648, with padding).
 std::string to_base64(std::string_view bytes);
 
-//! The numbers, as they lie in memory, in base64.
 template <class Number>
 std::string numbers_to_base64(const std::vector<Number>& numbers) {
   const auto* bytes = reinterpret_cast<const char*>(numbers.data());

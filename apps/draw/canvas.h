@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! A picture drawn by Cairo, in any format.
+// A picture drawn by Cairo, in any format.
 #pragma once
 
 #include <memory>
@@ -23,7 +22,6 @@ class Canvas {
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  //! A raster for triangles with these corners, to be drawn on this canvas.
   Raster raster_for(const PointList<2>& points) const { return {points, width_, height_}; }
   void draw_raster(Raster& raster);
 
@@ -51,7 +49,6 @@ class Canvas {
   std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo_;
 };
 
-//! The width in pixels of a text that is drawn with digits of this height.
 double text_width(const std::string& text, double height);
 
 }  // namespace flbc::draw

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The colors of weights.
+// The colors of weights.
 #pragma once
 
 #include "draw/primitives.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Level sets of piecewise linear functions.
+// Level sets of piecewise linear functions.
 #pragma once
 
 #include <vector>

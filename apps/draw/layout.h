@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Where things stand in a picture.
+// Where things stand in a picture.
 #pragma once
 
 #include <vector>
@@ -19,7 +18,6 @@ class PixelMap {
   Vector<2> operator()(const Vector<2>& p) const {
     return {offset_.x() + scale_ * p.x(), offset_.y() - scale_ * p.y()};
   }
-  //! All points at once.
   PointList<2> operator()(const PointList<2>& points) const;
 
   //! Pixels per unit of length.
@@ -33,7 +31,6 @@ class PixelMap {
 //! The smallest box with all points. \throws InputError if it has no extent or is not finite
 Box bounding_box(const PointList<2>& points);
 
-//! How pictures of several poses share a sheet.
 struct PoseLayout {
   bool in_a_row;  //!< from left to right, else from top to bottom
   double gap;     //!< between two poses

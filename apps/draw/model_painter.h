@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! A shaded surface with the wire of its cage, as part of a picture.
+// A shaded surface with the wire of its cage, as part of a picture.
 #pragma once
 
 #include <array>
@@ -18,13 +17,11 @@ struct DrawnModel {
   std::vector<std::array<Index, 2>> cage_edges{};  //!< of control points
 };
 
-//! Where a cage and the model in it are.
 struct ModelPlace {
   PointList<3> control_points;  //!< 3 x n
   PointList<3> points;          //!< 3 x P
 };
 
-//! A model somewhere in a picture.
 struct ModelScene {
   const DrawnModel& model;
   const ModelPlace& place;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Pictures of a model in space and its cage, as the bytes of a file.
+// Pictures of a model in space and its cage, as the bytes of a file.
 #pragma once
 
 #include <array>
@@ -12,7 +11,6 @@
 
 namespace flbc::draw {
 
-//! Quantity shown by the colors of a surface.
 struct ShownValues {
   Eigen::VectorXd values{};  //!< P, weights of a control point or lengths; empty: a plain surface
   Index control_point = -1;  //!< whose weights they are, -1 for lengths
@@ -41,7 +39,6 @@ std::string draw_model_comparison(const DrawnModel& model, const ModelPlace& pla
                                   const ObliqueView& view,
                                   const WeightPictureOptions& options = {});
 
-//! One of several pictures of the same model.
 struct ModelPanel {
   std::string label;
   ModelPlace place;

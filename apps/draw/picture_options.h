@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Options and formats of pictures.
+// Options and formats of pictures.
 #pragma once
 
 #include <string>

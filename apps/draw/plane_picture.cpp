@@ -86,6 +86,19 @@ void paint_checker(Canvas& canvas, const PointList<2>& pixels, const CellList<2>
   canvas.draw_raster(raster);
 }
 
+// A shape in its cage, colored by values or, without any, in squares.
+void paint_shape(Canvas& canvas, const PixelMap& map, const Cage<2>& cage,
+                 const DomainMesh<2>& mesh, const PointList<2>& rest, const Eigen::VectorXd& values,
+                 Index control_point, const WeightPictureOptions& options, double unit) {
+  if (values.size() > 0) {
+    return paint_function(canvas, map, cage, mesh, values, control_point, options, unit);
+  }
+  const PointList<2> pixels = map(mesh.points);
+  canvas.draw_segments(outline_of(pixels, mesh.cells), 2.4 * unit, kInk, 0.8F);
+  paint_checker(canvas, pixels, mesh.cells, rest);
+  paint_cage(canvas, cage, map, -1, unit);
+}
+
 void check_edges(const Cage<2>& cage) {
   if (cage.facets.size() > 0 &&
       (cage.facets.minCoeff() < 0 || cage.facets.maxCoeff() >= cage.size())) {
@@ -204,14 +217,7 @@ std::string draw_deformation(const FacetList<2>& facets, const CellList<2>& tria
     const Cage<2> cage{shape.control_points.colwise() + shift, facets};
     const DomainMesh<2> mesh{shape.points.colwise() + shift, triangles};
     check_edges(cage);
-    if (checkered) {
-      const PointList<2> pixels = map(mesh.points);
-      canvas.draw_segments(outline_of(pixels, triangles), 2.4 * unit, kInk, 0.8F);
-      paint_checker(canvas, pixels, triangles, before.points);
-      paint_cage(canvas, cage, map, -1, unit);
-    } else {
-      paint_function(canvas, map, cage, mesh, values, control_point, options, unit);
-    }
+    paint_shape(canvas, map, cage, mesh, before.points, values, control_point, options, unit);
     paint_label(canvas, map(Vector<2>(place.x() + size.x() / 2, place.y() + size.y())), label,
                 pixel_unit(options));
   };
@@ -246,16 +252,11 @@ std::string draw_panels(const FacetList<2>& facets, const CellList<2>& triangles
     const auto& frame = sheet.frames[k];
     const PixelMap map(content, frame);
     const Cage<2> cage{shape.control_points, facets};
-    if (values.size() == 0) {
-      const PointList<2> pixels = map(shape.points);
-      canvas.draw_segments(outline_of(pixels, triangles), 2.4 * unit, kInk, 0.8F);
-      paint_checker(canvas, pixels, triangles, rest);
-      paint_cage(canvas, cage, map, -1, unit);
-    } else {
+    if (values.size() > 0) {
       check_weight(values, static_cast<Index>(shape.points.cols()), control_point, cage.size());
-      paint_function(canvas, map, cage, {shape.points, triangles}, values, control_point, options,
-                     unit);
     }
+    paint_shape(canvas, map, cage, {shape.points, triangles}, rest, values, control_point, options,
+                unit);
     paint_label(canvas, {frame.center().x(), frame.low.y()}, label, unit);
   }
   return canvas.encode();

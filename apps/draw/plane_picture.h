@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Pictures of coordinate functions and deformations in the plane, as the bytes of a file.
+// Pictures of coordinate functions and deformations in the plane, as the bytes of a file.
 #pragma once
 
 #include <array>
@@ -40,7 +39,6 @@ std::string draw_comparison(const Cage<2>& cage, const DomainMesh<2>& mesh,
                             const std::array<std::string, 2>& labels, Index control_point,
                             const WeightPictureOptions& options = {});
 
-//! Where the cage and the shape in it are.
 struct DrawnShape {
   PointList<2> control_points;  //!< 2 x n
   PointList<2> points;          //!< 2 x P
@@ -59,7 +57,6 @@ std::string draw_deformation(const FacetList<2>& facets, const CellList<2>& tria
                              const Eigen::VectorXd& values, Index control_point,
                              const WeightPictureOptions& options = {});
 
-//! One of several pictures of the same shape.
 struct PlanePanel {
   std::string label;
   DrawnShape shape;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Curves in panels, as the bytes of a file.
+// Curves in panels, as the bytes of a file.
 #pragma once
 
 #include <string>

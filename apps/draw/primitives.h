@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The plain data that all drawing code shares.
+// The plain data that all drawing code shares.
 #pragma once
 
 #include <array>
@@ -26,7 +25,6 @@ constexpr Color kInk{0.13F, 0.15F, 0.19F};
 constexpr Color kClay{0.84F, 0.76F, 0.68F};  // of models without values
 constexpr Color kHighlight{0.90F, 0.07F, 0.10F};
 
-//! A piece of a straight line.
 struct Segment {
   Vector<2> a;
   Vector<2> b;
@@ -35,7 +33,6 @@ struct Segment {
 //! The corners of a triangle, in either orientation.
 using Corners = std::array<Vector<2>, 3>;
 
-//! An axis-aligned rectangle.
 struct Box {
   Vector<2> low;
   Vector<2> high;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Filled triangles as an image.
+// Filled triangles as an image.
 #pragma once
 
 #include <algorithm>

@@ -107,40 +107,22 @@ void paint_wire(Canvas& canvas, const WireSlab& slab, double unit) {
   canvas.draw_segments(slab.front, 1.3 * unit, kWire, 0.5F);
 }
 
-// The inside of the far side, as a pale background that lets the shape of the cage be guessed.
-void paint_shell(Canvas& canvas, const Scene& scene) {
-  const auto& points = scene.cage.points;
-  PointList<2> pixels(2, points.cols());
-  for (Eigen::Index i = 0; i < points.cols(); ++i) pixels.col(i) = scene.pixel(points.col(i));
-  const Eigen::VectorXd nearness = points.transpose() * scene.view.toward;
-  const PointList<3> normals = outer_normals(scene.cage);
-  Raster raster = canvas.raster_for(pixels);
-  for (Eigen::Index f = 0; f < scene.cage.facets.cols(); ++f) {
-    const double away = -normals.col(f).dot(scene.view.toward);
-    if (!(away > 0)) continue;
-    const auto c = scene.cage.facets.col(f);
-    const Color color = mix(kShellShade, kShellLight, static_cast<float>(away));
-    raster.fill({pixels.col(c[0]), pixels.col(c[1]), pixels.col(c[2])},
-                {nearness[c[0]], nearness[c[1]], nearness[c[2]]},
-                [&](double, double, double) { return color; });
-  }
-  canvas.draw_raster(raster);
-}
-
-// The model, as a pale shape behind the slices.
-void paint_model_shape(Canvas& canvas, const Scene& scene) {
-  const auto& points = scene.model->points;
+// A surface of flat facets, each of one color by its angle to the eye.
+void paint_facets(Canvas& canvas, const Scene& scene, const Cage<3>& surface, bool only_far_side,
+                  Color shade, Color light) {
+  const auto& points = surface.points;
   PointList<2> pixels(2, points.cols());
   for (Eigen::Index p = 0; p < points.cols(); ++p) pixels.col(p) = scene.pixel(points.col(p));
   const Eigen::VectorXd nearness = points.transpose() * scene.view.toward;
-  const PointList<3> normals = outer_normals(*scene.model);
+  const PointList<3> normals = outer_normals(surface);
   Raster raster = canvas.raster_for(pixels);
-  for (Eigen::Index f = 0; f < scene.model->facets.cols(); ++f) {
-    const auto t = scene.model->facets.col(f);
-    const double front = std::abs(normals.col(f).dot(scene.view.toward));
-    const Color color = mix(kModelShade, kModelLight, static_cast<float>(front));
-    raster.fill({pixels.col(t[0]), pixels.col(t[1]), pixels.col(t[2])},
-                {nearness[t[0]], nearness[t[1]], nearness[t[2]]},
+  for (Eigen::Index f = 0; f < surface.facets.cols(); ++f) {
+    const double front = normals.col(f).dot(scene.view.toward);
+    if (only_far_side && !(front < 0)) continue;
+    const auto c = surface.facets.col(f);
+    const Color color = mix(shade, light, static_cast<float>(std::abs(front)));
+    raster.fill({pixels.col(c[0]), pixels.col(c[1]), pixels.col(c[2])},
+                {nearness[c[0]], nearness[c[1]], nearness[c[2]]},
                 [&](double, double, double) { return color; });
   }
   canvas.draw_raster(raster);
@@ -166,8 +148,11 @@ void paint_slice(Canvas& canvas, const Slice& slice,
 }
 
 void paint_scene(Canvas& canvas, const Scene& scene) {
-  paint_shell(canvas, scene);
-  if (scene.model != nullptr) paint_model_shape(canvas, scene);
+  // The far side from inside lets the shape of the cage be guessed.
+  paint_facets(canvas, scene, scene.cage, true, kShellShade, kShellLight);
+  if (scene.model != nullptr) {
+    paint_facets(canvas, scene, *scene.model, false, kModelShade, kModelLight);
+  }
   const auto slabs = cut_wire(scene);
   const int count = static_cast<int>(scene.slices.size());
   const bool ascending = scene.slices.front().plane.normal.dot(scene.view.toward) > 0;

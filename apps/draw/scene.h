@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! A cage with slices, as the camera sees it.
+// A cage with slices, as the camera sees it.
 #pragma once
 
 #include <functional>
@@ -24,7 +23,6 @@ struct Scene {
   WeightPictureOptions options;
   const Cage<3>* model = nullptr;  //!< a surface shown as a pale shape
 
-  //! Where a point in space appears on the canvas.
   Vector<2> pixel(const Vector<3>& p) const { return map(view.project(p)); }
 };
 

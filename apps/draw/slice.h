@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Plane cuts through the domain of a cage in space.
+// Plane cuts through the domain of a cage in space.
 #pragma once
 
 #include <vector>
@@ -18,11 +17,9 @@ struct Plane {
   Vector<3> v;
   Vector<3> normal;
 
-  //! Signed distance.
   double distance(const Vector<3>& p) const { return normal.dot(p - origin); }
   //! The plane coordinates of the nearest point of the plane.
   Vector<2> to_plane(const Vector<3>& p) const { return {u.dot(p - origin), v.dot(p - origin)}; }
-  //! The point with these plane coordinates.
   Vector<3> to_space(const Vector<2>& p) const { return origin + p.x() * u + p.y() * v; }
 };
 

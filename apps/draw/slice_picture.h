@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Pictures of coordinate functions in space, as the bytes of a file.
+// Pictures of coordinate functions in space, as the bytes of a file.
 #pragma once
 
 #include <string>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! From where models and slices are looked at.
+// From where models and slices are looked at.
 #pragma once
 
 #include <cmath>
@@ -21,7 +20,6 @@ struct ObliqueView {
 
   Vector<2> project(const Vector<3>& p) const { return {right.dot(p), up.dot(p)}; }
 
-  //! All points at once.
   PointList<2> project(const PointList<3>& points) const {
     PointList<2> result(2, points.cols());
     result.row(0) = right.transpose() * points;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The parts of which the pictures of weights consist, for plane domains and slices alike. All
-//! positions and sizes are in pixels of the canvas.
+// The parts of which the pictures of weights consist, for plane domains and slices alike. All
+// positions and sizes are in pixels of the canvas.
 #pragma once
 
 #include <array>
@@ -34,7 +33,6 @@ void paint_length_bar(Canvas& canvas, const Box& box, double largest,
 //! Writes "w" with a subscript, centered at the point of the baseline.
 void paint_symbol(Canvas& canvas, const Vector<2>& position, Index control_point, double height);
 
-//! Labels of a model in two places.
 constexpr const char* kRestLabel = "Rest";
 constexpr const char* kPoseLabel = "Pose";
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The program's commands and options as a table: manual pages and completion are made of it, so
-//! that they cannot differ from it.
+// The program's commands and options as a table: manual pages and completion are made of it, so
+// that they cannot differ from it.
 #pragma once
 
 #include <string>
@@ -14,7 +13,6 @@ class Option;
 
 namespace flbc::app {
 
-//! An option or a positional argument.
 struct OptionEntry {
   std::vector<std::string> names{};    //!< "-o", "--output"; empty for a positional one
   std::string value{};                 //!< name of the value, as "FILE"; empty for a flag
@@ -26,7 +24,6 @@ struct OptionEntry {
   bool repeated = false;        //!< whether it may have several values
 };
 
-//! A subcommand.
 struct CommandEntry {
   std::string name{};
   std::string help{};
@@ -35,14 +32,12 @@ struct CommandEntry {
   std::vector<OptionEntry> options{};
 };
 
-//! The program.
 struct CommandTable {
   std::string help{};
   std::vector<OptionEntry> options{};
   std::vector<CommandEntry> commands{};
 };
 
-//! Reads an option of the parser.
 OptionEntry read_option(const CLI::Option& option);
 
 //! A phrase such as "compute the coordinates of a cage" with a capital letter and a period.

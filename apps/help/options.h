@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Options of commands, and how --help shows them.
+// Options of commands, and how --help shows them.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Messages of the library in the words of the program.
+// Messages of the library in the words of the program.
 #pragma once
 
 #include <string>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Ways in which a cage moves a model other than by weighted sums of its control points, written as
-//! such sums: some further vectors join the control points.
+// Ways in which a cage moves a model other than by weighted sums of its control points, written as
+// such sums: some further vectors join the control points.
 #pragma once
 
 #include <functional>

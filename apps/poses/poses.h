@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The poses of a cage, from cage files or an animation, and how far they move a model.
+// The poses of a cage, from cage files or an animation, and how far they move a model.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +15,6 @@
 
 namespace flbc::app {
 
-//! A pose and where it is from.
 template <int Dim>
 struct Pose {
   std::string name;         //!< the file, for keyframes with the number: for messages

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The findings of flbc check, as a table and as JSON.
+// The findings of flbc check, as a table and as JSON.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +18,6 @@ namespace flbc::app {
 //! More defects are not looked for.
 constexpr std::size_t kMostDefects = 16;
 
-//! A model in its cage.
 template <int Dim>
 struct ModelCheck {
   PointList<Dim> points;
@@ -57,15 +55,13 @@ nlohmann::ordered_json check_json(const CheckReport<Dim>& report);
 template <int Dim>
 CheckReport<Dim> check_cage(const Cage<Dim>& cage, const std::string& file);
 
-//! Adds what is to be said about the weights of a mesh's vertices.
+//! Adds the facts about weights. \param place  the mesh that has them, or points anywhere, with fewer
+//! facts
 //! \throws InputError if the sizes do not belong together, or the mesh does not belong to the cage
-template <int Dim>
-void check_weights_of(CheckReport<Dim>& report, const DomainMesh<Dim>& domain,
-                      const SparseWeights& weights);
-
-//! The same for points anywhere, with fewer facts.
-template <int Dim>
-void check_weights_of(CheckReport<Dim>& report, const PointList<Dim>& points,
-                      const SparseWeights& weights);
+template <int Dim, class Place>
+void check_weights_of(CheckReport<Dim>& report, const Place& place, const SparseWeights& weights) {
+  report.weights = check_weights(report.cage, place, weights);
+  report.violations = find_violations(*report.weights);
+}
 
 }  // namespace flbc::app

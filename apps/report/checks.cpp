@@ -23,26 +23,7 @@ CheckReport<Dim> check_cage(const Cage<Dim>& cage, const std::string& file) {
   return report;
 }
 
-template <int Dim>
-void check_weights_of(CheckReport<Dim>& report, const DomainMesh<Dim>& domain,
-                      const SparseWeights& weights) {
-  report.weights = check_weights(report.cage, domain, weights);
-  report.violations = find_violations(*report.weights);
-}
-
-template <int Dim>
-void check_weights_of(CheckReport<Dim>& report, const PointList<Dim>& points,
-                      const SparseWeights& weights) {
-  report.weights = check_weights(report.cage, points, weights);
-  report.violations = find_violations(*report.weights);
-}
-
-#define FLBC_INSTANTIATE(Dim)                                                                      \
-  template CheckReport<Dim> check_cage(const Cage<Dim>&, const std::string&);                      \
-  template void check_weights_of(CheckReport<Dim>&, const DomainMesh<Dim>&, const SparseWeights&); \
-  template void check_weights_of(CheckReport<Dim>&, const PointList<Dim>&, const SparseWeights&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+template CheckReport<2> check_cage(const Cage<2>&, const std::string&);
+template CheckReport<3> check_cage(const Cage<3>&, const std::string&);
 
 }  // namespace flbc::app

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Numbers in words, with as many digits as a reader wants.
+// Numbers in words, with as many digits as a reader wants.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! How an iteration came nearer to its end.
+// How an iteration came nearer to its end.
 #pragma once
 
 #include <chrono>
@@ -47,7 +46,6 @@ class HistoryRecorder {
 //! A list of numbers for each quantity; null where there is none.
 nlohmann::ordered_json history_json(const std::vector<HistoryEntry>& history);
 
-//! A run as in its report.
 struct RunHistory {
   std::vector<HistoryEntry> entries{};
   double lower_bound = 0;  //!< of the objective; NaN without certificate

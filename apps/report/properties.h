@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The properties by which kinds of coordinates are compared, as rows of a table.
+// The properties by which kinds of coordinates are compared, as rows of a table.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -24,7 +23,6 @@ nlohmann::ordered_json properties_of(const WeightCheck<Dim>& check);
 TextTable property_table(
     const std::vector<std::pair<std::string, nlohmann::ordered_json>>& properties);
 
-//! The table as lines of text.
 std::string to_text(const TextTable& table);
 
 }  // namespace flbc::app

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The report of a run as JSON.
+// The report of a run as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The errors due to sparsity, as JSON and as text.
+// The errors due to sparsity, as JSON and as text.
 #pragma once
 
 #include <CLI/CLI.hpp>

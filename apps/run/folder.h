@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The folder that flbc run or flbc compare fills.
+// The folder that flbc run or flbc compare fills.
 #pragma once
 
 #include <functional>
@@ -11,7 +10,6 @@
 
 namespace flbc::app {
 
-//! The folder of results: made, refused or replaced.
 struct RunFiles {
   std::vector<std::string> inputs{};  //!< paths; they are neither replaced nor removed
   std::vector<std::string> names{};   //!< of all files that may be made
@@ -32,7 +30,6 @@ class RunFolder {
   //! an input, or without force a file that no earlier run has made
   RunFolder(std::string path, const RunFiles& files);
 
-  //! The path of a file in it.
   std::string path_of(const std::string& name) const;
 
   //! Calls `write` with the path of the file; interrupts wait meanwhile. Then prints the facts.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! What flbc run reads, and how the files are named that it makes.
+// What flbc run reads, and how the files are named that it makes.
 #pragma once
 
 #include <chrono>
@@ -39,7 +38,6 @@ constexpr const char* kPage = "model.html";
 //! The report, in which the names of all files are: the next run knows by them what is its own.
 constexpr const char* kReport = "report.json";
 
-//! Arguments of flbc run.
 struct RunArguments {
   SolveSettings settings;          //!< cage and model among them, but no domain
   bool makes_cage = false;         //!< whether to make a cage around the model
@@ -73,17 +71,14 @@ struct Shape {
   std::unique_ptr<MovableModel<Dim>> file{};  //!< the model's; null for the mesh
 };
 
-//! A mesh of the interior.
 template <int Dim>
 Shape<Dim> shape_of(const DomainMesh<Dim>& domain);
 
-//! The format in which flbc run writes meshes of the interior.
 template <int Dim>
 constexpr const char* domain_extension() {
   return Dim == 2 ? ".obj" : ".mesh";
 }
 
-//! Name of the mesh of the interior among the results.
 template <int Dim>
 std::string domain_file() {
   return std::string(kDomain) + domain_extension<Dim>();
@@ -105,7 +100,6 @@ struct RunInputs {
 template <int Dim>
 RunInputs<Dim> load_inputs(const Cage<Dim>& cage, const RunArguments& arguments);
 
-//! The names of all files that may be made.
 template <int Dim>
 std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs);
 

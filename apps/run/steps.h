@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The steps of flbc run. Each does its part in memory, writes its files and adds to the report.
+// The steps of flbc run. Each does its part in memory, writes its files and adds to the report.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,7 +13,6 @@
 
 namespace flbc::app {
 
-//! A run in the making.
 template <int Dim>
 struct Run {
   const RunArguments& arguments;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The parts of a page that come from files of cages and their poses.
+// The parts of a page that come from files of cages and their poses.
 #pragma once
 
 #include <string>
@@ -37,7 +36,6 @@ std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>& pose
 //! A file as commands name it that run in the folder of the page.
 std::string path_beside(const std::string& page, const std::string& file);
 
-//! A file inside of a page.
 std::string data_uri(const std::string& media_type, const std::string& bytes);
 
 }  // namespace flbc::app

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! One HTML file in which a person moves a cage, and the model in it follows.
+// One HTML file in which a person moves a cage, and the model in it follows.
 #pragma once
 
 #include <array>
@@ -25,7 +24,6 @@ template <int Dim>
 SparseWeights limit_influences(const PointList<Dim>& control_points, const PointList<Dim>& points,
                                const SparseWeights& weights, Index most);
 
-//! A cage as it is shown.
 template <int Dim>
 struct ShownCage {
   PointList<Dim> points{};                    //!< Dim x n, at rest
@@ -35,14 +33,12 @@ struct ShownCage {
   std::string text{};
 };
 
-//! A model as it is shown.
 template <int Dim>
 struct ShownModel {
   PointList<Dim> points{};  //!< Dim x P
   gltf::Surface surface{};  //!< of these points; without triangles points are shown
 };
 
-//! The cage in another place.
 template <int Dim>
 struct ShownPose {
   std::string name{};
@@ -50,7 +46,6 @@ struct ShownPose {
   PointList<Dim> points{};  //!< Dim x n
 };
 
-//! Content of a page.
 template <int Dim>
 struct PageContent {
   std::string title{};
@@ -75,7 +70,6 @@ template <int Dim>
 std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<Index>>& polygons,
                                                 const FacetList<Dim>& facets);
 
-//! The same edges as columns.
 inline FacetList<2> as_facets(const std::vector<std::array<Index, 2>>& edges) {
   FacetList<2> facets(2, static_cast<Eigen::Index>(edges.size()));
   for (std::size_t e = 0; e < edges.size(); ++e) facets.col(e) << edges[e][0], edges[e][1];
