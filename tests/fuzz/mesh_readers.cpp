@@ -47,10 +47,8 @@ DomainMesh<2> two_triangles() {
 
 template <int Dim>
 std::string file_of(const DomainMesh<Dim>& mesh, const std::string& name,
-                    const std::vector<io::VertexField>& fields = {},
-                    io::GmshVersion version = io::GmshVersion::k22) {
-  return written(name,
-                 [&](const std::string& path) { io::write_domain(path, mesh, fields, version); });
+                    const std::vector<io::VertexField>& fields = {}) {
+  return written(name, [&](const std::string& path) { io::write_domain(path, mesh, fields); });
 }
 
 const char* const kMeditOfOthers =
@@ -68,6 +66,12 @@ const char* const kGmshOfOthers =
     "\"a\"\n$EndPhysicalNames\n$Nodes\n"
     "4\n10 0 0 0\n11 1 0 0\n12 0 1 0\n13 0 0 1\n$EndNodes\n$Elements\n2\n1 2 2 1 1 10 11 12\n"
     "2 4 2 1 1 10 11 12 13\n$EndElements\n";
+
+// Version 4.1, with two blocks of nodes.
+const char* const kGmsh4 =
+    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n1 0 0 0 1 1 1 0 0\n$EndEntities\n"
+    "$Nodes\n2 4 1 4\n3 1 0 3\n1\n2\n4\n0 0 0\n1 0 0\n0 0 1\n3 1 0 1\n3\n0 1 0\n$EndNodes\n"
+    "$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n";
 
 const char* const kNodes = "4 3 1 1\n1 0 0 0 7 1\n2 1 0 0 7 1 # corner\n3 0 1 0 7 1\n4 0 0 1 7 1\n";
 const char* const kElements = "1 4 0\n1 1 2 3 4\n";
@@ -89,18 +93,14 @@ std::vector<Reader> mesh_readers() {
   const auto plane = two_triangles();
   const std::vector<io::VertexField> fields{{"height", mesh.points.row(2)}};
   const std::vector<io::VertexField> widths{{"width", plane.points.row(0)}};
-  return {
-      {"obj_2d", "input.obj", read_mesh<2>, {file_of(plane, "a.obj")}},
-      {"vtu_2d", "input.vtu", read_mesh<2>, {file_of(plane, "a.vtu", widths)}},
-      {"vtu", "input.vtu", read_mesh<3>, {file_of(mesh, "a.vtu", fields), kVtuOfOthers}},
-      {"medit", "input.mesh", read_mesh<3>, {file_of(mesh, "a.mesh"), kMeditOfOthers}},
-      {"sol", "input.sol", read_mesh_beside, {kSolution}, {{"input.mesh", kMeditOfOthers}}},
-      {"gmsh",
-       "input.msh",
-       read_mesh<3>,
-       {file_of(mesh, "a.msh"), file_of(mesh, "a.msh", {}, io::GmshVersion::k41), kGmshOfOthers}},
-      {"node", "input.node", read_mesh<3>, {kNodes}, {{"input.ele", kElements}}},
-      {"ele", "input.ele", read_mesh<3>, {kElements}, {{"input.node", kNodes}}}};
+  return {{"obj_2d", "input.obj", read_mesh<2>, {file_of(plane, "a.obj")}},
+          {"vtu_2d", "input.vtu", read_mesh<2>, {file_of(plane, "a.vtu", widths)}},
+          {"vtu", "input.vtu", read_mesh<3>, {file_of(mesh, "a.vtu", fields), kVtuOfOthers}},
+          {"medit", "input.mesh", read_mesh<3>, {file_of(mesh, "a.mesh"), kMeditOfOthers}},
+          {"sol", "input.sol", read_mesh_beside, {kSolution}, {{"input.mesh", kMeditOfOthers}}},
+          {"gmsh", "input.msh", read_mesh<3>, {file_of(mesh, "a.msh"), kGmsh4, kGmshOfOthers}},
+          {"node", "input.node", read_mesh<3>, {kNodes}, {{"input.ele", kElements}}},
+          {"ele", "input.ele", read_mesh<3>, {kElements}, {{"input.node", kNodes}}}};
 }
 
 }  // namespace flbc::fuzz

@@ -29,7 +29,7 @@ template <int Dim>
 struct MeshFormat {
   DomainMesh<Dim> (*read)(const std::string& path, std::vector<VertexField>* fields) = nullptr;
   void (*write)(const std::string& path, const DomainMesh<Dim>& mesh,
-                const std::vector<VertexField>& fields, GmshVersion version) = nullptr;
+                const std::vector<VertexField>& fields) = nullptr;
   bool keeps_fields = false;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gmsh .msh in text form, versions 2 and 4.1: sections between $Name and $EndName; nodes and
-// elements have arbitrary tags. Only tetrahedra are used; points, curves, and surfaces are skipped.
+// Gmsh .msh in text form, versions 2 and, for reading, 4.1: sections between $Name and $EndName;
+// nodes and elements have arbitrary tags. Only tetrahedra are used; points, curves, and surfaces
+// are skipped.
 #include <algorithm>
 #include <iterator>
 #include <unordered_map>
@@ -200,63 +201,30 @@ class GmshReader {
   std::vector<Vertices> cells_;
 };
 
-void write_gmsh_2(TextWriter& writer, const DomainMesh<3>& mesh) {
-  writer << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
-  writer << "$Nodes\n" << mesh.num_vertices() << "\n";
-  for (Index v = 0; v < mesh.num_vertices(); ++v) {
-    writer << v + std::int64_t{1} << " ";
-    write_point(writer, mesh, v);
-    writer << "\n";
-  }
-  writer << "$EndNodes\n$Elements\n" << mesh.num_cells() << "\n";
-  for (Index s = 0; s < mesh.num_cells(); ++s) {
-    // Type 4 is a tetrahedron; the 2 tags assign it to physical and elementary volume 1.
-    writer << s + std::int64_t{1} << " 4 2 1 1";
-    write_cell(writer, mesh, s, 1);
-  }
-  writer << "$EndElements\n";
-}
-
-void write_gmsh_4(TextWriter& writer, const DomainMesh<3>& mesh) {
-  writer << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
-  // No points, curves, or surfaces; one volume with tag 1 and the bounding box, which contains all
-  // nodes and elements; one block each.
-  writer << "$Entities\n0 0 0 1\n1";
-  if (mesh.num_vertices() > 0) {
-    for (const double x : mesh.points.rowwise().minCoeff().eval()) writer << " " << x;
-    for (const double x : mesh.points.rowwise().maxCoeff().eval()) writer << " " << x;
-  } else {
-    writer << " 0 0 0 0 0 0";
-  }
-  writer << " 0 0\n$EndEntities\n";
-  const Index num_nodes = mesh.num_vertices();
-  writer << "$Nodes\n1 " << num_nodes << " 1 " << num_nodes << "\n3 1 0 " << num_nodes << "\n";
-  for (Index v = 0; v < num_nodes; ++v) writer << v + std::int64_t{1} << "\n";
-  for (Index v = 0; v < num_nodes; ++v) {
-    write_point(writer, mesh, v);
-    writer << "\n";
-  }
-  const Index num_cells = mesh.num_cells();
-  writer << "$EndNodes\n$Elements\n1 " << num_cells << " 1 " << num_cells << "\n3 1 "
-         << kTetrahedron << " " << num_cells << "\n";
-  for (Index s = 0; s < num_cells; ++s) {
-    writer << s + std::int64_t{1};
-    write_cell(writer, mesh, s, 1);
-  }
-  writer << "$EndElements\n";
-}
-
 }  // namespace
 
 DomainMesh<3> read_gmsh(const std::string& path, std::vector<VertexField>*) {
   return GmshReader(path).read();
 }
 
-void write_gmsh(const std::string& path, const DomainMesh<3>& mesh, const std::vector<VertexField>&,
-                GmshVersion version) {
+void write_gmsh(const std::string& path, const DomainMesh<3>& mesh,
+                const std::vector<VertexField>&) {
   write_file(path, [&](std::ostream& out) {
     TextWriter writer(out);
-    version == GmshVersion::k41 ? write_gmsh_4(writer, mesh) : write_gmsh_2(writer, mesh);
+    writer << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+    writer << "$Nodes\n" << mesh.num_vertices() << "\n";
+    for (Index v = 0; v < mesh.num_vertices(); ++v) {
+      writer << v + std::int64_t{1} << " ";
+      write_point(writer, mesh, v);
+      writer << "\n";
+    }
+    writer << "$EndNodes\n$Elements\n" << mesh.num_cells() << "\n";
+    for (Index s = 0; s < mesh.num_cells(); ++s) {
+      // Type 4 is a tetrahedron; the 2 tags assign it to physical and elementary volume 1.
+      writer << s + std::int64_t{1} << " 4 2 1 1";
+      write_cell(writer, mesh, s, 1);
+    }
+    writer << "$EndElements\n";
     writer.flush();
   });
 }

@@ -215,7 +215,7 @@ DomainMesh<3> read_medit(const std::string& path, std::vector<VertexField>* fiel
 }
 
 void write_medit(const std::string& path, const DomainMesh<3>& mesh,
-                 const std::vector<VertexField>& fields, GmshVersion) {
+                 const std::vector<VertexField>& fields) {
   // If one of the two files cannot be written, neither is created.
   write_file(path, [&](std::ostream& out) {
     write_medit_mesh(out, mesh);

@@ -22,18 +22,18 @@ DomainMesh<Dim> read_vtu(const std::string& path, std::vector<VertexField>* fiel
 //! \param path  the .node or the .ele file; the other one is in the same directory
 DomainMesh<3> read_tetgen(const std::string& path, std::vector<VertexField>* fields);
 
-//! \param fields  empty if the format has none \param version  only for Gmsh
+//! \param fields  empty if the format has none
 void write_triangles(const std::string& path, const DomainMesh<2>& mesh,
-                     const std::vector<VertexField>& fields, GmshVersion version);
+                     const std::vector<VertexField>& fields);
 void write_medit(const std::string& path, const DomainMesh<3>& mesh,
-                 const std::vector<VertexField>& fields, GmshVersion version);
+                 const std::vector<VertexField>& fields);
 void write_gmsh(const std::string& path, const DomainMesh<3>& mesh,
-                const std::vector<VertexField>& fields, GmshVersion version);
+                const std::vector<VertexField>& fields);
 void write_tetgen(const std::string& path, const DomainMesh<3>& mesh,
-                  const std::vector<VertexField>& fields, GmshVersion version);
+                  const std::vector<VertexField>& fields);
 template <int Dim>
 void write_vtu(const std::string& path, const DomainMesh<Dim>& mesh,
-               const std::vector<VertexField>& fields, GmshVersion version);
+               const std::vector<VertexField>& fields);
 
 //! Writes `first + index` of each vertex of a cell, each after a blank, and a line break.
 template <int Dim>

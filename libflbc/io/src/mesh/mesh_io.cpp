@@ -79,7 +79,7 @@ DomainMesh<2> read_triangles(const std::string& path, std::vector<VertexField>*)
 }
 
 void write_triangles(const std::string& path, const DomainMesh<2>& mesh,
-                     const std::vector<VertexField>&, GmshVersion) {
+                     const std::vector<VertexField>&) {
   write_model(path, {to_polygons(mesh)});
 }
 
@@ -124,7 +124,7 @@ DomainMesh<Dim> read_domain(const std::string& path, std::vector<VertexField>& f
 
 template <int Dim>
 void write_domain(const std::string& path, const DomainMesh<Dim>& mesh,
-                  const std::vector<VertexField>& fields, GmshVersion gmsh_version) {
+                  const std::vector<VertexField>& fields) {
   const auto& format = mesh_format<Dim>(path, "write");
   check_fields(path, fields, mesh.num_vertices());
   if (!fields.empty() && !format.keeps_fields) {
@@ -132,7 +132,7 @@ void write_domain(const std::string& path, const DomainMesh<Dim>& mesh,
                       "\": this format does not support them; choose from " +
                       extensions_of({Content::kFields}));
   }
-  format.write(path, mesh, fields, gmsh_version);
+  format.write(path, mesh, fields);
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                          \
@@ -140,7 +140,7 @@ void write_domain(const std::string& path, const DomainMesh<Dim>& mesh,
   template DomainMesh<Dim> read_domain(const std::string&);                            \
   template DomainMesh<Dim> read_domain(const std::string&, std::vector<VertexField>&); \
   template void write_domain(const std::string&, const DomainMesh<Dim>&,               \
-                             const std::vector<VertexField>&, GmshVersion);
+                             const std::vector<VertexField>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -98,7 +98,7 @@ DomainMesh<3> read_tetgen(const std::string& path, std::vector<VertexField>*) {
 }
 
 void write_tetgen(const std::string& path, const DomainMesh<3>& mesh,
-                  const std::vector<VertexField>&, GmshVersion) {
+                  const std::vector<VertexField>&) {
   // The .ele file is renamed only after the nodes are written, so a failure leaves neither file.
   write_file(with_extension(path, "node"), [&](std::ostream& nodes) {
     write_nodes(nodes, mesh);

@@ -67,7 +67,7 @@ void write_fields(TextWriter& writer, const std::vector<VertexField>& fields) {
 
 template <int Dim>
 void write_vtu(const std::string& path, const DomainMesh<Dim>& mesh,
-               const std::vector<VertexField>& fields, GmshVersion) {
+               const std::vector<VertexField>& fields) {
   write_file(path, [&](std::ostream& out) {
     TextWriter writer(out);
     writer << "<?xml version=\"1.0\"?>\n"

@@ -17,9 +17,6 @@ struct VertexField {
   Eigen::VectorXd values;  //!< V
 };
 
-//! Supported versions of the Gmsh format.
-enum class GmshVersion { k22, k41 };
-
 //! Reads a domain mesh; the format follows from the extension. 2D: .obj, .off (triangles in the
 //! plane z = 0), .vtu. 3D: MEDIT .mesh (text), TetGen .node / .ele (either name; first index 0 or
 //! 1), Gmsh .msh (2.2 and 4.1 text), .vtu (ascii). Orientation is made positive and the mesh
@@ -41,7 +38,7 @@ template <int Dim>
 PolygonSoup to_polygons(const DomainMesh<Dim>& mesh);
 
 //! Writes a domain mesh; the format follows from the extension. 2D: .obj, .off, .vtu. 3D: .mesh,
-//! .node or .ele (both files are written), .msh, .vtu. Coordinates have 17 digits. Fields are
+//! .node or .ele (both files are written), .msh (2.2), .vtu. Coordinates have 17 digits. Fields are
 //! written to .vtu, or for .mesh to a .sol file next to it. Without fields, an existing .sol file
 //! is unchanged.
 //! \throws IoError; InputError if a number is not finite, a field does not have one value per
@@ -49,7 +46,6 @@ PolygonSoup to_polygons(const DomainMesh<Dim>& mesh);
 //! another extension, or for fields that would be lost
 template <int Dim>
 void write_domain(const std::string& path, const DomainMesh<Dim>& mesh,
-                  const std::vector<VertexField>& fields = {},
-                  GmshVersion gmsh_version = GmshVersion::k22);
+                  const std::vector<VertexField>& fields = {});
 
 }  // namespace flbc::io
