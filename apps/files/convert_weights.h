@@ -5,7 +5,7 @@
 #include <string>
 
 #include "flbc/io/formats.h"
-#include "flbc/types.h"
+#include "flbc/sparse_weights.h"
 
 namespace flbc::app {
 
