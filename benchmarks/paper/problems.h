@@ -41,7 +41,6 @@ const std::vector<Model>& models();
 //! \throws std::out_of_range
 const Model& model(const std::string& name);
 
-//! A method that is compared.
 struct NamedMethod {
   std::string name;
   Method method;
@@ -77,10 +76,8 @@ CoarseMesher<Dim> coarse_mesher() {
 template <int Dim>
 Cage<Dim> read_cage(const std::string& file);
 
-//! A model's cage in the models folder.
 std::string cage_path(const Context& context, const Model& model);
 
-//! A model on a mesh.
 template <int Dim>
 struct Setting {
   const Context& context;
@@ -152,12 +149,10 @@ Row mesh_row(const Setting<Dim>& setting) {
   return mesh_row(setting.model.name, setting.problem.cage, setting.problem.mesh);
 }
 
-//! Solve and recovery.
 inline double seconds_after_setup(const SolveReport& report) {
   return report.seconds.solve + report.seconds.recover;
 }
 
-//! Set-up, solve, and recovery.
 inline double seconds_of(const SolveReport& report) {
   return report.seconds.setup + seconds_after_setup(report);
 }

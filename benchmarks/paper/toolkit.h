@@ -15,7 +15,6 @@
 
 namespace flbc::bench {
 
-//! Settings of all experiments.
 struct Context {
   std::string models;  //!< folder of the cages, with 2d/ and 3d/
   std::string out;     //!< folder of all results
@@ -25,7 +24,6 @@ struct Context {
   std::string commit{};  //!< of the sources, for the results to name; may be empty
   std::vector<std::string> only_models{};  //!< names of those to measure; empty for all
 
-  //! Whether a model is to be measured.
   bool wants(const std::string& model) const {
     return only_models.empty() ||
            std::find(only_models.begin(), only_models.end(), model) != only_models.end();
@@ -69,7 +67,6 @@ using Rows = std::vector<Row>;
 //! \return what `body` returned, or nothing after a message on stderr if it threw or crashed
 std::optional<Rows> in_child(const std::string& what, const std::function<Rows()>& body);
 
-//! The rows of one experiment.
 class ResultTable {
  public:
   ResultTable(const Context& context, std::string name)
@@ -92,7 +89,6 @@ class ResultTable {
   bool complete_ = true;
 };
 
-//! Number of cores this process may use.
 int available_cores();
 
 //! Resident memory now, in MiB, after freed memory went back to the system.

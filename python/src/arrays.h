@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! NumPy arrays as matrices of the library, and back. A C-contiguous (P, n) array has the memory
-//! layout of an n x P matrix, so results cross without a copy. The Python files have checked types
-//! and shapes of all arguments.
+// NumPy arrays as matrices of the library, and back. A C-contiguous (P, n) array has the memory
+// layout of an n x P matrix, so results cross without a copy. The Python files have checked types
+// and shapes of all arguments.
 #pragma once
 
 #include <cstdint>

@@ -89,7 +89,6 @@ class Enclosure {
   //! \param points  Dim x P \param facets  corners may repeat; points without a facet also count
   Enclosure(const PointList<Dim>& points, const FacetList<Dim>& facets);
 
-  //! Whether a facet intersects the model.
   bool meets(const Simplex<Dim>& facet) const;
 
   //! Whether the cage does not intersect the model and encloses all of it.

@@ -10,7 +10,6 @@
 
 namespace flbc {
 
-//! A cage under repair.
 template <int Dim>
 struct CageDraft {
   struct Facet {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! An array aligned for vector instructions, initially zero.
+// An array aligned for vector instructions, initially zero.
 #pragma once
 
 #include <cstdlib>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Flushes denormal numbers to zero.
+// Flushes denormal numbers to zero.
 #pragma once
 
 #ifdef __SSE__

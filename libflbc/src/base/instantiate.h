@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Explicit instantiation for both dimensions and both scalar types.
+// Explicit instantiation for both dimensions and both scalar types.
 #pragma once
 
 //! Instantiates a function template for both dimensions; it must not be overloaded.

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Selects the copy of an inner loop for this processor, from copies for several instruction sets.
-//!
-//! A kernel is a table of functions, the type Kernel<...> of its namespace. Its header declares it
-//! by FLBC_DECLARE_KERNEL; its .inl file, compiled once per instruction set with FLBC_ISA as the
-//! set's name, has a table `kKernel<...>` in the namespace of that name and exports it by
-//! FLBC_DEFINE_KERNEL.
+// Selects the copy of an inner loop for this processor, from copies for several instruction sets.
+//
+// A kernel is a table of functions, the type Kernel<...> of its namespace. Its header declares it
+// by FLBC_DECLARE_KERNEL; its .inl file, compiled once per instruction set with FLBC_ISA as the
+// set's name, has a table `kKernel<...>` in the namespace of that name and exports it by
+// FLBC_DEFINE_KERNEL.
 #pragma once
 
 #ifdef __x86_64__

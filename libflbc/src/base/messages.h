@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Formats numbers, points, and lists for messages.
+// Formats numbers, points, and lists for messages.
 #pragma once
 
 #include <algorithm>

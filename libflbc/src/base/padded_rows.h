@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Length of rows with one value per control point.
+// Length of rows with one value per control point.
 #pragma once
 
 #include <cstddef>

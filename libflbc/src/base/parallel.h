@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Loops and sums in parallel, and the number of threads. Results do not depend on that number, and
-//! exceptions reach the caller.
+// Loops and sums in parallel, and the number of threads. Results do not depend on that number, and
+// exceptions reach the caller.
 #pragma once
 
 #include <omp.h>

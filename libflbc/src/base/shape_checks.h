@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Checks that sizes of weights, points, control points, and poses match.
+// Checks that sizes of weights, points, control points, and poses match.
 #pragma once
 
 #include <string>

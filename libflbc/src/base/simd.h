@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Packs of control points for the inner loops. The compiler maps a pack to the available
-//! registers. Everything has internal linkage, so copies for different instruction sets cannot be
-//! mixed by the linker.
+// Packs of control points for the inner loops. The compiler maps a pack to the available
+// registers. Everything has internal linkage, so copies for different instruction sets cannot be
+// mixed by the linker.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Reports progress from inner loops to the caller.
+// Reports progress from inner loops to the caller.
 #pragma once
 
 #include <omp.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Wall-clock time.
+// Wall-clock time.
 #pragma once
 
 #include <chrono>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Tests whether a point is inside a cage, and computes distances to facets. Holes and cavities are
-//! outside.
+// Tests whether a point is inside a cage, and computes distances to facets. Holes and cavities are
+// outside.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Finds the nearest of many segments or triangles to a point.
+// Finds the nearest of many segments or triangles to a point.
 #pragma once
 
 #include <algorithm>

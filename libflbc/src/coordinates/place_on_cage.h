@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The place on the cage nearest to a point that is not inside.
+// The place on the cage nearest to a point that is not inside.
 #pragma once
 
 #include "flbc/cage.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Coordinates that are computed point by point, without a domain mesh.
+// Coordinates that are computed point by point, without a domain mesh.
 #pragma once
 
 #include <algorithm>

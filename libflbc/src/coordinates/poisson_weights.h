@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Harmonic coordinates and least-squares recovery with a shared Poisson problem.
+// Harmonic coordinates and least-squares recovery with a shared Poisson problem.
 #pragma once
 
 #include "base/parallel.h"

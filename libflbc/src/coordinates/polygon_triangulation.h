@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Triangulates polygons without new vertices.
+// Triangulates polygons without new vertices.
 #pragma once
 
 #include <vector>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! A cage facet as seen from a point: its contributions to mean value weights. The weight of c_i,
-//! before division by their sum, is the integral of phi_i(p) / |p - x| over all directions from x,
-//! where p is the point of the cage in that direction, and phi_i the barycentric coordinate of p in
-//! its facet.
+// A cage facet as seen from a point: its contributions to mean value weights. The weight of c_i,
+// before division by their sum, is the integral of phi_i(p) / |p - x| over all directions from x,
+// where p is the point of the cage in that direction, and phi_i the barycentric coordinate of p in
+// its facet.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Sums of control points times weights, the inner loop of every deformation.
+// Sums of control points times weights, the inner loop of every deformation.
 #pragma once
 
 #include <omp.h>

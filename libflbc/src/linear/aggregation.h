@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Coarse unknowns of a matrix, by smoothed aggregation (Vanek, Mandel, Brezina 1996).
+// Coarse unknowns of a matrix, by smoothed aggregation (Vanek, Mandel, Brezina 1996).
 #pragma once
 
 #include "linear/row_matrix.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Decompositions of small dense matrices. They are compiled separately, because they take long to
-//! compile.
+// Decompositions of small dense matrices. They are compiled separately, because they take long to
+// compile.
 #pragma once
 
 #include <Eigen/Core>

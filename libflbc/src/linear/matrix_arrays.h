@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Sparse matrices as plain arrays for inner loops.
+// Sparse matrices as plain arrays for inner loops.
 #pragma once
 
 #include <vector>

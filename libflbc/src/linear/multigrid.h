@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! An approximate solver for sparse symmetric positive definite systems with many right-hand sides
-//! at once, in time and memory proportional to the size of the matrix. It replaces the direct
-//! solver on large meshes.
+// An approximate solver for sparse symmetric positive definite systems with many right-hand sides
+// at once, in time and memory proportional to the size of the matrix. It replaces the direct
+// solver on large meshes.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Conjugate gradients with a multigrid cycle as preconditioner, for many right-hand sides at once:
-//! accurate solutions in time and memory proportional to the size of the matrix.
+// Conjugate gradients with a multigrid cycle as preconditioner, for many right-hand sides at once:
+// accurate solutions in time and memory proportional to the size of the matrix.
 #pragma once
 
 #include <cstddef>

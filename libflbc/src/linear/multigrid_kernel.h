@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The inner loops of the multigrid cycle on plain arrays. The same source is compiled for several
-//! instruction sets; it does not use Eigen, whose inline functions could clash.
+// The inner loops of the multigrid cycle on plain arrays. The same source is compiled for several
+// instruction sets; it does not use Eigen, whose inline functions could clash.
 #pragma once
 
 #include <cstddef>

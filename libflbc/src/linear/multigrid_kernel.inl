@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The loops, included once per instruction set with FLBC_ISA as its name. Each including file is
-//! compiled with the flags of that set (see libflbc/CMakeLists.txt).
+// The loops, included once per instruction set with FLBC_ISA as its name. Each including file is
+// compiled with the flags of that set (see libflbc/CMakeLists.txt).
 #include "linear/multigrid_kernel.h"
 
 #include <type_traits>

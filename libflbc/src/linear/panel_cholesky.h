@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Direct solver for sparse symmetric positive definite systems with many right-hand sides at once,
-//! one per control point.
+// Direct solver for sparse symmetric positive definite systems with many right-hand sides at once,
+// one per control point.
 #pragma once
 
 #include <cstddef>

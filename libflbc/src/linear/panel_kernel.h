@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The inner loops of the triangular solves on plain arrays. The same source is compiled for
-//! several instruction sets; it must not use headers whose inline functions could clash, such as
-//! Eigen.
+// The inner loops of the triangular solves on plain arrays. The same source is compiled for
+// several instruction sets; it must not use headers whose inline functions could clash, such as
+// Eigen.
 #pragma once
 
 #include <cstddef>

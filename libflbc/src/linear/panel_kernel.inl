@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The loops, included once per instruction set with FLBC_ISA as its name. Each including file is
-//! compiled with the flags of that set (see libflbc/CMakeLists.txt).
-//!
-//! The operations on one column of the right-hand side do not depend on neighboring columns or on
-//! the start of its slice.
+// The loops, included once per instruction set with FLBC_ISA as its name. Each including file is
+// compiled with the flags of that set (see libflbc/CMakeLists.txt).
+//
+// The operations on one column of the right-hand side do not depend on neighboring columns or on
+// the start of its slice.
 #include "linear/panel_kernel.h"
 
 #include <utility>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Sparse matrices by rows, assembled by all threads.
+// Sparse matrices by rows, assembled by all threads.
 #pragma once
 
 #include <algorithm>

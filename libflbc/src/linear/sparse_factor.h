@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The Cholesky factor of a sparse matrix in supernodal form: dense blocks of columns with the same
-//! rows.
+// The Cholesky factor of a sparse matrix in supernodal form: dense blocks of columns with the same
+// rows.
 #pragma once
 
 #include <memory>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The global linear solve of the splitting methods: direct, or a multigrid cycle if a factor would
-//! cost more.
+// The global linear solve of the splitting methods: direct, or a multigrid cycle if a factor would
+// cost more.
 #pragma once
 
 #include <numeric>
@@ -28,7 +27,6 @@ class SpdSolver {
     }
   }
 
-  //! Number of unknowns.
   Index size() const { return static_cast<Index>(position_.size()); }
 
   //! The row of every unknown in the arrays of solve_slice().

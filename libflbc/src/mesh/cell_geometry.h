@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Geometry of one cell, for the finite-element parts of the library.
+// Geometry of one cell, for the finite-element parts of the library.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Locates sequences of nearby points in a mesh.
+// Locates sequences of nearby points in a mesh.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Items by vertex, and the cells around each vertex.
+// Items by vertex, and the cells around each vertex.
 #pragma once
 
 #include <cstddef>

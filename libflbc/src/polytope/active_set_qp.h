@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Active-set quadratic program for the weights of one point: the nearest weights on few control
-//! points.
+// Active-set quadratic program for the weights of one point: the nearest weights on few control
+// points.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The dual of the projection on {w >= 0, Q^T w = b}: a smooth convex function of Dim + 1 unknowns.
+// The dual of the projection on {w >= 0, Q^T w = b}: a smooth convex function of Dim + 1 unknowns.
 #pragma once
 
 #include <vector>

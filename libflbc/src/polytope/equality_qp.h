@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Equality-constrained quadratic program for the weights of one point, and its metric.
+// Equality-constrained quadratic program for the weights of one point, and its metric.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The point of a convex hull nearest to a given one, as a combination of few points.
+// The point of a convex hull nearest to a given one, as a combination of few points.
 #pragma once
 
 #include <array>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Projection onto non-negative weights without a copy of all given weights.
+// Projection onto non-negative weights without a copy of all given weights.
 #pragma once
 
 #include <functional>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The weights of a point x: the polytope {w >= 0, sum w = 1, sum w c = x}, in units of its control
-//! points c. All solvers of this module use these units.
+// The weights of a point x: the polytope {w >= 0, sum w = 1, sum w c = x}, in units of its control
+// points c. All solvers of this module use these units.
 #pragma once
 
 #include <algorithm>

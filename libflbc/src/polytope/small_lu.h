@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Small systems of equations. Eigen would compile ten times longer.
+// Small systems of equations. Eigen would compile ten times longer.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The linear program of one interior vertex in the Lagrangian dual bound.
+// The linear program of one interior vertex in the Lagrangian dual bound.
 #pragma once
 
 #include <array>

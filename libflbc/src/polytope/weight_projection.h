@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Projection of one row of weights onto {w >= 0, sum w = 1, sum w c = x}.
+// Projection of one row of weights onto {w >= 0, sum w = 1, sum w c = x}.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Partition of unity and reproduction as one linear system per point, and the projection onto it.
+// Partition of unity and reproduction as one linear system per point, and the projection onto it.
 #pragma once
 
 #include "flbc/types.h"

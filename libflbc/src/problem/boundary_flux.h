@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The dual of boundary cells, whose corners all lie on the boundary, where weights are known.
+// The dual of boundary cells, whose corners all lie on the boundary, where weights are known.
 #pragma once
 
 #include "flbc/lbc_problem.h"

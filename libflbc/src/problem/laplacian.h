@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The finite-element Laplacian of a domain mesh and the Poisson problem with boundary values.
+// The finite-element Laplacian of a domain mesh and the Poisson problem with boundary values.
 #pragma once
 
 #include <optional>

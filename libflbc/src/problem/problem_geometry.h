@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Sets up a problem without phi, which can be made from exact or interpolated distances.
+// Sets up a problem without phi, which can be made from exact or interpolated distances.
 #pragma once
 
 #include <utility>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The scale of problems: cage size is the unit of length.
+// The scale of problems: cage size is the unit of length.
 #pragma once
 
 #include "flbc/bounding_box.h"

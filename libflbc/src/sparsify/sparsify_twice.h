@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Two reductions of influences in less time than both take.
+// Two reductions of influences in less time than both take.
 #pragma once
 
 #include "flbc/sparsify.h"

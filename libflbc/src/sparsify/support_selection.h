@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Selects the best few control points for a point, in any metric.
+// Selects the best few control points for a point, in any metric.
 #pragma once
 
 #include <vector>

@@ -17,14 +17,12 @@ namespace flbc::io {
 //! The elements to which a format attaches colors, normals, and texture coordinates.
 enum class Attributes { kNone, kVertices, kCorners };
 
-//! Readers and writers of models.
 struct ModelFormat {
   void (*read)(const std::string& path, Extent extent, ModelScan& scan) = nullptr;
   void (*write)(std::ostream& out, const Model& model) = nullptr;
   Attributes attributes = Attributes::kNone;
 };
 
-//! Readers and writers of domain meshes.
 template <int Dim>
 struct MeshFormat {
   DomainMesh<Dim> (*read)(const std::string& path, std::vector<VertexField>* fields) = nullptr;

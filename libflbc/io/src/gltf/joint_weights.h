@@ -8,7 +8,6 @@
 
 namespace flbc::gltf {
 
-//! Storage format of skin weights.
 enum class WeightFormat {
   kFloat,          //!< 4 bytes each
   kUnsignedShort,  //!< 2 bytes each, multiples of 1 / 65535

@@ -9,7 +9,6 @@
 
 namespace flbc::gltf {
 
-//! An image file.
 struct Picture {
   std::string media_type{};  //!< "image/png" or "image/jpeg"
   std::string bytes{};

@@ -15,10 +15,8 @@
 
 namespace flbc::gltf {
 
-//! File format of a skin.
 enum class SkinFormat { kGlb, kUsda };
 
-//! Options of the skin.
 struct SkinOptions {
   Index max_influences = 8;  //!< per point, 4 or 8
   WeightFormat weight_format = WeightFormat::kFloat;

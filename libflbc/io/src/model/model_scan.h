@@ -37,10 +37,8 @@ struct Site {
   Index index;        //!< of the vertex, normal or polygon
 };
 
-//! Extent of reading.
 enum class Extent : std::uint8_t { kGeometry, kEverything };
 
-//! A parsed file.
 struct ModelScan {
   std::string text{};           //!< the whole file
   Model model{};                //!< its content
@@ -60,7 +58,6 @@ struct PlacedNumbers {
 //! \param needed  an error if there are fewer
 PlacedNumbers next_numbers(TextReader& reader, std::size_t size, int needed);
 
-//! Appends the sites of three numbers.
 void add_sites(ModelScan& scan, const std::array<NumberPlace, 3>& places, TripleKind kind,
                Index index);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Distances limited to the region where they are needed. If there are many control points, each
-//! has weights only on a small part of the domain.
+// Distances limited to the region where they are needed. If there are many control points, each
+// has weights only on a small part of the domain.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The mesh in the form used by fast marching, shared by all sources.
+// The mesh in the form used by fast marching, shared by all sources.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Interpolates distances from a coarser mesh of the domain.
+// Interpolates distances from a coarser mesh of the domain.
 #pragma once
 
 #include <vector>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The fast marching method on simplicial meshes, Kimmel and Sethian 1998, with point-source
-//! updates in cells, so that straight paths are exact. Distances grow outward from the source. In a
-//! cell with an obtuse angle, a vertex may be improved after it has been passed.
+// The fast marching method on simplicial meshes, Kimmel and Sethian 1998, with point-source
+// updates in cells, so that straight paths are exact. Distances grow outward from the source. In a
+// cell with an obtuse angle, a vertex may be improved after it has been passed.
 #pragma once
 
 #include <algorithm>
@@ -90,7 +89,6 @@ class BucketQueue {
   std::vector<Entry> entries_;  // all entries since the start
 };
 
-//! Of a vertex.
 enum class State : std::uint8_t { kFar, kWaiting, kPassed };
 
 //! State of the front at a vertex.

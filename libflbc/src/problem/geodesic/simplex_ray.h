@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Computes the distance of one corner of a triangle or tetrahedron from the distances of the
-//! others.
+// Computes the distance of one corner of a triangle or tetrahedron from the distances of the
+// others.
 #pragma once
 
 #include <algorithm>

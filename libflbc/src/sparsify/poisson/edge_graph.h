@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! Points and their neighbors, colored for parallel passes whose results do not depend on the
-//! number of threads.
+// Points and their neighbors, colored for parallel passes whose results do not depend on the
+// number of threads.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//! \file
-//! The cost of changed weights along edges.
+// The cost of changed weights along edges.
 #pragma once
 
 #include <vector>
