@@ -55,8 +55,8 @@ nlohmann::ordered_json check_json(const CheckReport<Dim>& report);
 template <int Dim>
 CheckReport<Dim> check_cage(const Cage<Dim>& cage, const std::string& file);
 
-//! Adds the facts about weights. \param place  the mesh that has them, or points anywhere, with fewer
-//! facts
+//! Adds the facts about weights. \param place  the mesh that has them, or points anywhere, with
+//! fewer facts
 //! \throws InputError if the sizes do not belong together, or the mesh does not belong to the cage
 template <int Dim, class Place>
 void check_weights_of(CheckReport<Dim>& report, const Place& place, const SparseWeights& weights) {
