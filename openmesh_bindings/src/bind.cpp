@@ -140,6 +140,18 @@ void refuse_moved(int vertex) {
                    "restore_rest(), or bind the model again if its rest shape has changed");
 }
 
+template <int Dim>
+void refuse_doubled_vertices(const Cage<Dim>& cage) {
+  for (const auto& defect : find_defects(cage, 1)) {
+    if (defect.kind != DefectKind::kCoincident) continue;
+    throw InputError(defect.message +
+                     "; OpenMesh doubles vertices where more than two faces meet at an edge when "
+                     "it reads a file, so look for such edges in the file of the cage");
+  }
+}
+
+template void refuse_doubled_vertices(const Cage<2>&);
+template void refuse_doubled_vertices(const Cage<3>&);
 template Binding<2> bind_points(const BindInput<2>&, const BindOptions&);
 template Binding<3> bind_points(const BindInput<3>&, const BindOptions&);
 

@@ -163,6 +163,16 @@ TYPED_TEST(Bind, NewVerticesStayUntilTheyAreBound) {
   expect_refused<Error>("has no weights", [&] { openmesh::bind_new_vertices(unbound); });
 }
 
+// As the readers of OpenMesh make them at edges where more than two faces meet.
+TEST(BindCage, DoubledVerticesOfACageAreNamed) {
+  using Mesh = OpenMesh::TriMesh_ArrayKernelT<>;
+  Mesh model;
+  auto cage = openmesh::to_mesh<Mesh>(make_sample<3>(Shape::kBox, 1).cage);
+  cage.add_vertex(cage.point(OpenMesh::VertexHandle(2)));
+  model.add_vertex({0, 0, 0});
+  expect_refused<Error>("OpenMesh doubles vertices", [&] { openmesh::bind(model, cage); });
+}
+
 // The vertex at `index` is put before the middle of a facet, at a tenth of the cage's size.
 template <int Dim, class Mesh>
 Vector<Dim> put_outside(Mesh& model, const Cage<Dim>& cage, int index, Index facet) {

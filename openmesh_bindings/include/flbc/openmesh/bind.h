@@ -178,14 +178,24 @@ struct IsCage : std::false_type {};
 template <int Dim>
 struct IsCage<Cage<Dim>> : std::true_type {};
 
+//! \throws InputError if two vertices of a cage that was a mesh are at the same place
+template <int Dim>
+void refuse_doubled_vertices(const Cage<Dim>& cage);
+
 template <class AnyCage>
 auto as_cage(const AnyCage& cage) {
   if constexpr (IsCage<AnyCage>::value) {
     return cage;
-  } else if constexpr (kPointSize<AnyCage> == 2) {
-    return to_outline(cage);
   } else {
-    return to_cage(cage);
+    auto result = [&] {
+      if constexpr (kPointSize<AnyCage> == 2) {
+        return to_outline(cage);
+      } else {
+        return to_cage(cage);
+      }
+    }();
+    refuse_doubled_vertices(result);
+    return result;
   }
 }
 
