@@ -67,6 +67,9 @@ void repair(const Cage<Dim>& cage, std::vector<std::string> changes,
             << repaired.cage.facets.cols() << (Dim == 2 ? " edges" : " triangles")
             << (repaired.keeps_numbers ? ", numbered as before\n"
                                        : ", their new numbers are in " + numbers + "\n");
+  if (repaired.changes.empty()) return;
+  std::cerr << arguments.output << ": " << describe(repaired, static_cast<Index>(cage.size()))
+            << '\n';
 }
 
 void repair_file(const CageArguments& arguments) {
@@ -115,8 +118,8 @@ void add_cage_command(CLI::App& app, int&) {
   add_symmetric_option(*command, a.options.symmetry)->needs(model);
   command->add_option(
       "--repair", a.defective,
-      "repair this defective cage: weld, orient, and fill holes, and list every change; wrap it as "
-      "a last resort");
+      "repair this defective cage: weld, orient, fill holes, and unite crossing parts, and list "
+      "every change; wrap it as a last resort");
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);

@@ -96,6 +96,31 @@ PointList<3> voxel_corners(const PointList<3>& points) {
   return result;
 }
 
+// Renumbers the points that polygons and polylines use. \return the number of others, which stay if
+// there are only points
+Index drop_unused(io::PolygonSoup& soup) {
+  if (soup.polygons.empty() && soup.polylines.empty()) return 0;
+  std::vector<Index> number(soup.points.size(), -1);
+  for (auto* lists : {&soup.polygons, &soup.polylines}) {
+    for (const auto& list : *lists) {
+      for (const Index v : list) number[v] = 0;
+    }
+  }
+  std::size_t used = 0;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] < 0) continue;
+    number[v] = static_cast<Index>(used);
+    soup.points[used++] = soup.points[v];
+  }
+  soup.points.resize(used);
+  for (auto* lists : {&soup.polygons, &soup.polylines}) {
+    for (auto& list : *lists) {
+      for (Index& v : list) v = number[v];
+    }
+  }
+  return static_cast<Index>(number.size() - used);
+}
+
 }  // namespace
 
 AnyModelFacets load_model_facets(const std::string& path) {
@@ -105,12 +130,14 @@ AnyModelFacets load_model_facets(const std::string& path) {
     if (corners.cols() == 0) throw InputError(path + ": the model has no vertices");
     return ModelFacets<3>{corners, {}};
   }
-  const auto soup = io::read_polygons(path);
+  auto soup = io::read_polygons(path);
   if (soup.points.empty()) throw InputError(path + ": the model has no vertices");
+  const Index unused = drop_unused(soup);
   if (is_flat(soup)) {
-    return ModelFacets<2>{io::to_points<2>(soup, path), flat_facets(soup), soup.points[0].z()};
+    return ModelFacets<2>{io::to_points<2>(soup, path), flat_facets(soup), soup.points[0].z(),
+                          unused};
   }
-  return ModelFacets<3>{io::to_points<3>(soup, path), solid_facets(soup)};
+  return ModelFacets<3>{io::to_points<3>(soup, path), solid_facets(soup), 0, unused};
 }
 
 template <int Dim>

@@ -18,13 +18,14 @@ struct ModelFacets {
   PointList<Dim> points;
   FacetList<Dim> facets;
   double height = 0;  //!< 2D: the z of all points
+  Index unused = 0;   //!< vertices of no face or polyline that were left out
 };
 
 using AnyModelFacets = std::variant<ModelFacets<2>, ModelFacets<3>>;
 
 //! Of a model's file, 2D if all points have the same z; or the silhouette of a .png. Of Gaussian
-//! splats, points that enclose their centers. \throws
-//! IoError, InputError, OptionError
+//! splats, points that enclose their centers. Vertices of no face or polyline are left out if there
+//! are others. \throws IoError, InputError, OptionError
 AnyModelFacets load_model_facets(const std::string& path);
 
 //! The outline of the pixels of a .png file that are not wholly transparent. A pixel is a unit

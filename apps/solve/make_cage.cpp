@@ -5,6 +5,7 @@
 #include <map>
 
 #include "files/load.h"
+#include "flbc/cage_facts.h"
 #include "flbc/errors.h"
 #include "help/options.h"
 #include "report/facts.h"
@@ -76,6 +77,15 @@ ModelCage<Dim> make_cage([[maybe_unused]] const std::string& file,
     options.stage = [&bar](CagingStage stage, double done) { bar.show(name_of(stage), done); };
     made = naming(file, [&] { return cage_from_model<Dim>(model.points, model.facets, options); });
   }
+  if (!quiet && model.unused > 0) {
+    std::cerr << file << ": the cage leaves out " << model.unused
+              << (model.unused == 1 ? " vertex of no face\n" : " vertices of no face\n");
+  }
+  const Index parts = measure_cage(made.cage).parts;
+  if (!quiet && model.facets.cols() == 0 && parts > 1) {
+    std::cerr << file << ": the cage has " << parts
+              << " separate parts, because there are wide gaps between points\n";
+  }
   const auto excess = excess_of(made, bounding_box_diagonal<Dim>(model.points));
   if (!quiet && !excess.empty()) {
     std::cerr << file << ": the cage is far from the model: " << excess
@@ -114,11 +124,23 @@ std::string describe(const ModelCage<Dim>& made) {
   return facts.text();
 }
 
+template <int Dim>
+std::string describe(const RepairedCage<Dim>& repaired, Index control_points) {
+  Facts facts;
+  facts << (Dim == 2 ? "area " : "volume ") << measure_cage(repaired.cage).measure;
+  if (repaired.measure_before > 0) facts << " (before: " << repaired.measure_before << ")";
+  facts << ", at most " << repaired.max_distance << " from the old "
+        << (Dim == 2 ? "outline, " : "surface, ") << repaired.kept << " of " << control_points
+        << " control points kept";
+  return facts.text();
+}
+
 #define FLBC_INSTANTIATE(Dim)                                                                   \
   template ModelCage<Dim> make_cage(const std::string&, const ModelFacets<Dim>&, CagingOptions, \
                                     bool);                                                      \
   template RepairedCage<Dim> repair_defects(const std::string&, const Cage<Dim>&);              \
-  template std::string describe(const ModelCage<Dim>&);
+  template std::string describe(const ModelCage<Dim>&);                                         \
+  template std::string describe(const RepairedCage<Dim>&, Index);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -331,5 +331,21 @@ TEST(CageFromRealModelTest, RealModels) {
   }
 }
 
+TEST_IN_2D_AND_3D(CageFromModelTest, RefusesModelsFarFromTheOrigin) {
+  for (const double place : {1e10, 1e15}) {
+    auto model = box_cage<Dim>(1);
+    model.points.array() += place;
+    expect_error<InputError>(
+        [&] { cage_from_model<Dim>(model.points, model.facets, CagingOptions{}); },
+        {"too far from the origin", "vertex 0"});
+  }
+}
+
+TEST(CageFromModel3Test, TheVolumeOfAnOpenModelIsNoFigure) {
+  const auto box = box_cage<3>(1);
+  EXPECT_GT(make(box, {}).volume_ratio, 1);
+  EXPECT_EQ(make(without_facet(box, 3), {}).volume_ratio, 0);
+}
+
 }  // namespace
 }  // namespace flbc::testing

@@ -97,6 +97,10 @@ TEST_IN_2D_AND_3D(RepairCageTest, HolesAreClosed) {
   const auto repaired = repair(without_facet(box_cage<Dim>(1), 1));
   EXPECT_TRUE(repaired.keeps_numbers);
   EXPECT_EQ(repaired.changes.size(), 1u);
+  EXPECT_EQ(repaired.measure_before, 0);
+  // Half a side, from the middle of the hole.
+  EXPECT_GT(repaired.max_distance, 0.5);
+  EXPECT_LE(repaired.max_distance, 1);
   expect_box(repaired.cage);
 }
 
@@ -115,15 +119,220 @@ TEST_IN_2D_AND_3D(RepairCageTest, FlapsGo) {
   expect_box(repaired.cage);
 }
 
-TEST_IN_2D_AND_3D(RepairCageTest, CagesThatIntersectThemselvesAreWrapped) {
-  auto other = box_cage<Dim>(1);
-  other.points.array() += 0.7;
-  const auto both = join(box_cage<Dim>(1), other);
+template <int Dim>
+using Boxes = std::vector<Eigen::AlignedBox<double, Dim>>;
+
+template <int Dim>
+Eigen::AlignedBox<double, Dim> box(double low, double high) {
+  return {Vector<Dim>::Constant(low), Vector<Dim>::Constant(high)};
+}
+
+template <int Dim>
+Eigen::AlignedBox<double, Dim> moved(Eigen::AlignedBox<double, Dim> box, int axis, double by) {
+  return box.translate(by * Vector<Dim>::Unit(axis));
+}
+
+template <int Dim>
+Cage<Dim> cage_of(const Boxes<Dim>& boxes) {
+  Cage<Dim> all{PointList<Dim>(Dim, 0), FacetList<Dim>(Dim, 0)};
+  for (const auto& box : boxes) all = join(all, box_cage<Dim>(box.min(), box.max()));
+  return all;
+}
+
+template <int Dim>
+bool covers(const Boxes<Dim>& boxes, const Vector<Dim>& point) {
+  return std::any_of(boxes.begin(), boxes.end(),
+                     [&](const auto& box) { return box.contains(point); });
+}
+
+// By inclusion and exclusion.
+template <int Dim>
+double measure_of_union(const Boxes<Dim>& boxes) {
+  double sum = 0;
+  for (std::size_t subset = 1; subset < (std::size_t{1} << boxes.size()); ++subset) {
+    Eigen::AlignedBox<double, Dim> common(Vector<Dim>::Constant(-100), Vector<Dim>::Constant(100));
+    int count = 0;
+    for (std::size_t b = 0; b < boxes.size(); ++b) {
+      if ((subset >> b) % 2 == 0) continue;
+      common = common.intersection(boxes[b]);
+      ++count;
+    }
+    const double measure = common.isEmpty() ? 0 : common.sizes().prod();
+    sum += count % 2 == 1 ? measure : -measure;
+  }
+  return sum;
+}
+
+// Winding numbers at random points say the same as `is_inside`.
+template <int Dim, class IsInside>
+void expect_inside(const Cage<Dim>& cage, const IsInside& is_inside) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(0, 1);
+  const Vector<Dim> low = cage.points.rowwise().minCoeff();
+  const Vector<Dim> sizes = cage.points.rowwise().maxCoeff() - low;
+  for (int k = 0; k < 300; ++k) {
+    Vector<Dim> point;
+    for (int axis = 0; axis < Dim; ++axis) {
+      point(axis) = low(axis) + (1.1 * place(random) - 0.05) * sizes(axis);
+    }
+    EXPECT_NEAR(std::abs(winding_number(cage, point)), is_inside(point) ? 1 : 0, 1e-6)
+        << point.transpose();
+  }
+}
+
+// Every old point stays if it is on the boundary of the union.
+template <int Dim>
+RepairedCage<Dim> expect_union(const Boxes<Dim>& boxes) {
+  const auto cage = cage_of<Dim>(boxes);
+  const auto repaired = repair(cage);
+  EXPECT_FALSE(repaired.is_wrapped);
+  EXPECT_NEAR(measure_cage(repaired.cage).measure, measure_of_union<Dim>(boxes), 1e-9);
+  EXPECT_NEAR(repaired.measure_before, measure_of_union<Dim>(boxes), 1e-9);
+  EXPECT_EQ(repaired.max_distance, 0);
+  expect_inside(repaired.cage, [&](const auto& point) { return covers<Dim>(boxes, point); });
+  for (Index v = 0; v < cage.size(); ++v) {
+    const bool is_within = std::any_of(boxes.begin(), boxes.end(), [&](const auto& box) {
+      return ((cage.points.col(v) - box.min()).array() > 1e-9).all() &&
+             ((box.max() - cage.points.col(v)).array() > 1e-9).all();
+    });
+    EXPECT_EQ(repaired.new_numbers[v] < 0, is_within) << "control point " << v;
+  }
+  return repaired;
+}
+
+TEST_IN_2D_AND_3D(RepairCageTest, CrossingPartsAreUnited) {
+  const auto one = box<Dim>(-1, 1);
+  expect_union<Dim>({one, box<Dim>(-0.3, 1.7)});
+  expect_union<Dim>({one, box<Dim>(0.2, 1.3), box<Dim>(-1.3, 0.4)});
+  // Through each other, sides partly in the same planes.
+  expect_union<Dim>({one,
+                     {Vector<Dim>::Unit(0) * -2 - Vector<Dim>::Ones() * 0.5,
+                      Vector<Dim>::Unit(0) * 2 + Vector<Dim>::Ones() * 0.5}});
+  expect_union<Dim>({one, moved<Dim>(one, 0, 0.7)});
+}
+
+TEST_IN_2D_AND_3D(RepairCageTest, TouchingPartsAreUnited) {
+  const auto one = box<Dim>(0, 1);
+  const auto same = expect_union<Dim>({one, moved<Dim>(one, 0, 1)});
+  EXPECT_EQ(same.cage.size(), 3 << (Dim - 1));
+  Eigen::AlignedBox<double, Dim> small = box<Dim>(0.25, 0.75);
+  small = moved<Dim>(small, 0, 0.75);
+  const auto part = expect_union<Dim>({one, small});
+  EXPECT_EQ(part.cage.size(), 2 << Dim);
+  EXPECT_EQ(part.kept, 2 << Dim);
+  // The contact reaches over the edge of both.
+  expect_union<Dim>({one, moved<Dim>(moved<Dim>(one, 0, 1), 1, 0.4)});
+}
+
+TEST_IN_2D_AND_3D(RepairCageTest, RotatedPartsAreUnited) {
+  const Boxes<Dim> boxes{box<Dim>(-1, 1), box<Dim>(-0.3, 1.7)};
+  auto cage = cage_of<Dim>(boxes);
+  Eigen::Matrix<double, Dim, Dim> turn = Eigen::Matrix<double, Dim, Dim>::Identity();
+  turn.template topLeftCorner<2, 2>() = Eigen::Rotation2Dd(0.4).toRotationMatrix();
+  turn.template bottomRows<2>() =
+      Eigen::Rotation2Dd(1.1).toRotationMatrix() * turn.template bottomRows<2>().eval();
+  cage.points = turn * cage.points;
+  const auto repaired = repair(cage);
+  EXPECT_FALSE(repaired.is_wrapped);
+  EXPECT_NEAR(measure_cage(repaired.cage).measure, measure_of_union<Dim>(boxes), 1e-9);
+}
+
+TEST_IN_2D_AND_3D(RepairCageTest, InnerWallsGo) {
+  auto cage = repair(cage_of<Dim>({box<Dim>(0, 1), moved<Dim>(box<Dim>(0, 1), 0, 1)})).cage;
+  const auto count = static_cast<Index>(cage.facets.cols());
+  // The common side, of control points in the plane x = 1.
+  std::vector<Index> side;
+  for (Index v = 0; v < cage.size(); ++v) {
+    if (cage.points(0, v) == 1) side.push_back(v);
+  }
+  ASSERT_EQ(side.size(), std::size_t{1} << (Dim - 1));
+  cage.facets.conservativeResize(Dim, count + (Dim - 1));
+  for (int f = 0; f < Dim - 1; ++f) {
+    for (int k = 0; k < Dim; ++k) cage.facets(k, count + f) = side[f + k];
+  }
+  const auto repaired = repair(cage);
+  EXPECT_FALSE(repaired.is_wrapped);
+  EXPECT_TRUE(repaired.keeps_numbers);
+  EXPECT_EQ(repaired.kept, cage.size());
+  EXPECT_TRUE(says(repaired.changes,
+                   kind<Dim>() + std::to_string(count) + " has the inside on both sides"));
+  EXPECT_NEAR(measure_cage(repaired.cage).measure, 2, 1e-9);
+}
+
+// One of the facets at an edge has a corner in the middle of it. In 2D, a second way along an edge.
+TEST_IN_2D_AND_3D(RepairCageTest, FacetsAreSplitAtPointsOnTheirEdges) {
+  auto cage = box_cage<Dim>(1);
+  const Index a = cage.facets(0, 0), b = cage.facets(1, 0), middle = cage.size();
+  cage.points.conservativeResize(Dim, middle + 1);
+  cage.points.col(middle) = 0.7 * cage.points.col(a) + 0.3 * cage.points.col(b);
+  const auto count = cage.facets.cols();
+  if constexpr (Dim == 2) {
+    cage.facets.conservativeResize(Dim, count + 2);
+    cage.facets.rightCols(2) << a, middle, middle, b;
+  } else {
+    cage.facets.conservativeResize(Dim, count + 1);
+    cage.facets.col(count) = cage.facets.col(0);
+    cage.facets(1, 0) = cage.facets(0, count) = middle;
+  }
+  const auto repaired = repair(cage);
+  EXPECT_TRUE(repaired.keeps_numbers);
+  EXPECT_FALSE(repaired.is_wrapped);
+  EXPECT_TRUE(says(repaired.changes, "is split at control point " + std::to_string(middle)));
+  EXPECT_EQ(repaired.cage.size(), middle + 1);
+  EXPECT_EQ(repaired.max_distance, 0);
+  expect_box(repaired.cage);
+}
+
+// What crosses a wall of a hollow box does not fill the cavity.
+TEST_IN_2D_AND_3D(RepairCageTest, CavitiesStay) {
+  const auto outer = box<Dim>(-2, 2), cavity = box<Dim>(-1, 1);
+  auto pin = box<Dim>(-0.2, 0.2);
+  pin.max()(0) = 3;
+  const auto repaired = repair(cage_of<Dim>({outer, cavity, pin}));
+  EXPECT_FALSE(repaired.is_wrapped);
+  expect_inside(repaired.cage, [&](const Vector<Dim>& point) {
+    return pin.contains(point) || (outer.contains(point) && !cavity.contains(point));
+  });
+}
+
+// Boxes that share only a corner or, in 3D, an edge: their copies of it are apart.
+TEST_IN_2D_AND_3D(RepairCageTest, SolidsThatOnlyTouchAreSeparated) {
+  auto other = moved<Dim>(box<Dim>(0, 1), 0, 1);
+  for (int axis = 1; axis < Dim; ++axis) {
+    other = moved<Dim>(other, axis, 1);
+    const auto repaired = repair(cage_of<Dim>({box<Dim>(0, 1), other}));
+    EXPECT_FALSE(repaired.is_wrapped);
+    EXPECT_EQ(measure_cage(repaired.cage).parts, 2);
+    EXPECT_EQ(repaired.cage.size(), 2 << Dim);
+    EXPECT_NEAR(measure_cage(repaired.cage).measure, 2, 1e-3);
+  }
+}
+
+TEST(RepairCage2Test, BothLobesOfAnOutlineThatCrossesItselfStay) {
+  PointList<2> points(2, 4);
+  points << 0, 3, 3, 0,  //
+      0, 1, 0, 1;
+  const auto repaired = repair(loop(points));
+  EXPECT_FALSE(repaired.is_wrapped);
+  EXPECT_NEAR(measure_cage(repaired.cage).measure, 1.5, 1e-3);
+}
+
+// A facet that hangs in space bounds nothing.
+TEST_IN_2D_AND_3D(RepairCageTest, OpenPartsAreWrappedClosely) {
+  Cage<Dim> facet{PointList<Dim>::Zero(Dim, Dim), FacetList<Dim>(Dim, 1)};
+  for (int k = 0; k < Dim; ++k) {
+    facet.points.col(k) = 1.5 * Vector<Dim>::Ones() + 0.5 * Vector<Dim>::Unit(k);
+    facet.facets(k, 0) = k;
+  }
+  const auto both = join(box_cage<Dim>(1), facet);
   const auto repaired = repair(both);
   EXPECT_TRUE(repaired.is_wrapped);
   EXPECT_FALSE(repaired.keeps_numbers);
+  EXPECT_EQ(repaired.kept, 0);
+  EXPECT_EQ(repaired.measure_before, 0);
   EXPECT_TRUE(says(repaired.changes, "the cage is wrapped"));
-  EXPECT_LE(repaired.cage.size(), both.size());
+  EXPECT_LE(repaired.max_distance, 0.03 * bounding_box_diagonal<Dim>(both.points));
+  EXPECT_GT(repaired.max_distance, 0);
   EXPECT_EQ(count_outside(both, repaired.cage), 0);
   EXPECT_EQ(count_crossings(both, repaired.cage), 0);
 }

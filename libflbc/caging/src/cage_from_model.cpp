@@ -13,6 +13,7 @@
 
 #include "base/instantiate.h"
 #include "base/messages.h"
+#include "cage/extent.h"
 #include "caging/cage_steps.h"
 #include "caging/coarsening.h"
 #include "caging/enclosure.h"
@@ -66,49 +67,6 @@ MirrorPlane find_symmetry(const Cage<Dim>& model, const Vector<Dim>& center, dou
     }
   }
   return best;
-}
-
-// Barycentric coordinates of the centers of equal pieces of a facet.
-template <int Dim>
-std::vector<Vector<Dim>> spread_coordinates() {
-  constexpr int kPieces = 8;
-  std::vector<Vector<Dim>> all;
-  for (int i = 0; i < kPieces; ++i) {
-    if constexpr (Dim == 2) {
-      const double t = (i + 0.5) / kPieces;
-      all.push_back({t, 1 - t});
-    } else {
-      for (int j = 0; i + j < kPieces; ++j) {
-        const double s = (i + 1.0 / 3) / kPieces, t = (j + 1.0 / 3) / kPieces;
-        all.push_back({s, t, 1 - s - t});
-      }
-    }
-  }
-  return all;
-}
-
-// An upper bound for the distances of control points.
-template <int Dim>
-double farthest_distance(const Enclosure<Dim>& model) {
-  return 8 * model.box().diagonal().norm();
-}
-
-// Mean distance of the cage surface (2D: lines) from the model, at points evenly distributed on
-// every facet.
-template <int Dim>
-double mean_distance(const Cage<Dim>& cage, const Enclosure<Dim>& model) {
-  const auto coordinates = spread_coordinates<Dim>();
-  double sum = 0, total = 0;
-  for (Index f = 0; f < cage.facets.cols(); ++f) {
-    Eigen::Matrix<double, Dim, Dim> corners;
-    for (int k = 0; k < Dim; ++k) corners.col(k) = cage.points.col(cage.facets(k, f));
-    const double part = facet_normal<Dim>(corners).norm() / static_cast<double>(coordinates.size());
-    for (const auto& weights : coordinates) {
-      sum += part * model.distance(corners * weights, farthest_distance(model));
-      total += part;
-    }
-  }
-  return sum / total;
 }
 
 template <int Dim>
@@ -204,7 +162,10 @@ class Caging {
     const Eigen::AlignedBox<double, Dim> box(points.rowwise().minCoeff(),
                                              points.rowwise().maxCoeff());
     plane_ = find_symmetry<Dim>(model, box.center(), size_, options.symmetry);
-    if constexpr (Dim == 3) volume_ = solid_volume(points, facets);
+    if constexpr (Dim == 3) {
+      volume_ = solid_volume(points, facets);
+      is_closed_ = is_closed(points, facets);
+    }
     // Adding the mirror image makes the model symmetric.
     if (plane_.is_there()) model = with_mirror_image(model, plane_);
     model_.emplace(model.points, model.facets);
@@ -286,7 +247,7 @@ class Caging {
     constexpr double kGrowth = 1.3, kFreeVolume = 2, kConvex = 0.65;
     constexpr Index kLeast = 40, kLeastOfConvex = 8;
     const auto surface = wrap_of(size);
-    const double volume = (plane_.is_there() ? 2 : 1) * signed_measure(surface);
+    const double volume = (plane_.is_there() ? 2 : 1) * volume_of(surface);
     if (!(volume > 0 && volume <= most_volume)) return {};
     auto limits = limits_;
     limits.growth =
@@ -303,15 +264,8 @@ class Caging {
   }
 
   // Half a surface needs no facets in the plane, because the origin is in it too.
-  double signed_measure(const Cage<3>& surface) const {
-    const Vector<3> origin = model_->box().center();
-    double sum = 0;
-    for (Index f = 0; f < surface.facets.cols(); ++f) {
-      const Vector<3> a = surface.points.col(surface.facets(0, f)) - origin;
-      const Vector<3> b = surface.points.col(surface.facets(1, f)) - origin;
-      sum += a.cross(b).dot(surface.points.col(surface.facets(2, f)) - origin) / 6;
-    }
-    return sum;
+  double volume_of(const Cage<3>& surface) const {
+    return signed_measure<3>(surface, model_->box().center());
   }
 
   // \return empty if it has more control points than the options permit
@@ -335,15 +289,14 @@ class Caging {
   }
 
   ModelCage<Dim> describe(const Cage<Dim>& cage, double offset) const {
-    ModelCage<Dim> made{cage, offset, plane_.axis, plane_.position, mean_distance(cage, *model_)};
+    ModelCage<Dim> made{cage, offset, plane_.axis, plane_.position, distances(cage, *model_).mean};
     for (Index v = 0; v < cage.size(); ++v) {
       made.max_distance =
-          std::max(made.max_distance,
-                   model_->distance(Vector<Dim>(cage.points.col(v)), farthest_distance(*model_)));
+          std::max(made.max_distance, model_->distance(Vector<Dim>(cage.points.col(v))));
     }
     made.max_valence = max_valence(cage);
     if constexpr (Dim == 3) {
-      if (volume_ > 0) made.volume_ratio = measure_cage(cage).measure / volume_;
+      if (volume_ > 0 && is_closed_) made.volume_ratio = measure_cage(cage).measure / volume_;
     }
     return made;
   }
@@ -354,7 +307,8 @@ class Caging {
   double size_;
   CageLimits limits_{kMaxCageValence, kMaxCageDistance* size_};
   MirrorPlane plane_{};
-  double volume_ = 0;  // of the model, in 3D
+  double volume_ = 0;  // of the model, in 3D; an estimate if it is open
+  bool is_closed_ = false;
   std::optional<Enclosure<Dim>> model_{};
 };
 
@@ -369,11 +323,9 @@ void check_input(const PointList<Dim>& points, const FacetList<Dim>& facets,
   if (facets.size() > 0 && (facets.minCoeff() < 0 || facets.maxCoeff() >= points.cols())) {
     throw InputError("a facet of the model refers to a vertex that does not exist");
   }
-  const double size = points.cols() > 0 ? bounding_box_diagonal<Dim>(points) : 0;
-  if (!(size >= 1e-30 && size <= 1e30)) {
-    throw InputError("the model size of " + format_number(size) +
-                     " is out of range; it must be from 1e-30 to 1e30");
-  }
+  const auto defect = extent_defect<Dim>(points, "model", "vertex 0");
+  if (!defect.empty()) throw InputError(defect);
+  const double size = bounding_box_diagonal<Dim>(points);
   const std::string least = std::to_string(Dim + 1);
   if (options.control_points != 0 && options.control_points <= Dim) {
     throw OptionError("the number of control points must be at least " + least);

@@ -24,6 +24,9 @@ double hull_volume(const PointList<3>& points);
 //! \return 0 if the triangles bound nothing, or are oriented at random
 double solid_volume(const PointList<3>& points, const FacetList<3>& facets);
 
+//! Whether an even number of triangles meet at every edge between two places.
+bool is_closed(const PointList<3>& points, const FacetList<3>& facets);
+
 //! A closed surface (2D: lines) around a model, finer than the final cage.
 struct WrapSize {
   double alpha;   //!< narrower gaps and hollows are bridged

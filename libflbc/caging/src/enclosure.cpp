@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/union_find.h"
+#include "caging/surface_tools.h"
 
 namespace flbc {
 
@@ -70,18 +71,6 @@ PointList<Dim> collect_representatives(const PointList<Dim>& points, const Facet
   return representatives;
 }
 
-// Ends of segments to try in order; none is along an axis or diagonal.
-template <int Dim>
-Vector<Dim> direction(int attempt, int axis) {
-  Vector<Dim> d;
-  for (int k = 0; k < Dim; ++k) {
-    const double turn = std::fmod(0.754877666 * (attempt + 1) + 0.569840291 * (k + 1), 1.0);
-    d(k) = 2 * turn - 1;
-  }
-  if (axis >= 0) d(axis) = 1 + std::abs(d(axis));
-  return d.normalized();
-}
-
 template <int Dim>
 double distance_from(const Simplex<Dim>& simplex, const Vector<Dim>& p) {
   if (simplex.count == 3) {
@@ -108,7 +97,37 @@ double distance_from(const Simplex<Dim>& simplex, const Vector<Dim>& p) {
   return least;
 }
 
+// Barycentric coordinates of the centers of equal pieces of a facet.
+template <int Dim>
+std::vector<Vector<Dim>> spread_coordinates() {
+  constexpr int kPieces = 8;
+  std::vector<Vector<Dim>> all;
+  for (int i = 0; i < kPieces; ++i) {
+    if constexpr (Dim == 2) {
+      const double t = (i + 0.5) / kPieces;
+      all.push_back({t, 1 - t});
+    } else {
+      for (int j = 0; i + j < kPieces; ++j) {
+        const double s = (i + 1.0 / 3) / kPieces, t = (j + 1.0 / 3) / kPieces;
+        all.push_back({s, t, 1 - s - t});
+      }
+    }
+  }
+  return all;
+}
+
 }  // namespace
+
+template <int Dim>
+Vector<Dim> ray_direction(int attempt, int axis) {
+  Vector<Dim> d;
+  for (int k = 0; k < Dim; ++k) {
+    const double turn = std::fmod(0.754877666 * (attempt + 1) + 0.569840291 * (k + 1), 1.0);
+    d(k) = 2 * turn - 1;
+  }
+  if (axis >= 0) d(axis) = 1 + std::abs(d(axis));
+  return d.normalized();
+}
 
 template <int Dim>
 bool has_odd_crossings(const Vector<Dim>& point, const std::vector<Simplex<Dim>>& facets,
@@ -118,7 +137,7 @@ bool has_odd_crossings(const Vector<Dim>& point, const std::vector<Simplex<Dim>>
   for (const auto& facet : facets) around.extend(box_of(facet));
   const double length = 2 * around.diagonal().norm();
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    const Vector<Dim> end = point + length * direction<Dim>(attempt, directions_axis);
+    const Vector<Dim> end = point + length * ray_direction<Dim>(attempt, directions_axis);
     bool is_odd = false, is_clear = true;
     for (const auto& facet : facets) {
       const Passage how = passage<Dim>(point, end, facet);
@@ -172,8 +191,38 @@ double Enclosure<Dim>::distance(const Vector<Dim>& point, double limit) const {
   }
 }
 
-#define FLBC_INSTANTIATE(Dim)    \
-  template class Enclosure<Dim>; \
+template <int Dim>
+double Enclosure<Dim>::distance(const Vector<Dim>& point) const {
+  return distance(point, 8 * box_.diagonal().norm());
+}
+
+template <int Dim>
+Distances distances(const Cage<Dim>& cage, const Enclosure<Dim>& model) {
+  const auto coordinates = spread_coordinates<Dim>();
+  Distances result;
+  double sum = 0, total = 0;
+  for (Index f = 0; f < cage.facets.cols(); ++f) {
+    Eigen::Matrix<double, Dim, Dim> corners;
+    for (int k = 0; k < Dim; ++k) corners.col(k) = cage.points.col(cage.facets(k, f));
+    const double part = facet_normal<Dim>(corners).norm() / static_cast<double>(coordinates.size());
+    for (const auto& weights : coordinates) {
+      const double distance = model.distance(corners * weights);
+      result.largest = std::max(result.largest, distance);
+      sum += part * distance;
+      total += part;
+    }
+  }
+  for (Index v = 0; v < cage.size(); ++v) {
+    result.largest = std::max(result.largest, model.distance(Vector<Dim>(cage.points.col(v))));
+  }
+  result.mean = sum / total;
+  return result;
+}
+
+#define FLBC_INSTANTIATE(Dim)                                            \
+  template Distances distances(const Cage<Dim>&, const Enclosure<Dim>&); \
+  template class Enclosure<Dim>;                                         \
+  template Vector<Dim> ray_direction(int, int);                          \
   template bool has_odd_crossings(const Vector<Dim>&, const std::vector<Simplex<Dim>>&, int);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

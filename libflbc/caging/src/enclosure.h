@@ -102,6 +102,8 @@ class Enclosure {
 
   //! Distance from the model. \param limit  upper bound of the result
   double distance(const Vector<Dim>& point, double limit) const;
+  //! With 8 times the model size as the limit.
+  double distance(const Vector<Dim>& point) const;
 
  private:
   std::vector<Simplex<Dim>> simplices_;
@@ -109,6 +111,20 @@ class Enclosure {
   PointList<Dim> representatives_;
   Box box_;
 };
+
+//! Distances between a surface (2D: lines) and a model.
+struct Distances {
+  double mean = 0, largest = 0;
+};
+
+//! At control points (the largest only), and at points evenly distributed on every facet.
+template <int Dim>
+Distances distances(const Cage<Dim>& cage, const Enclosure<Dim>& model);
+
+//! Unit vectors to try in order; none is along an axis or diagonal. \param axis  the vector has a
+//! positive component along this axis; -1: any
+template <int Dim>
+Vector<Dim> ray_direction(int attempt, int axis = -1);
 
 //! Whether a segment from the point to infinity crosses the facets an odd number of times. False if
 //! the point lies on a facet.

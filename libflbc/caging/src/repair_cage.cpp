@@ -2,12 +2,18 @@
 #include "flbc/repair_cage.h"
 
 #include <algorithm>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "base/messages.h"
+#include "caging/cells.h"
+#include "caging/enclosure.h"
 #include "caging/repair_steps.h"
+#include "caging/ridges.h"
 #include "caging/surface_tools.h"
 #include "flbc/bounding_box.h"
+#include "flbc/cage_facts.h"
 #include "flbc/cage_from_model.h"
 #include "flbc/errors.h"
 #include "flbc/meshing.h"
@@ -49,7 +55,7 @@ RepairedCage<Dim> finish(CageDraft<Dim>& draft) {
   for (std::size_t v = 0; v < is_used.size(); ++v) {
     if (is_used[v]) number[v] = size++;
   }
-  for (Index v = 0; v < draft.points.cols(); ++v) {
+  for (Index v = 0; v < static_cast<Index>(draft.merged_into.size()); ++v) {
     repaired.new_numbers.push_back(number[draft.merged_into[v]]);
     if (repaired.new_numbers[v] != v) repaired.keeps_numbers = false;
     if (draft.merged_into[v] != v || is_used[v]) continue;
@@ -60,16 +66,27 @@ RepairedCage<Dim> finish(CageDraft<Dim>& draft) {
   return repaired;
 }
 
-// As close as this number of control points allows.
+// The new surface should not be farther from the old one than this fraction of its size.
+constexpr double kClose = 0.02;
+
+// With as many control points as it takes to stay close to the original.
 template <int Dim>
 void wrap_closely(const Cage<Dim>& original, const std::string& reason,
                   RepairedCage<Dim>& repaired) {
   constexpr double kRelativeOffset = 0.004;
+  constexpr int kMostDoublings = 4;
+  const Cage<Dim> model = repaired.cage;
+  const double size = bounding_box_diagonal<Dim>(model.points);
+  const Enclosure<Dim> surface(model.points, model.facets);
   CagingOptions options;
-  options.control_points = std::max<Index>(repaired.cage.size(), 4 * Dim);
-  options.offset = kRelativeOffset * bounding_box_diagonal<Dim>(repaired.cage.points);
+  options.control_points = std::max<Index>(model.size(), 4 * Dim);
+  options.offset = kRelativeOffset * size;
   options.symmetry = CageSymmetry::kNone;
-  repaired.cage = cage_from_model<Dim>(repaired.cage.points, repaired.cage.facets, options).cage;
+  for (int doublings = 0; doublings <= kMostDoublings; ++doublings) {
+    repaired.cage = cage_from_model<Dim>(model.points, model.facets, options).cage;
+    if (distances(repaired.cage, surface).largest <= kClose * size) break;
+    options.control_points *= 2;
+  }
   repaired.is_wrapped = true;
   repaired.keeps_numbers = false;
   for (Index v = 0; v < original.size(); ++v) {
@@ -85,23 +102,84 @@ void wrap_closely(const Cage<Dim>& original, const std::string& reason,
                              reason);
 }
 
+template <int Dim>
+void clean(CageDraft<Dim>& draft) {
+  merge_close_points(draft);
+  split_at_points(draft);
+  drop_degenerate_facets(draft);
+}
+
+// The union of all parts, without walls inside. \return none if an open part remains, or if
+// rounding of crossings leaves a defect
+template <int Dim>
+std::optional<RepairedCage<Dim>> unite(CageDraft<Dim> draft, double& measure) {
+  number_parts(draft);
+  // Overlaps first, because their facets need not be exactly in one plane. The pieces are no facets
+  // of the original, so what happens to them is not reported.
+  for (const bool only_overlaps : {true, false}) {
+    only_overlaps ? cut_where_facets_overlap(draft) : cut_at_crossings(draft);
+    auto changes = draft.changes;
+    clean(draft);
+    draft.changes = std::move(changes);
+  }
+  if (!keep_boundary(draft)) return {};
+  split_touching_corners(draft);
+  auto united = finish(draft);
+  const auto& cage = united.cage;
+  if (cage.size() > 0) measure = signed_measure<Dim>(cage, cage.points.col(0));
+  if (!first_defect(cage).empty()) return {};
+  return united;
+}
+
+// Without an open border.
+template <int Dim>
+bool is_closed(const CageDraft<Dim>& draft) {
+  const auto ridges = collect_ridges(draft);
+  return !ridges.empty() && std::none_of(ridges.begin(), ridges.end(), [](const auto& entry) {
+    return entry.second.size() == 1;
+  });
+}
+
+// Leaves the changes to the caller. \return without the figures
+template <int Dim>
+RepairedCage<Dim> repaired_without_figures(const Cage<Dim>& cage, double& measure) {
+  auto draft = draft_of(cage);
+  clean(draft);
+  drop_repeated_facets(draft);
+  drop_flaps(draft);
+  const bool was_closed = is_closed(draft);
+  orient_alike(draft);
+  close_holes(draft);
+  auto before = draft;
+  auto repaired = finish(draft);
+  const auto left = first_defect(repaired.cage);
+  if (left.empty()) {
+    measure = was_closed ? measure_cage(repaired.cage).measure : 0;
+    return repaired;
+  }
+  if (repaired.cage.facets.cols() == 0) throw InputError(left.front().message);
+  auto united = unite(std::move(before), measure);
+  if (!was_closed) measure = 0;
+  if (united) return std::move(*united);
+  wrap_closely(cage, left.front().message, repaired);
+  return repaired;
+}
+
 }  // namespace
 
 template <int Dim>
 RepairedCage<Dim> repair_cage(const Cage<Dim>& cage) {
   check_numbers_of(cage);
-  auto draft = draft_of(cage);
-  merge_close_points(draft);
-  drop_degenerate_facets(draft);
-  drop_repeated_facets(draft);
-  drop_flaps(draft);
-  orient_alike(draft);
-  close_holes(draft);
-  auto repaired = finish(draft);
-  const auto left = first_defect(repaired.cage);
-  if (left.empty()) return repaired;
-  if (repaired.cage.facets.cols() == 0) throw InputError(left.front().message);
-  wrap_closely(cage, left.front().message, repaired);
+  double measure = 0;
+  auto repaired = repaired_without_figures(cage, measure);
+  repaired.measure_before = measure;
+  const double distance =
+      distances(repaired.cage, Enclosure<Dim>(cage.points, cage.facets)).largest;
+  if (distance > kMergeTolerance * bounding_box_diagonal<Dim>(repaired.cage.points)) {
+    repaired.max_distance = distance;
+  }
+  const std::set<Index> kept(repaired.new_numbers.begin(), repaired.new_numbers.end());
+  if (!repaired.is_wrapped) repaired.kept = static_cast<Index>(kept.size() - kept.count(-1));
   return repaired;
 }
 

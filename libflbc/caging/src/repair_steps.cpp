@@ -9,19 +9,13 @@
 #include "base/messages.h"
 #include "base/union_find.h"
 #include "cage/close_points.h"
+#include "caging/enclosure.h"
 #include "caging/ridges.h"
-#include "caging/surface_tools.h"
 #include "flbc/bounding_box.h"
 
 namespace flbc {
 
 namespace {
-
-template <int Dim>
-std::string name_of(const typename CageDraft<Dim>::Facet& facet) {
-  const std::string kind = Dim == 2 ? "edge" : "triangle";
-  return facet.number < 0 ? "a new " + kind : kind + " " + std::to_string(facet.number);
-}
 
 // Removes the facets that are marked.
 template <int Dim>
@@ -41,53 +35,70 @@ bool has_repeated_corner(const FacetCorners<Dim>& corners) {
   return false;
 }
 
-// The middle corner of a triangle with collinear corners; -1 if they are not collinear.
-int middle_corner(const CageDraft<3>& draft, const FacetCorners<3>& corners) {
-  constexpr double kRelativeTolerance = 1e-10;
-  Eigen::Matrix3d p;
-  for (int k = 0; k < 3; ++k) p.col(k) = draft.points.col(corners(k));
-  int middle = 0;
-  double longest = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double length = (p.col((k + 1) % 3) - p.col((k + 2) % 3)).norm();
-    if (length > longest) middle = k;
-    longest = std::max(longest, length);
-  }
-  const double tolerance = kRelativeTolerance * bounding_box_diagonal<3>(draft.points);
-  return facet_normal<3>(p).norm() > tolerance * longest ? -1 : middle;
+template <int Dim>
+double tolerance_of(const CageDraft<Dim>& draft) {
+  return kMergeTolerance * bounding_box_diagonal<Dim>(draft.points);
 }
 
-// Splits the triangle at the edge opposite to the middle corner.
-void cut_neighbour(CageDraft<3>& draft, std::size_t flat, int middle) {
-  const auto corners = draft.facets[flat].corners;
-  const Ridge<3> edge = ridge_of<3>(corners, middle);
-  for (std::size_t f = 0; f < draft.facets.size(); ++f) {
-    if (f == flat) continue;
-    for (int k = 0; k < 3; ++k) {
-      const auto other = draft.facets[f].corners;
-      if (ridge_of<3>(other, k) != edge || other(k) == corners(middle)) continue;
-      draft.facets[f].corners((k + 1) % 3) = corners(middle);
-      draft.facets[flat].corners = other;
-      draft.facets[flat].corners((k + 2) % 3) = corners(middle);
-      return;
+template <int Dim>
+bool is_between(const Vector<Dim>& p, const Vector<Dim>& a, const Vector<Dim>& b,
+                double tolerance) {
+  const Vector<Dim> along = (b - a).normalized();
+  const double place = along.dot(p - a);
+  return place > 0 && place < (b - a).norm() && (p - a - place * along).norm() <= tolerance;
+}
+
+bool is_flat(const CageDraft<3>& draft, const FacetCorners<3>& corners) {
+  for (int k = 0; k < 3; ++k) {
+    if (is_between<3>(draft.points.col(corners(k)), draft.points.col(corners((k + 1) % 3)),
+                      draft.points.col(corners((k + 2) % 3)), tolerance_of(draft))) {
+      return true;
     }
   }
+  return false;
 }
 
-void cut_at_flat_triangles(CageDraft<3>& draft) {
-  std::vector<bool> is_dropped(draft.facets.size(), false);
-  for (std::size_t f = 0; f < draft.facets.size(); ++f) {
-    const auto corners = draft.facets[f].corners;
-    const int middle = middle_corner(draft, corners);
-    if (middle < 0) continue;
-    draft.changes.push_back(
-        name_of<3>(draft.facets[f]) + " has no area and is removed; its neighbor gets " +
-        describe_control_point<3>(draft.points, corners(middle)) + " as a corner");
-    cut_neighbour(draft, f, middle);
-    is_dropped[f] = draft.facets[f].corners == corners;
+// Finds control points on edges.
+template <int Dim>
+class PointsOnEdges {
+ public:
+  explicit PointsOnEdges(const CageDraft<Dim>& draft)
+      : draft_(draft), used_(used_points(draft)), tree_(boxes(draft, used_)) {}
+
+  // The first control point between the ends that is not a given one; -1: none. The same for both
+  // directions of the edge, so that neighbors are split alike.
+  Index first_between(Index from, Index to, Index excluded) const {
+    const Vector<Dim> a = draft_.points.col(from), b = draft_.points.col(to);
+    const double tolerance = tolerance_of(draft_);
+    typename OverlapTree<Dim>::Box around(a.cwiseMin(b).array() - tolerance,
+                                          a.cwiseMax(b).array() + tolerance);
+    Index first = -1;
+    tree_.any_of(around, [&](Index k) {
+      const Index v = used_[k];
+      if (v == from || v == to || v == excluded || (first >= 0 && v > first)) return false;
+      if (is_between<Dim>(draft_.points.col(v), a, b, tolerance)) first = v;
+      return false;
+    });
+    return first;
   }
-  drop(draft, is_dropped);
-}
+
+ private:
+  static std::vector<Index> used_points(const CageDraft<Dim>& draft) {
+    std::set<Index> used;
+    for (const auto& facet : draft.facets) used.insert(facet.corners.begin(), facet.corners.end());
+    return {used.begin(), used.end()};
+  }
+  static std::vector<typename OverlapTree<Dim>::Box> boxes(const CageDraft<Dim>& draft,
+                                                           const std::vector<Index>& used) {
+    std::vector<typename OverlapTree<Dim>::Box> result;
+    for (const Index v : used) result.emplace_back(Vector<Dim>(draft.points.col(v)));
+    return result;
+  }
+
+  const CageDraft<Dim>& draft_;
+  std::vector<Index> used_;
+  OverlapTree<Dim> tree_;
+};
 
 // Parts of the draft connected by ridges with two facets.
 template <int Dim>
@@ -136,22 +147,43 @@ CageDraft<Dim> draft_of(const Cage<Dim>& cage) {
 
 template <int Dim>
 void merge_close_points(CageDraft<Dim>& draft) {
-  constexpr double kRelativeTolerance = 1e-6;
-  const double tolerance = kRelativeTolerance * bounding_box_diagonal<Dim>(draft.points);
   UnionFind heaps(static_cast<Index>(draft.points.cols()));
-  for (const auto& [i, j] : find_close_pairs<Dim>(draft.points, tolerance,
+  for (const auto& [i, j] : find_close_pairs<Dim>(draft.points, tolerance_of(draft),
                                                   static_cast<std::size_t>(draft.points.cols()))) {
     heaps.unite(i, j);
   }
-  for (Index v = 0; v < draft.points.cols(); ++v) {
+  for (Index v = 0; v < static_cast<Index>(draft.merged_into.size()); ++v) {
     const Index first = heaps.find(v);
+    if (draft.merged_into[v] == first) continue;
     draft.merged_into[v] = first;
-    if (first == v) continue;
     draft.changes.push_back(describe_control_point<Dim>(draft.points, v) +
                             " is merged into control point " + std::to_string(first));
   }
   for (auto& facet : draft.facets) {
-    for (int k = 0; k < Dim; ++k) facet.corners(k) = draft.merged_into[facet.corners(k)];
+    for (int k = 0; k < Dim; ++k) facet.corners(k) = heaps.find(facet.corners(k));
+  }
+}
+
+template <int Dim>
+void split_at_points(CageDraft<Dim>& draft) {
+  const PointsOnEdges<Dim> points(draft);
+  for (std::size_t f = 0; f < draft.facets.size(); ++f) {
+    // The edge opposite to corner k. In 2D, the facet itself.
+    for (int k = Dim == 2 ? 1 : 0; k < Dim; ++k) {
+      auto& facet = draft.facets[f];
+      const int from = (k + 1) % Dim, to = (k + 2) % Dim;
+      const Index between =
+          points.first_between(facet.corners(from), facet.corners(to), facet.corners(k));
+      if (between < 0) continue;
+      draft.changes.push_back(name_of_facet<Dim>(facet.number) + " is split at " +
+                              describe_control_point<Dim>(draft.points, between) +
+                              ", which lies on " + (Dim == 2 ? "it" : "its edge"));
+      auto rest = facet;
+      facet.corners(to) = between;
+      rest.corners(from) = between;
+      draft.facets.push_back(rest);
+      k = Dim == 2 ? 0 : -1;  // the first half may be split again
+    }
   }
 }
 
@@ -159,14 +191,18 @@ template <int Dim>
 void drop_degenerate_facets(CageDraft<Dim>& draft) {
   std::vector<bool> is_dropped(draft.facets.size(), false);
   for (std::size_t f = 0; f < draft.facets.size(); ++f) {
-    is_dropped[f] = has_repeated_corner<Dim>(draft.facets[f].corners);
+    const auto& facet = draft.facets[f];
+    std::string reason;
+    if (has_repeated_corner<Dim>(facet.corners)) reason = " has the same corner twice";
+    if constexpr (Dim == 3) {
+      if (reason.empty() && is_flat(draft, facet.corners)) reason = " has no area";
+    }
+    is_dropped[f] = !reason.empty();
     if (is_dropped[f]) {
-      draft.changes.push_back(name_of<Dim>(draft.facets[f]) +
-                              " has the same corner twice and is removed");
+      draft.changes.push_back(name_of_facet<Dim>(facet.number) + reason + " and is removed");
     }
   }
   drop(draft, is_dropped);
-  if constexpr (Dim == 3) cut_at_flat_triangles(draft);
 }
 
 template <int Dim>
@@ -180,8 +216,9 @@ void drop_repeated_facets(CageDraft<Dim>& draft) {
     const auto [entry, is_new] = first_with.emplace(corners, static_cast<Index>(f));
     if (is_new) continue;
     is_dropped[f] = true;
-    draft.changes.push_back(name_of<Dim>(draft.facets[f]) + " is the same as " +
-                            name_of<Dim>(draft.facets[entry->second]) + " and is removed");
+    draft.changes.push_back(name_of_facet<Dim>(draft.facets[f].number) + " is the same as " +
+                            name_of_facet<Dim>(draft.facets[entry->second].number) +
+                            " and is removed");
   }
   drop(draft, is_dropped);
 }
@@ -197,7 +234,7 @@ void drop_flaps(CageDraft<Dim>& draft) {
     for (std::size_t f = 0; f < draft.facets.size(); ++f) {
       is_dropped[f] = patch_of_facet[f] == flap;
       if (is_dropped[f]) {
-        draft.changes.push_back(name_of<Dim>(draft.facets[f]) +
+        draft.changes.push_back(name_of_facet<Dim>(draft.facets[f].number) +
                                 " belongs to a flap that hangs on other facets and is removed");
       }
     }
@@ -207,6 +244,7 @@ void drop_flaps(CageDraft<Dim>& draft) {
 
 FLBC_INSTANTIATE_FUNCTION(draft_of)
 FLBC_INSTANTIATE_FUNCTION(merge_close_points)
+FLBC_INSTANTIATE_FUNCTION(split_at_points)
 FLBC_INSTANTIATE_FUNCTION(drop_degenerate_facets)
 FLBC_INSTANTIATE_FUNCTION(drop_repeated_facets)
 FLBC_INSTANTIATE_FUNCTION(drop_flaps)

@@ -14,23 +14,38 @@ template <int Dim>
 struct CageDraft {
   struct Facet {
     FacetCorners<Dim> corners;
-    Index number;  //!< original index; -1: new
+    Index number;    //!< original index; -1: new
+    Index part = 0;  //!< see number_parts()
   };
-  PointList<Dim> points;           //!< original points
+  PointList<Dim> points;           //!< original points, then new ones
   std::vector<Facet> facets;       //!< remaining facets
   std::vector<Index> merged_into;  //!< per control point: the control point it was merged into
   std::vector<std::string> changes{};
 };
 
+//! Lengths up to this fraction of cage size count as zero.
+constexpr double kMergeTolerance = 1e-6;
+
+//! "triangle 3".
+template <int Dim>
+std::string name_of_facet(Index number) {
+  const std::string kind = Dim == 2 ? "edge" : "triangle";
+  return number < 0 ? "a new " + kind : kind + " " + std::to_string(number);
+}
+
 template <int Dim>
 CageDraft<Dim> draft_of(const Cage<Dim>& cage);
 
-//! Merges control points within 1e-6 of cage size into the first of them.
+//! Merges control points within the tolerance into the first of them.
 template <int Dim>
 void merge_close_points(CageDraft<Dim>& draft);
 
-//! Removes facets with repeated corners. Removes triangles with collinear corners, and splits the
-//! neighbor at their longest edge.
+//! Splits facets at control points that lie on their edges (2D: on them), within the tolerance.
+template <int Dim>
+void split_at_points(CageDraft<Dim>& draft);
+
+//! Removes facets with repeated corners, and triangles with collinear corners. Neighbors have been
+//! split at those corners.
 template <int Dim>
 void drop_degenerate_facets(CageDraft<Dim>& draft);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -90,6 +91,23 @@ double solid_volume(const PointList<3>& points, const FacetList<3>& facets) {
   }
   std::sort(volumes.begin(), volumes.end());
   return volumes[1];
+}
+
+bool is_closed(const PointList<3>& points, const FacetList<3>& facets) {
+  std::map<std::array<double, 3>, Index> first_at;
+  std::vector<Index> place;
+  for (Index v = 0; v < points.cols(); ++v) {
+    place.push_back(
+        first_at.emplace(std::array{points(0, v), points(1, v), points(2, v)}, v).first->second);
+  }
+  std::map<std::pair<Index, Index>, bool> is_odd;
+  for (Index f = 0; f < facets.cols(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const Index a = place[facets(k, f)], b = place[facets((k + 1) % 3, f)];
+      if (a != b) is_odd[std::minmax(a, b)] ^= true;
+    }
+  }
+  return std::none_of(is_odd.begin(), is_odd.end(), [](const auto& edge) { return edge.second; });
 }
 
 }  // namespace flbc

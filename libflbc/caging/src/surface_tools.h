@@ -43,4 +43,17 @@ Vector<Dim> facet_normal(const Eigen::Matrix<double, Dim, Dim>& corners) {
   }
 }
 
+//! Area (2D) or volume (3D) between the facets and the origin, positive for outward normals.
+template <int Dim>
+double signed_measure(const Cage<Dim>& surface, const Vector<Dim>& origin) {
+  double sum = 0;
+  for (Index f = 0; f < surface.facets.cols(); ++f) {
+    Eigen::Matrix<double, Dim, Dim> corners;
+    for (int k = 0; k < Dim; ++k)
+      corners.col(k) = surface.points.col(surface.facets(k, f)) - origin;
+    sum += corners.determinant() / (Dim == 2 ? 2 : 6);
+  }
+  return sum;
+}
+
 }  // namespace flbc

@@ -14,6 +14,7 @@
 #include "base/messages.h"
 #include "base/union_find.h"
 #include "cage/close_points.h"
+#include "cage/extent.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
 #include "linear/dense.h"
@@ -41,13 +42,6 @@ class DefectList {
 
 // A length below this fraction of cage size counts as zero.
 constexpr double kRelativeTolerance = 1e-10;
-
-// Meshers multiply up to five lengths; the product must not overflow or underflow.
-constexpr double kSmallestSize = 1e-30;
-constexpr double kLargestSize = 1e30;
-// At a larger distance from the origin, relative to cage size, rounded coordinates violate the
-// tolerance of reproduction.
-constexpr double kFarthest = 2e8;
 
 template <int Dim>
 std::string facet_name() {
@@ -79,18 +73,10 @@ void check_finiteness(const Cage<Dim>& cage, DefectList& found) {
 template <int Dim>
 void check_extent(const Cage<Dim>& cage, DefectList& found) {
   if (cage.size() == 0 || !cage.points.allFinite()) return;
-  const double size = bounding_box_diagonal<Dim>(cage.points);
-  if (size > 0 && !(size >= kSmallestSize && size <= kLargestSize)) {
-    found.add(DefectKind::kExtent,
-              {"the cage size of " + format_number(size) + " is out of range; it must be from " +
-               format_number(kSmallestSize) + " to " + format_number(kLargestSize) +
-               "; use another unit of length"});
-  } else if (cage.points.cwiseAbs().maxCoeff() > kFarthest * size && size > 0) {
-    found.add(DefectKind::kExtent,
-              {"the cage is too far from the origin for its size of " + format_number(size) +
-               ", with " + describe_control_point<Dim>(cage.points, 0) +
-               ": its coordinates have too few digits; move it to the origin"});
-  }
+  // Points in one place are reported as coincident.
+  if (!(bounding_box_diagonal<Dim>(cage.points) > 0)) return;
+  const auto text = extent_defect<Dim>(cage.points, "cage", "control point 0");
+  if (!text.empty()) found.add(DefectKind::kExtent, {text});
 }
 
 template <int Dim>

@@ -55,7 +55,7 @@ struct ModelCage {
   double max_distance = 0;    //!< of a control point from the model, in model units
   Index max_valence = 0;      //!< edges at a control point
   double volume_ratio =
-      0;  //!< 3D: volume of the cage over that of the model; 0: the model has none
+      0;  //!< 3D: volume of the cage over that of the model; 0: the model is open or has none
 };
 
 //! Makes a closed, manifold cage without self-intersections. Every vertex, edge, and facet of the
@@ -65,7 +65,8 @@ struct ModelCage {
 //! \param points  Dim x P, finite
 //! \param facets  Dim x F, edges or triangles; they may be open, non-manifold, intersecting, or
 //! degenerate. Repeated corners describe segments or points. Points without a facet are enclosed
-//! \throws InputError if the model has no extent or cannot be enclosed; OptionError
+//! \throws InputError if the model has no extent, is too far from the origin for its size, or cannot
+//! be enclosed; OptionError
 template <int Dim>
 ModelCage<Dim> cage_from_model(const PointList<Dim>& points, const FacetList<Dim>& facets,
                                const CagingOptions& options = {});
