@@ -118,6 +118,34 @@ TEST_F(CageCommand, RepairDropsPolylinesBesideASurface) {
   expect(solve("repaired.obj"), 0, "");
 }
 
+// Two squares, the second of which begins in the middle of the first.
+TEST_F(CageCommand, RepairSaysHowMuchItChanged) {
+  const auto crossing = file("crossing.obj",
+                             "v 0 0\nv 2 0\nv 2 2\nv 0 2\nv 1 1\nv 3 1\nv 3 3\nv 1 3\n"
+                             "l 1 2 3 4 1\nl 5 6 7 8 5\n");
+  const auto told = expect("cage --repair " + crossing + " -o united.obj", 0,
+                           "area 7 (before: 7), at most 0 from the old outline, 6 of 8 control "
+                           "points kept");
+  EXPECT_NE(told.errors.find("edges 1, 2, 4 and 7 cross or touch others"), std::string::npos);
+  EXPECT_EQ(slurp("united.numbers.txt"), "0 0\n1 1\n2 -1\n3 2\n4 -1\n5 3\n6 4\n7 5\n");
+  EXPECT_EQ(check("united.obj", square())["cage"]["measure"], 7);
+}
+
+TEST_F(CageCommand, VerticesOfNoFaceDoNotCount) {
+  const std::string tetrahedron =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  expect("cage " + file("model.obj", tetrahedron) + " -q -o cage.obj", 0, "");
+  const auto far = file("far.obj", "v 50 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 4 3\n"
+                                   "f 2 3 5\nf 3 4 5\nf 4 2 5\n");
+  expect("cage " + far + " -o far_cage.obj", 0, "far.obj: the cage leaves out 1 vertex of no face");
+  EXPECT_EQ(slurp("far_cage.obj"), slurp("cage.obj"));
+}
+
+TEST_F(CageCommand, PartsOfPointsAreCounted) {
+  expect("cage " + file("points.obj", "v 0 0 0\nv 5 0 0\nv 0 9 0\nv 1 1 7\n") + " -o cage.obj", 0,
+         "separate parts, because there are wide gaps");
+}
+
 TEST_F(CageCommand, RepairOfASoundCageChangesNothing) {
   expect("cage --repair " + square() + " -o same.obj", 0, "no defects found");
   EXPECT_EQ(slurp("same.numbers.txt"), "");

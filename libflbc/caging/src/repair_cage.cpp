@@ -74,7 +74,7 @@ template <int Dim>
 void wrap_closely(const Cage<Dim>& original, const std::string& reason,
                   RepairedCage<Dim>& repaired) {
   constexpr double kRelativeOffset = 0.004;
-  constexpr int kMostDoublings = 4;
+  constexpr int kMostDoublings = 3;
   const Cage<Dim> model = repaired.cage;
   const double size = bounding_box_diagonal<Dim>(model.points);
   const Enclosure<Dim> surface(model.points, model.facets);
