@@ -121,7 +121,8 @@ CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
     throw OptionError(
         "--outside: --embed needs all vertices inside the cage; leave out --embed or --outside");
   }
-  if (settings.outside == OutsidePoints::kFail && surrounds(model, cage.points)) {
+  if (settings.outside == OutsidePoints::kFail && surrounds(model, cage.points) &&
+      points_outside(cage, model).size() == static_cast<std::size_t>(model.cols())) {
     throw InputError(settings.model + ": surrounds the cage " + settings.cage +
                      "; are CAGE and MODEL swapped?");
   }

@@ -135,8 +135,9 @@ TEST_F(CageCommand, VerticesOfNoFaceDoNotCount) {
   const std::string tetrahedron =
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
   expect("cage " + file("model.obj", tetrahedron) + " -q -o cage.obj", 0, "");
-  const auto far = file("far.obj", "v 50 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 4 3\n"
-                                   "f 2 3 5\nf 3 4 5\nf 4 2 5\n");
+  const auto far = file("far.obj",
+                        "v 50 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 4 3\n"
+                        "f 2 3 5\nf 3 4 5\nf 4 2 5\n");
   expect("cage " + far + " -o far_cage.obj", 0, "far.obj: the cage leaves out 1 vertex of no face");
   EXPECT_EQ(slurp("far_cage.obj"), slurp("cage.obj"));
 }

@@ -237,6 +237,22 @@ TEST_IN_2D_AND_3D(RepairCageTest, RotatedPartsAreUnited) {
   EXPECT_NEAR(measure_cage(repaired.cage).measure, measure_of_union<Dim>(boxes), 1e-9);
 }
 
+// Parts touch only within the tolerance, or miss each other by little more.
+TEST_IN_2D_AND_3D(RepairCageTest, RoundedPartsThatTouchAreRepaired) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> error(-1, 1);
+  const auto one = box<Dim>(0, 1);
+  for (const double scale : {1e-9, 1e-7, 1e-6, 3e-6}) {
+    auto cage = cage_of<Dim>({one, moved<Dim>(moved<Dim>(one, 0, 1), 1, 0.4)});
+    for (double& x : cage.points.reshaped()) x += scale * error(random);
+    const auto repaired = repair(cage);
+    if (scale <= 1e-7) {
+      EXPECT_FALSE(repaired.is_wrapped);
+      EXPECT_NEAR(measure_cage(repaired.cage).measure, 2, 1e-5);
+    }
+  }
+}
+
 TEST_IN_2D_AND_3D(RepairCageTest, InnerWallsGo) {
   auto cage = repair(cage_of<Dim>({box<Dim>(0, 1), moved<Dim>(box<Dim>(0, 1), 0, 1)})).cage;
   const auto count = static_cast<Index>(cage.facets.cols());

@@ -11,6 +11,7 @@
 #include "cage/close_points.h"
 #include "caging/enclosure.h"
 #include "caging/ridges.h"
+#include "caging/surface_tools.h"
 #include "flbc/bounding_box.h"
 
 namespace flbc {
@@ -56,6 +57,13 @@ bool is_flat(const CageDraft<3>& draft, const FacetCorners<3>& corners) {
     }
   }
   return false;
+}
+
+template <int Dim>
+double size_of(const CageDraft<Dim>& draft, const FacetCorners<Dim>& corners) {
+  Eigen::Matrix<double, Dim, Dim> points;
+  for (int k = 0; k < Dim; ++k) points.col(k) = draft.points.col(corners(k));
+  return facet_normal<Dim>(points).norm();
 }
 
 // Finds control points on edges.
@@ -175,12 +183,16 @@ void split_at_points(CageDraft<Dim>& draft) {
       const Index between =
           points.first_between(facet.corners(from), facet.corners(to), facet.corners(k));
       if (between < 0) continue;
+      auto first = facet, rest = facet;
+      first.corners(to) = between;
+      rest.corners(from) = between;
+      // Halves of a thin triangle may be larger than it, and would be split forever.
+      const double size = size_of(draft, facet.corners);
+      if (!(size_of(draft, first.corners) < size && size_of(draft, rest.corners) < size)) continue;
       draft.changes.push_back(name_of_facet<Dim>(facet.number) + " is split at " +
                               describe_control_point<Dim>(draft.points, between) +
                               ", which lies on " + (Dim == 2 ? "it" : "its edge"));
-      auto rest = facet;
-      facet.corners(to) = between;
-      rest.corners(from) = between;
+      facet = first;
       draft.facets.push_back(rest);
       k = Dim == 2 ? 0 : -1;  // the first half may be split again
     }

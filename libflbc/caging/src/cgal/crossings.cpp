@@ -123,9 +123,11 @@ void replace(CageDraft<Dim>& draft,
   cut.erase(-1);
   draft.facets = facets;
   if (cut.empty()) return;
-  draft.changes.push_back(std::string(Dim == 2 ? "edges " : "triangles ") +
+  const bool is_one = cut.size() == 1;
+  draft.changes.push_back(std::string(Dim == 2 ? "edge" : "triangle") + (is_one ? " " : "s ") +
                           describe_list({cut.begin(), cut.end()}) +
-                          " cross or touch others and are cut there");
+                          (is_one ? " crosses or touches others and is cut there"
+                                  : " cross or touch others and are cut there"));
 }
 
 // A triangle's plane without the axis that is closest to its normal.
