@@ -8,6 +8,7 @@
 
 #include "base/instantiate.h"
 #include "base/parallel.h"
+#include "base/shape_checks.h"
 #include "cage/oriented_cage.h"
 #include "cage/point_in_cage.h"
 #include "flbc/bounding_box.h"
@@ -80,6 +81,7 @@ std::vector<std::size_t> outer_shells(const OrientedCage<Dim>& oriented) {
 
 template <int Dim>
 ThinPlace thinnest_place(const Cage<Dim>& cage) {
+  check_elements(cage.points, cage.facets, kCageNames);
   ThinPlace thinnest;
   thinnest.distance = std::numeric_limits<double>::infinity();
   for (Index f = 0; f < cage.facets.cols(); ++f) {

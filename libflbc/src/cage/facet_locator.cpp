@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cage/facet_locator.h"
 
+#include "base/shape_checks.h"
 #include "linear/dense.h"
 
 namespace flbc {
@@ -13,6 +14,7 @@ constexpr double kRounding = 1e-12;  // a smaller coordinate counts as zero
 template <int Dim>
 FacetLocator<Dim>::FacetLocator(const Cage<Dim>& cage, double tolerance)
     : facets_(cage.facets.cols()), tolerance_(tolerance) {
+  check_elements(cage.points, cage.facets, kCageNames);
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     auto& facet = facets_[f];
     facet.origin = cage.points.col(cage.facets(0, f));

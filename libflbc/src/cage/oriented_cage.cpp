@@ -63,6 +63,7 @@ bool is_in_others(const OrientedCage<Dim>& oriented, Index shell, Index facet_of
 
 template <int Dim>
 OrientedCage<Dim> orient(const Cage<Dim>& cage) {
+  validate(cage);
   OrientedCage<Dim> oriented{cage, facet_shells(cage), {}, 0};
   if constexpr (Dim == 2) align_edges(oriented.cage);
   auto& facets = oriented.cage.facets;

@@ -65,6 +65,7 @@ double distance_to_facet<3>(const Vector<3>& point, const Eigen::Matrix3d& corne
 
 template <int Dim>
 std::vector<Index> facet_shells(const Cage<Dim>& cage) {
+  check_elements(cage.points, cage.facets, kCageNames);
   UnionFind components(cage.size());
   for (Index facet = 0; facet < cage.facets.cols(); ++facet) {
     for (int k = 1; k < Dim; ++k) components.unite(cage.facets(0, facet), cage.facets(k, facet));

@@ -172,6 +172,7 @@ void check_flux(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>
     throw InputError("a flux for " + std::to_string(flux.n) +
                      " control points does not match a cage with " + std::to_string(n));
   }
+  check_phi(problem.phi, n, problem.mesh.num_cells());
 }
 
 // The weights with the known values on the boundary and feasible columns inside.

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/shape_checks.h"
+#include "coordinates/place_checks.h"
 #include "coordinates/place_on_cage.h"
 #include "flbc/deform.h"
 
@@ -45,6 +46,7 @@ struct Evaluator<Dim>::Parts {
 template <int Dim>
 Evaluator<Dim>::Evaluator(Cage<Dim> cage, DomainMesh<Dim> mesh, SparseWeights weights,
                           OutsidePoints outside, int threads) {
+  check_elements(cage.points, cage.facets, kCageNames);
   check_size(weights, cage.size(), mesh.num_vertices());
   parts_.reset(new Parts{std::move(cage), std::move(mesh), std::move(weights), outside, threads});
 }
@@ -79,6 +81,9 @@ PosedDomain<Dim> Evaluator<Dim>::pose(const PointList<Dim>& control_points) cons
 template <int Dim>
 PointList<Dim> Evaluator<Dim>::move(const Placement<Dim>& placement,
                                     const PosedDomain<Dim>& pose) const {
+  check_placement(parts_->cage, placement);
+  check_size(pose.control_points.cols(), pose.vertices.cols(), parts_->cage.size(),
+             parts_->mesh.num_vertices());
   const ThreadScope scope(parts_->threads);
   const auto count = static_cast<Index>(placement.places.size());
   PointList<Dim> moved(Dim, count);
@@ -86,6 +91,7 @@ PointList<Dim> Evaluator<Dim>::move(const Placement<Dim>& placement,
   parallel_for(count, [&](Index p) {
     const auto& [cell, coordinates] = placement.places[p];
     if (cell < 0) return;
+    check_place(parts_->mesh, parts_->mesh.num_vertices(), placement.places[p]);
     Vector<Dim> sum = coordinates[0] * pose.vertices.col(cells(0, cell));
     for (int k = 1; k <= Dim; ++k) sum += coordinates[k] * pose.vertices.col(cells(k, cell));
     moved.col(p) = sum;

@@ -5,6 +5,8 @@
 
 #include "base/instantiate.h"
 #include "base/parallel.h"
+#include "base/shape_checks.h"
+#include "coordinates/place_checks.h"
 #include "coordinates/place_on_cage.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
@@ -39,6 +41,8 @@ Eigen::Matrix<double, Dim, Dim> jacobian(const SparseWeights& gradients, Index p
 
 template <int Dim>
 SparseWeights vertex_gradients(const DomainMesh<Dim>& mesh, const SparseWeights& weights) {
+  check_elements(mesh.points, mesh.cells, kMeshNames);
+  check_size(weights, weights.num_control_points(), mesh.num_vertices());
   const VertexCells around(mesh);
   const Index rows = Dim * weights.num_control_points();
   return SparseWeights::of(rows, mesh.num_vertices(), [&](Index v) {
@@ -65,6 +69,7 @@ SparseWeights gradients_at(const DomainMesh<Dim>& mesh, const SparseWeights& wei
                              [&](Index p) { return interpolate(mesh, at_vertices, places[p]); });
   }
   return SparseWeights::of(rows, count, [&](Index p) {
+    check_place(mesh, weights.num_points(), places[p]);
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(rows);
     const Index cell = places[p].cell;
     add_cell_gradients(mesh, weights, cell, cell_geometry(mesh, cell), 1, sum);
@@ -75,6 +80,7 @@ SparseWeights gradients_at(const DomainMesh<Dim>& mesh, const SparseWeights& wei
 template <int Dim>
 std::vector<Location<Dim>> places_in_mesh(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                                           const Placement<Dim>& placement) {
+  check_placement(cage, placement);
   auto places = placement.places;
   std::vector<Index> missing;
   for (std::size_t p = 0; p < places.size(); ++p) {

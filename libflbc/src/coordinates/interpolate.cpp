@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/interpolate.h"
 
+#include "coordinates/place_checks.h"
+
 namespace flbc {
 
 template <int Dim>
@@ -13,6 +15,7 @@ SparseWeights interpolate(const DomainMesh<Dim>& mesh, const SparseWeights& weig
 template <int Dim>
 Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const SparseWeights& weights,
                             const Location<Dim>& place) {
+  check_place(mesh, weights.num_points(), place);
   Eigen::VectorXd result = Eigen::VectorXd::Zero(weights.num_control_points());
   for (int k = 0; k <= Dim; ++k) {
     const double factor = place.coordinates[k];

@@ -73,7 +73,9 @@ class BoxTree {
 
     void consider(Index candidate) {
       const double found = distance_to(candidate);
-      if (found > distance || (found == distance && candidate > element)) return;
+      const bool is_nearer = found < distance || (found == distance && candidate < element);
+      // A distance that overflows is infinite.
+      if (element >= 0 && !is_nearer) return;
       distance = found;
       element = candidate;
     }

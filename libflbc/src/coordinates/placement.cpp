@@ -17,6 +17,7 @@
 #include "base/shape_checks.h"
 #include "cage/point_in_cage.h"
 #include "coordinates/nearest_simplex.h"
+#include "coordinates/place_checks.h"
 #include "coordinates/place_on_cage.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
@@ -157,6 +158,7 @@ class WeightsAt {
   // \param inside  for points inside
   WeightsAt(const Cage<Dim>& cage, const Placement<Dim>& placement, Inside inside)
       : cage_(cage), placement_(placement), inside_(std::move(inside)) {
+    check_placement(cage, placement);
     for (const auto& beside : placement.on_cage) beside_[beside.point] = {&beside, false};
     const bool extends = placement.policy == OutsidePoints::kExtend;
     for (const auto& beside : placement.outside) beside_[beside.point] = {&beside, extends};
@@ -217,6 +219,14 @@ class WeightsAt {
 template <int Dim>
 std::vector<NearestOnCage<Dim>> nearest_on_cage(const Cage<Dim>& cage, const PointList<Dim>& points,
                                                 const std::vector<Index>& which) {
+  check_elements(cage.points, cage.facets, kCageNames);
+  check_finite<Dim>(points);
+  for (const Index p : which) {
+    if (p < 0 || p >= points.cols()) {
+      throw InputError("there is no point " + std::to_string(p) + " among " +
+                       std::to_string(points.cols()) + " points");
+    }
+  }
   std::vector<NearestOnCage<Dim>> result(which.size());
   const NearestSimplex<Dim, Dim> nearest(cage.points, cage.facets);
   const auto count = static_cast<Index>(which.size());
@@ -239,6 +249,7 @@ template <int Dim>
 Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                             const CellLocator<Dim>& locator, const PointList<Dim>& points,
                             OutsidePoints policy) {
+  check_elements(cage.points, cage.facets, kCageNames);
   check_finite<Dim>(points);
   const double size = bounding_box_diagonal(cage.points);
   const auto num_points = static_cast<Index>(points.cols());
@@ -282,6 +293,8 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const PointList<Dim>& points,
 template <int Dim>
 SparseWeights weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                          const SparseWeights& weights, const Placement<Dim>& placement) {
+  check_indices(mesh.cells, mesh.num_vertices(), kMeshNames);
+  check_size(weights, cage.size(), mesh.num_vertices());
   const auto inside = [&](Index p) { return interpolate(mesh, weights, placement.places[p]); };
   return SparseWeights::of(cage.size(), static_cast<Index>(placement.places.size()),
                            WeightsAt<Dim>(cage, placement, inside));
@@ -290,6 +303,7 @@ SparseWeights weights_at(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
 template <int Dim>
 SparseWeights weights_at(const Cage<Dim>& cage, const SparseWeights& weights,
                          const Placement<Dim>& placement) {
+  check_size(weights, cage.size(), static_cast<Eigen::Index>(placement.places.size()));
   const auto inside = [&](Index p) { return weights.at(p); };
   return SparseWeights::of(cage.size(), static_cast<Index>(placement.places.size()),
                            WeightsAt<Dim>(cage, placement, inside));

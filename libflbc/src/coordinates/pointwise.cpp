@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "coordinates/place_checks.h"
 #include "flbc/blended.h"
 #include "flbc/cage_facts.h"
 #include "flbc/errors.h"
@@ -76,6 +77,7 @@ WeightMatrix pointwise_coordinates(const Cage<Dim>& cage, const PointList<Dim>& 
 template <int Dim>
 SparseWeights pointwise_coordinates(const Cage<Dim>& cage, const Placement<Dim>& placement,
                                     Coordinates coordinates, bool non_negative, int num_threads) {
+  check_placement(cage, placement);
   const ThreadScope threads(num_threads);
   PointList<Dim> points = placement.points;
   std::vector<bool> is_beside(static_cast<std::size_t>(points.cols()), false);

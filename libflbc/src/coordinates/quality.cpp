@@ -67,6 +67,8 @@ std::int64_t size_of(const SparseWeights& weights, Index point) {
 template <int Dim, class Function>
 double integrate_gradients(const DomainMesh<Dim>& mesh, const SparseWeights& weights,
                            const Function& function) {
+  check_indices(mesh.cells, mesh.num_vertices(), kMeshNames);
+  check_size(weights, weights.num_control_points(), mesh.num_vertices());
   return parallel_sum(mesh.num_cells(), 0.0, [&](Index begin, Index end) {
     SparseGradients<Dim> gradients(weights.num_control_points());
     double sum = 0;
@@ -116,6 +118,7 @@ Quality measure_quality(const PointList<Dim>& control_points, const PointList<Di
 template <int Dim>
 double objective(const DomainMesh<Dim>& mesh, const WeightFunctions& phi,
                  const SparseWeights& weights, double smoothness) {
+  check_phi(phi, weights.num_control_points(), mesh.num_cells());
   return integrate_gradients(mesh, weights, [&](Index i, Index s, const auto& gradient) {
     return phi(i, s) * gradient.norm() + smoothness / 2 * gradient.squaredNorm();
   });

@@ -12,6 +12,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/shape_checks.h"
 #include "flbc/cage.h"
 
 namespace flbc {
@@ -143,6 +144,7 @@ struct SeenFacet<3> {
 
 template <int Dim>
 std::vector<SeenFacet<Dim>> see_facets(const Cage<Dim>& cage, double size) {
+  check_elements(cage.points, cage.facets, kCageNames);
   std::vector<SeenFacet<Dim>> facets;
   facets.reserve(cage.facets.cols());
   for (Index f = 0; f < cage.facets.cols(); ++f) {

@@ -21,6 +21,7 @@ template <int Dim>
 void check_input(const PointList<Dim>& control_points, const ModelElements<Dim>& from,
                  const SparseWeights& weights) {
   check_size(weights, control_points.cols(), from.points.cols());
+  check_finite<Dim>(from.points);
   if (from.corners.cols() == 0) throw InputError("the model that has weights is empty");
   for (Eigen::Index e = 0; e < from.corners.cols(); ++e) {
     for (const Index corner : from.corners.col(e)) {
@@ -54,6 +55,7 @@ SparseWeights transfer_weights(const PointList<Dim>& control_points, const Model
                                const SparseWeights& weights, const PointList<Dim>& to, double limit,
                                Eigen::VectorXd* distances) {
   check_input(control_points, from, weights);
+  check_finite<Dim>(to);
   const NearestSimplex<Dim, 3> nearest(from.points, from.corners);
   const auto num_points = static_cast<Index>(to.cols());
   Eigen::VectorXd found(num_points);

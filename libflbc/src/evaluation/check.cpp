@@ -315,6 +315,7 @@ WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const PointList<Dim>& poin
 template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
                                const SparseWeights& weights) {
+  validate(domain);
   check_size(weights, cage.size(), domain.num_vertices());
   auto problem = make_geometry(cage, domain);  // which may have several parts
   const auto dense = weights.dense();

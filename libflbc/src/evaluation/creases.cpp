@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/shape_checks.h"
 #include "flbc/check.h"
 #include "flbc/errors.h"
 
@@ -62,6 +63,7 @@ CreaseCheck check_creases(const PointList<3>& rest, const PointList<3>& posed,
     throw InputError("a pose with " + std::to_string(posed.cols()) +
                      " points does not match a surface with " + std::to_string(rest.cols()));
   }
+  check_indices(triangles, rest.cols(), {"surface", "triangle", "vertex", "vertices"});
   const auto edges = sorted_edges(triangles);
   CreaseCheck check;
   std::vector<double> changes;

@@ -51,9 +51,12 @@ struct CellLocator<Dim>::Grid {
   std::vector<Cell> cells;
 
   Grid(const DomainMesh<Dim>& mesh, double boxes_per_cell) {
+    validate(mesh);
     low = mesh.points.rowwise().minCoeff();
     const Vector<Dim> extent = mesh.points.rowwise().maxCoeff() - low;
-    width = std::pow(extent.prod() / (boxes_per_cell * mesh.num_cells()), 1.0 / Dim);
+    // The product of the extents may overflow.
+    width =
+        std::exp((extent.array().log().sum() - std::log(boxes_per_cell * mesh.num_cells())) / Dim);
     // Boxes of mean cell size would be too many if the domain is flat.
     const auto num_boxes = [&] { return ((extent / width).array() + 1).prod(); };
     while (num_boxes() > 8 * boxes_per_cell * mesh.num_cells() + 64) width *= 2;
@@ -128,7 +131,7 @@ CellLocator<Dim>::~CellLocator() = default;
 template <int Dim>
 Location<Dim> CellLocator<Dim>::locate(const Vector<Dim>& point, double tolerance) const {
   Location<Dim> best;
-  if (!point.allFinite()) return best;
+  if (!point.allFinite() || !(tolerance >= 0)) return best;
   double least_outside = tolerance;
   const auto consider = [&](Index number) {
     if (best.cell >= 0 && least_outside == 0) return;  // found

@@ -11,33 +11,14 @@
 #include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/parallel.h"
+#include "base/shape_checks.h"
 #include "base/union_find.h"
 #include "flbc/errors.h"
 #include "mesh/cell_geometry.h"
+#include "mesh/check_topology.h"
 
 namespace flbc {
 namespace {
-
-template <int Dim>
-void check_numbers(const DomainMesh<Dim>& mesh) {
-  if (mesh.num_cells() == 0) throw InputError("the domain mesh has no cells");
-  for (Index v = 0; v < mesh.num_vertices(); ++v) {
-    if (!mesh.points.col(v).allFinite()) {
-      throw InputError("vertex " + std::to_string(v) +
-                       " of the domain mesh is not finite: " + format_point(mesh.points.col(v)));
-    }
-  }
-  for (Index s = 0; s < mesh.num_cells(); ++s) {
-    for (Index k = 0; k <= Dim; ++k) {
-      const Index v = mesh.cells(k, s);
-      if (v < 0 || v >= mesh.num_vertices()) {
-        throw InputError("cell " + std::to_string(s) + " of the domain mesh refers to vertex " +
-                         std::to_string(v) + ", but there are " +
-                         std::to_string(mesh.num_vertices()) + " vertices");
-      }
-    }
-  }
-}
 
 // Whether the cell is so flat that its gradients are rounding errors.
 template <int Dim>
@@ -76,6 +57,21 @@ void check_all_vertices_used(const DomainMesh<Dim>& mesh) {
   const auto v = static_cast<Index>(unused - used.begin());
   throw InputError("vertex " + std::to_string(v) + " of the domain mesh at " +
                    format_point(mesh.points.col(v)) + " belongs to no cell");
+}
+
+// Each corner of a cell has the facet of the other corners, and the cell is on one of its sides.
+template <int Dim>
+bool has_its_facets(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology, Index cell) {
+  for (Index k = 0; k <= Dim; ++k) {
+    const Index f = topology.cell_facets(k, cell);
+    if (f < 0 || f >= topology.num_facets()) return false;
+    if ((topology.sides.col(f).array() == cell).count() != 1) return false;
+    for (Index j = 0; j <= Dim; ++j) {
+      const Index found = (topology.facets.col(f).array() == mesh.cells(j, cell)).count();
+      if (found != (j == k ? 0 : 1)) return false;
+    }
+  }
+  return true;
 }
 
 // On which side of the facet the vertex lies.
@@ -135,31 +131,49 @@ void check_no_touching(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& top
 }  // namespace
 
 template <int Dim>
+void check_topology(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology) {
+  bool fits = topology.sides.cols() == topology.num_facets() &&
+              topology.cell_facets.cols() == mesh.num_cells();
+  fits = fits && first_where(mesh.num_cells(), [&](Index s) {
+                   return !has_its_facets(mesh, topology, s);
+                 }) == mesh.num_cells();
+  // No facet has other sides.
+  const auto num_sides = (topology.sides.array() >= 0).count();
+  if (fits && num_sides == (Dim + 1) * Eigen::Index{mesh.num_cells()} &&
+      (topology.sides.row(0).array() >= 0).all()) {
+    return;
+  }
+  throw InputError("the topology is not that of the domain mesh; build_topology() makes it");
+}
+
+template <int Dim>
 double signed_measure(const DomainMesh<Dim>& mesh, Index cell) {
   return cell_edges(mesh, cell).determinant() / (Dim == 2 ? 2 : 6);
 }
 
 template <int Dim>
 void validate(const DomainMesh<Dim>& mesh) {
-  check_numbers(mesh);
+  check_elements(mesh.points, mesh.cells, kMeshNames);
   check_oriented(mesh);
   check_all_vertices_used(mesh);
 }
 
 template <int Dim>
 void validate(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology) {
+  check_topology(mesh, topology);
   check_unfolded(mesh, topology);
   check_no_touching(mesh, topology);
 }
 
 template <int Dim>
 void normalize_and_validate(DomainMesh<Dim>& mesh) {
-  check_numbers(mesh);
+  check_elements(mesh.points, mesh.cells, kMeshNames);
   orient_cells(mesh);
   validate(mesh);
   validate(mesh, build_topology(mesh));
 }
 
+FLBC_INSTANTIATE_FUNCTION(check_topology)
 FLBC_INSTANTIATE_FUNCTION(signed_measure)
 template void validate(const DomainMesh<2>&);
 template void validate(const DomainMesh<3>&);

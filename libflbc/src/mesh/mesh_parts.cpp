@@ -3,6 +3,7 @@
 
 #include "base/instantiate.h"
 #include "base/messages.h"
+#include "base/shape_checks.h"
 #include "base/union_find.h"
 #include "flbc/errors.h"
 
@@ -12,6 +13,7 @@ namespace {
 // Parts are numbered in the order of their first vertices.
 template <int Dim>
 std::vector<Index> part_of_vertices(const DomainMesh<Dim>& mesh, Index& count) {
+  check_indices(mesh.cells, mesh.num_vertices(), kMeshNames);
   UnionFind sets(mesh.num_vertices());
   for (Index s = 0; s < mesh.num_cells(); ++s) {
     for (int k = 1; k <= Dim; ++k) sets.unite(mesh.cells(0, s), mesh.cells(k, s));
@@ -70,6 +72,14 @@ DomainMesh<Dim> join_parts(const std::vector<MeshPart<Dim>>& parts) {
   DomainMesh<Dim> whole{PointList<Dim>(Dim, num_vertices), CellList<Dim>(Dim + 1, num_cells)};
   Index next = 0;
   for (const auto& [mesh, vertices] : parts) {
+    if (static_cast<Eigen::Index>(vertices.size()) != mesh.points.cols()) {
+      throw InputError("a part of the mesh has " + std::to_string(mesh.points.cols()) +
+                       " points, but names " + std::to_string(vertices.size()) + " vertices");
+    }
+    check_indices(mesh.cells, mesh.num_vertices(), kMeshNames);
+    check_indices(Eigen::Map<const Eigen::Matrix<Index, 1, Eigen::Dynamic>>(
+                      vertices.data(), 1, static_cast<Eigen::Index>(vertices.size())),
+                  num_vertices, kMeshNames);
     whole.points(Eigen::all, vertices) = mesh.points;
     for (const auto& cell : mesh.cells.colwise()) {
       for (int k = 0; k <= Dim; ++k) whole.cells(k, next) = vertices[cell[k]];

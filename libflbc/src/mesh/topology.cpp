@@ -9,6 +9,7 @@
 #include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/parallel.h"
+#include "base/shape_checks.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
 #include "mesh/vertex_cells.h"
@@ -118,6 +119,7 @@ std::vector<Index> twins(const DomainMesh<Dim>& mesh) {
 
 template <int Dim>
 MeshTopology<Dim> build_topology(const DomainMesh<Dim>& mesh) {
+  check_indices(mesh.cells, mesh.num_vertices(), kMeshNames);
   const auto twin = twins(mesh);
   const auto num_slots = static_cast<Index>(twin.size());
   const auto num_boundary = static_cast<Index>(std::count(twin.begin(), twin.end(), -1));
@@ -148,6 +150,11 @@ MeshTopology<Dim> build_topology(const DomainMesh<Dim>& mesh) {
 
 template <int Dim>
 std::vector<bool> boundary_vertices(const MeshTopology<Dim>& topology, Index num_vertices) {
+  if (topology.sides.cols() != topology.num_facets()) {
+    throw InputError("the topology has " + std::to_string(topology.num_facets()) +
+                     " facets, but the sides of " + std::to_string(topology.sides.cols()));
+  }
+  check_indices(topology.facets, num_vertices, kMeshNames);
   std::vector<bool> on_boundary(num_vertices, false);
   for (Index f = 0; f < topology.num_facets(); ++f) {
     if (!topology.is_boundary(f)) continue;

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "base/shape_checks.h"
+
 namespace flbc {
 namespace {
 
@@ -30,6 +32,8 @@ WeightFunctions::WeightFunctions(DistanceScheme scheme, DistanceMatrix distances
       scheme_(scheme),
       num_control_points_(num_control_points) {
   if (scheme != DistanceScheme::kConstant) {
+    check_size(distances_.rows(), distances_.cols(), num_control_points, mesh.num_vertices());
+    check_indices(mesh.cells, mesh.num_vertices(), kMeshNames);
     scale_ = 1 / ((Dim + 1) * static_cast<double>(distances_.maxCoeff()));
   }
 }

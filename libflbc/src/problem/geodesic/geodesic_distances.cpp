@@ -10,7 +10,9 @@
 
 #include "base/instantiate.h"
 #include "base/parallel.h"
+#include "base/shape_checks.h"
 #include "base/stage_progress.h"
+#include "mesh/check_topology.h"
 #include "problem/geodesic/bounded_distances.h"
 #include "problem/geodesic/march.h"
 
@@ -149,8 +151,13 @@ Whole measure_everywhere(const EikonalMesh<Dim>& eikonal, const std::vector<Inde
 template <int Dim>
 DistanceMatrix geodesic_distances(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
                                   const std::vector<Index>& sources) {
-  const EikonalMesh<Dim> eikonal(mesh, topology);
+  check_elements(mesh.points, mesh.cells, kMeshNames);
+  check_topology(mesh, topology);
   const auto num_sources = static_cast<Index>(sources.size());
+  check_indices(
+      Eigen::Map<const Eigen::Matrix<Index, 1, Eigen::Dynamic>>(sources.data(), 1, num_sources),
+      mesh.num_vertices(), {"list", "source", "vertex", "vertices"});
+  const EikonalMesh<Dim> eikonal(mesh, topology);
   return by_source_rows(num_sources, mesh.num_vertices(), [&] {
     return [&, march = March<Dim>(eikonal)](Index i, SourceRows& rows, Index row) mutable {
       const auto& arrivals = march.run(sources[i]);

@@ -12,6 +12,7 @@
 
 #include "base/messages.h"
 #include "base/parallel.h"
+#include "base/shape_checks.h"
 #include "base/stage_progress.h"
 #include "base/stopwatch.h"
 #include "coordinates/poisson_weights.h"
@@ -51,24 +52,7 @@ void require_valid_setup(const SolverOptions& options, bool has_mesher) {
 
 template <int Dim>
 void require_objective(const LbcProblem<Dim>& problem, const plan::Settings& settings) {
-  const auto& phi = problem.phi;
-  if (phi.rows() != problem.num_control_points() || phi.cols() != problem.mesh.num_cells()) {
-    throw InputError("phi is " + std::to_string(phi.rows()) + " x " + std::to_string(phi.cols()) +
-                     ", but the problem has " + std::to_string(problem.num_control_points()) +
-                     " control points and " + std::to_string(problem.mesh.num_cells()) +
-                     " cells; make_problem() computes phi");
-  }
-  if (phi.is_given()) {
-    for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
-      const Eigen::VectorXd on_cell = phi.col(s);
-      for (Index i = 0; i < phi.rows(); ++i) {
-        if (on_cell[i] >= 0 && std::isfinite(on_cell[i])) continue;
-        throw InputError("phi of control point " + std::to_string(i) + " on cell " +
-                         std::to_string(s) + " is " + format_number(on_cell[i]) +
-                         "; it must be finite and not negative");
-      }
-    }
-  }
+  check_phi(problem.phi, problem.num_control_points(), problem.mesh.num_cells());
   if (problem.smoothness != settings.smoothness) {
     throw OptionError("the problem was made with smoothness " + format_number(problem.smoothness) +
                       ", and the options say " + format_number(settings.smoothness));

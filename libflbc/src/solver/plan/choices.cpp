@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/instantiate.h"
+#include "base/shape_checks.h"
 #include "flbc/bounding_box.h"
 #include "flbc/published_penalty.h"
 #include "solver/plan/constants.h"
@@ -110,6 +111,8 @@ double published_penalty(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, Met
   SolverOptions options;
   options.penalty = penalty;
   validate(options);
+  check_elements(cage.points, cage.facets, kCageNames);
+  check_elements(mesh.points, mesh.cells, kMeshNames);
   if (method == Method::kAuto) method = plan::settings_of({}).method;
   const double size = plan::published_scale(mesh) * bounding_box_diagonal(cage.points);
   return penalty / plan::penalty_unit(method, Dim, size);
