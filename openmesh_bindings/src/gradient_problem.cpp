@@ -13,6 +13,7 @@
 #include "flbc/harmonic.h"
 #include "flbc/openmesh/gradients.h"
 #include "linear/dense.h"
+#include "solver/plan/choices.h"
 #include "solver/plan/constants.h"
 
 namespace flbc::openmesh {
@@ -141,6 +142,7 @@ GradientProblem<Dim> make_gradient_problem(const Cage<Dim>& cage, Domain<Dim> do
   const double length = std::pow(measures.squaredNorm() / measures.sum(), 1.0 / Dim);
   problem.penalty = plan::gradient_penalty(Dim) * std::pow(bounding_box_diagonal(cage.points), 2) *
                     std::pow(length, Dim - 1);
+  problem.published_scale = plan::published_scale(mesh);
   return problem;
 }
 

@@ -63,12 +63,16 @@ def mesh(
 ) -> _Shape: ...
 def solve(
     points: _Floats, facets: _Ints, vertices: _Floats, cells: _Ints, options: Dict[str, Any],
-    callback: _Callback,
+    phi: Optional[_Floats], callback: _Callback,
 ) -> _Solved: ...
 def weights_at(
     points: _Floats, facets: _Ints, vertices: _Floats, cells: _Ints, weights: _Weights,
     places: _Floats, outside: str,
 ) -> Tuple[_Weights, _Floats, List[int]]: ...
+def gradients(
+    points: _Floats, facets: _Ints, vertices: _Floats, cells: _Ints, weights: _Weights,
+    places: _Floats,
+) -> _Floats: ...
 def sparsify(
     control_points: _Floats, points: _Floats, weights: _Weights, max_influences: int,
     threshold: float, polygons: Optional[_Polygons], poses: Sequence[_Floats],

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._shapes import CageLike, Faces, Floats, MeshLike
+    from ._solve import Callback
     from ._weights import Weights
 
 
@@ -168,7 +169,9 @@ class Binding:
 
     def deform(self, control_points: ArrayLike) -> Floats:
         """The vertices of the model, shape (P, d), for moved control points, shape (n, d)."""
-        moved = deform(self.weights, control_points)
+        cage = self.cage
+        posed = as_points(control_points, "control_points", cage.dim, len(cage))
+        moved = deform(self.weights, posed)
         if self.offsets is not None:
             moved += self.offsets
         return moved
@@ -192,6 +195,7 @@ def bind(
     domain: Optional[MeshLike] = None,
     max_influences: int = 8,
     outside: str = "fail",
+    callback: Callback = None,
     **options: Unpack[SolverOptions],
 ) -> Binding:
     """Binds a model to a cage in one call: meshes, solves, evaluates, and reduces influences.
@@ -214,6 +218,9 @@ def bind(
     outside : str, default "fail"
         For vertices outside the cage: "fail"; "nearest", to follow the nearest point of the
         cage at a constant offset; or "extend", which needs ``max_influences=0``.
+
+    callback : callable, optional
+        As for `solve`.
 
     Other Parameters
     ----------------
@@ -243,8 +250,10 @@ def bind(
     if outside == "extend" and max_influences:
         raise InputError("outside cannot be 'extend' unless max_influences is 0")
     polygons = as_polygons(faces, "faces", len(points))
-    given["smoothness"] = _core.smoothness_of_bind(given)
-    solution = solve(cage, mesh(cage, mesh_vertices) if domain is None else domain, **given)
+    named = {name: value for name, value in given.items() if np.ndim(value) == 0}
+    given["smoothness"] = _core.smoothness_of_bind(named)
+    fill = mesh(cage, mesh_vertices) if domain is None else domain
+    solution = solve(cage, fill, callback=callback, **given)
     parts, placed, which = evaluate(solution, points, outside)
     weights = from_core(parts)
     if max_influences:

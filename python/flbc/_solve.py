@@ -3,11 +3,32 @@
 from __future__ import annotations
 
 import warnings
-from typing import TYPE_CHECKING, Any, Callable, Dict, NamedTuple, Optional, TypedDict, TypeVar
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    Callable,
+    Dict,
+    NamedTuple,
+    Optional,
+    TypedDict,
+    TypeVar,
+    Union,
+)
+
+import numpy as np
 
 from . import _core
-from ._errors import NotConverged, TooFewVertices
-from ._shapes import DomainMesh, as_cage, as_mesh, as_points, frozen, mesh_from
+from ._errors import InputError, NotConverged, OptionError, TooFewVertices
+from ._shapes import (
+    DomainMesh,
+    as_array,
+    as_cage,
+    as_floats,
+    as_mesh,
+    as_points,
+    frozen,
+    mesh_from,
+)
 from ._weights import dense_of, from_core
 
 if TYPE_CHECKING:
@@ -33,7 +54,7 @@ class SolverOptions(TypedDict, total=False):
     certify: bool
     threads: int
     non_negative: str
-    phi: str
+    phi: Union[str, ArrayLike]
     smoothness: Optional[float]
     distances: str
     precision: str
@@ -64,9 +85,10 @@ OPTIONS = """\
         Number of threads; 0 for all cores.
     non_negative : str, default "auto"
         How weights are kept non-negative: "constraint", "project", "off".
-    phi : str, default "square"
+    phi : str or array_like, shape (F, n), default "square"
         Growth of the variation weighting with distance: "square", "linear", "sqrt",
-        "constant".
+        "constant". Or the weighting itself: a number >= 0 for each cell of the mesh and control
+        point. `Solver` takes only names.
     smoothness : float, default 0
         Removes kinks at the cost of more influences, as a fraction of the cage size. Useful
         values are 0.001 to 0.03, for "value" and "gradient".
@@ -104,6 +126,22 @@ def checked(options: Any, function: str) -> Dict[str, Any]:
                 + ", ".join(SolverOptions.__annotations__)
             )
     return dict(options)
+
+
+def take_phi(options: Dict[str, Any], cage: Cage, mesh: DomainMesh) -> Optional[Floats]:
+    """Removes phi from options where it is an array, (F, n), and returns it."""
+    phi = options.get("phi")
+    if phi is None or np.ndim(phi) == 0:
+        return None
+    del options["phi"]
+    array = as_array(phi, "phi")
+    shape = len(mesh.cells), len(cage)
+    if array.shape != shape:
+        raise InputError(
+            f"phi has shape {array.shape}, but needs {shape}: one row for each cell of the mesh and "
+            "one column for each control point"
+        )
+    return as_floats(array, "phi")
 
 
 class Certificate(NamedTuple):
@@ -184,6 +222,35 @@ class Solution:
             If points are outside and `outside` is "fail".
         """
         return dense_of(evaluate(self, as_points(points, "points", self.cage.dim), outside)[0])
+
+    def gradients(self, points: ArrayLike) -> Floats:
+        """Evaluates the gradients of the coordinates at points.
+
+        They are averages of the gradients of the cells around each mesh vertex, and linear in each
+        cell. The gradients at a point sum to zero over the control points.
+
+        Parameters
+        ----------
+        points : array_like, shape (P, d)
+            Inside the cage, in its units.
+
+        Returns
+        -------
+        ndarray, shape (P, n, d)
+            In 1 / units of the cage. For moved control points c, shape (n, d), the Jacobians of
+            the deformation are ``np.einsum("nk,pnd->pkd", c, gradients)``.
+
+        Raises
+        ------
+        InputError
+            If points are outside.
+        """
+        cage, mesh = self.cage, self.mesh
+        places = as_points(points, "points", cage.dim)
+        found = _core.gradients(
+            cage.points, cage.facets, mesh.points, mesh.cells, self._parts, places
+        )
+        return found.reshape(len(places), len(cage), cage.dim)
 
     def __repr__(self) -> str:
         shape = f"{len(self.mesh)}x{len(self.cage)}"
@@ -316,10 +383,16 @@ def solve(
     given = checked(options, "solve")
     cage = as_cage(cage)
     domain = mesh_of(cage) if mesh is None else as_mesh(mesh, cage)
+    phi = take_phi(given, cage, domain)
     found = _core.solve(
-        cage.points, cage.facets, domain.points, domain.cells, given, callback
+        cage.points, cage.facets, domain.points, domain.cells, given, phi, callback
     )
     return _solution(found, cage, domain, True)
+
+
+def require_name_of_phi(options: Dict[str, Any]) -> None:
+    if np.ndim(options.get("phi", "")) > 0:
+        raise OptionError("phi: a Solver needs the name of a weighting; solve() takes arrays")
 
 
 mesh_of = mesh  # where an argument has this name
@@ -355,6 +428,7 @@ class Solver:
         self, cage: CageLike, mesh: Optional[MeshLike] = None, **options: Unpack[SolverOptions]
     ) -> None:
         given = checked(options, "Solver")
+        require_name_of_phi(given)
         cage = as_cage(cage)
         domain = mesh_of(cage) if mesh is None else as_mesh(mesh, cage)
         self._core = _core.Solver(cage.points, cage.facets, domain.points, domain.cells, given)
@@ -417,7 +491,15 @@ class Solver:
 
     def set_options(self, **options: Unpack[SolverOptions]) -> None:
         """Changes options of the following solves; `phi` cannot change."""
-        self._core.set_options({**self._core.options(), **checked(options, "Solver")})
+        given = checked(options, "Solver")
+        require_name_of_phi(given)
+        self._core.set_options({**self._core.options(), **given})
+
+    def __reduce__(self) -> Any:
+        raise TypeError(
+            "a Solver cannot be pickled or copied; keep cage, mesh, and options of it, and make "
+            "another with flbc.Solver(cage, mesh, **options)"
+        )
 
     def restart(self) -> None:
         """Makes the next solve start over."""

@@ -8,6 +8,7 @@
 #include "flbc/cage_facts.h"
 #include "flbc/check.h"
 #include "flbc/errors.h"
+#include "flbc/gradients.h"
 #include "flbc/io/cut_polygon.h"
 #include "flbc/mean_value.h"
 #include "flbc/meshing.h"
@@ -192,6 +193,23 @@ py::tuple weights_at(const Doubles& points, const Indices& facets, const Doubles
   });
 }
 
+// Gradients at points, P x Dim n: number Dim i + d of a point is the derivative of weight i in
+// direction d.
+py::array gradients(const Doubles& points, const Indices& facets, const Doubles& vertices,
+                    const Indices& cells, const py::object& weights, const Doubles& places) {
+  return by_dimension(points, [&](auto dim) {
+    constexpr int kDim = decltype(dim)::value;
+    const auto cage = cage_of<kDim>(points, facets);
+    const auto mesh = mesh_of<kDim>(vertices, cells);
+    const auto all = points_of<kDim>(places);
+    const auto known = weights_of(weights);
+    return as_array(without_gil([&] {
+      const auto found = places_in_mesh(cage, mesh, place_points(cage, mesh, all));
+      return gradients_at(mesh, known, found).dense();
+    }));
+  });
+}
+
 py::object sparsify(const Doubles& control_points, const Doubles& points, const py::object& weights,
                     Index max_influences, double threshold, const std::optional<Polygons>& polygons,
                     const std::vector<Doubles>& poses) {
@@ -304,6 +322,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("repair", &repair);
   module.def("normalized_mesh", &normalized_mesh);
   module.def("weights_at", &weights_at);
+  module.def("gradients", &gradients);
   module.def("sparsify", &sparsify);
   module.def("transfer", &transfer);
   module.def("mean_value", &mean_value);

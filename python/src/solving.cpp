@@ -165,7 +165,8 @@ py::tuple solved(Solution solution, const std::optional<Coordinates>& coordinate
 }
 
 py::tuple solve(const Doubles& points, const Indices& facets, const Doubles& vertices,
-                const Indices& cells, const py::dict& keywords, const py::object& callback) {
+                const Indices& cells, const py::dict& keywords, const std::optional<Doubles>& phi,
+                const py::object& callback) {
   return by_dimension(points, [&](auto dim) -> py::tuple {
     constexpr int kDim = decltype(dim)::value;
     const auto cage = cage_of<kDim>(points, facets);
@@ -179,6 +180,16 @@ py::tuple solve(const Doubles& points, const Indices& facets, const Doubles& ver
                     coordinates);
     }
     const auto options = here(options_of(keywords));
+    if (phi) {
+      WeightFunctions given(Eigen::MatrixXd::Map(phi->data(), phi->shape(1), phi->shape(0)).eval());
+      return solved(without_gil([&] {
+        validate(options);
+        auto problem =
+            make_problem(cage, domain, DistanceScheme::kConstant, options.smoothness.value_or(0));
+        problem.phi = std::move(given);
+        return flbc::solve(problem, options, {}, observer);
+      }));
+    }
     return solved(without_gil(
         [&] { return flbc::solve<kDim>(cage, domain, options, coarse_mesher<kDim>(), observer); }));
   });

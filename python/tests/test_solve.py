@@ -274,6 +274,51 @@ def test_results_can_be_pickled(flat, limb):
     assert np.array_equal(copy.cage.facets, flat.cage.facets)
 
 
+def test_solver_says_what_to_pickle(flat):
+    solver = flbc.Solver(flat.cage, flat.mesh, tolerance=1e-5)
+    with pytest.raises(TypeError, match="flbc.Solver\\(cage, mesh, \\*\\*options\\)"):
+        pickle.dumps(solver)
+    again = flbc.Solver(solver.cage, solver.mesh, **solver.options)
+    assert np.array_equal(again.solve().weights, solver.solve().weights)
+
+
+def geodesic_phi(solution):
+    """phi "square" of a convex cage, where geodesics are straight."""
+    cage, mesh = solution.cage, solution.mesh
+    distances = np.linalg.norm(mesh.points[:, None] - cage.points, axis=2)
+    return np.square(distances[mesh.cells].mean(axis=1) / distances.max())
+
+
+def test_own_phi_is_used(flat):
+    options = {"tolerance": 1e-7, "gap": 0}
+    named = flbc.solve(flat.cage, flat.mesh, **options)
+    own = flbc.solve(flat.cage, flat.mesh, phi=geodesic_phi(flat), **options)
+    assert own.converged and own.report["objective"] == pytest.approx(named.report["objective"], rel=1e-3)
+    assert abs(own.weights - named.weights).max() < 5e-3
+    constant = np.ones((len(flat.mesh.cells), len(flat.cage)))
+    other = flbc.solve(flat.cage, flat.mesh, phi=constant, **options)
+    same = flbc.solve(flat.cage, flat.mesh, phi="constant", **options)
+    assert other.report["objective"] == pytest.approx(same.report["objective"], rel=1e-3)
+    bound = flbc.bind(flat.mesh.points, None, flat.cage, domain=flat.mesh, phi=constant,
+                      smoothness=0, max_influences=0, **options)
+    assert abs(bound.weights.toarray() - other.weights).max() < 1e-6
+
+
+def test_gradients_are_those_of_the_weights(flat, solid):
+    for solution in flat, solid:
+        cage, mesh = solution.cage, solution.mesh
+        points = mesh.points[mesh.cells[::7]].mean(axis=1)
+        gradients = solution.gradients(points)
+        assert gradients.shape == (len(points), len(cage), cage.dim)
+        assert abs(gradients.sum(axis=1)).max() < 1e-9
+        # Reproduction: an affine pose has its matrix as the Jacobian.
+        matrix = np.arange(1.0, cage.dim**2 + 1).reshape(cage.dim, cage.dim)
+        jacobians = np.einsum("nk,pnd->pkd", cage.points @ matrix.T, gradients)
+        assert abs(jacobians - matrix).max() < 1e-8
+        with pytest.raises(flbc.InputError, match="outside"):
+            solution.gradients(points + 1e3)
+
+
 def test_import_is_fast():
     """Little more than NumPy, and nothing else."""
     code = "import sys, time; import numpy; t = time.perf_counter(); import flbc; " \

@@ -155,3 +155,13 @@ def test_bind_keeps_vertices_outside_at_an_offset(square):
     assert binding.outside.tolist() == [1]
     assert np.allclose(binding.deform(square.points), points)
     assert np.allclose(binding.deform(square.points + [0, 3]), np.add(points, [0, 3]))
+
+
+def test_bindings_take_control_points_of_their_dimension(limb, solid):
+    cage, vertices, faces = limb
+    seen = []
+    binding = flbc.bind(vertices, faces, cage, domain=solid.mesh,
+                        callback=lambda progress: seen.append(progress.iteration))
+    assert seen and seen == sorted(seen)
+    with pytest.raises(flbc.InputError, match=rf"control_points.*\({len(cage)}, 2\).*, 3\)"):
+        binding.deform(cage.points[:, :2])

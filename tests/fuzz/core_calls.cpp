@@ -9,6 +9,7 @@
 #include "flbc/cage_facts.h"
 #include "flbc/certificate.h"
 #include "flbc/check.h"
+#include "flbc/coordinates.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/evaluator.h"
@@ -135,15 +136,18 @@ DistanceScheme some_scheme(Mutator& mutator) {
                          DistanceScheme::kSquareRoot, DistanceScheme::kConstant});
 }
 
+Coordinates some_coordinates(Mutator& mutator) {
+  return mutator.one_of({Coordinates::kHarmonic, Coordinates::kMeanValue, Coordinates::kMaxEntropy,
+                         Coordinates::kMaxLikelihood, Coordinates::kBlended,
+                         Coordinates::kBiharmonic, Coordinates::kGreen});
+}
+
 SolverOptions some_options(Mutator& mutator) {
   SolverOptions options;
-  options.method = mutator.one_of({Method::kAuto, Method::kGradient, Method::kPaper,
-                                   Method::kLbc2014, Method::kHarmonic, Method::kMeanValue,
-                                   Method::kMaxEntropy, Method::kMaxLikelihood, Method::kBlended,
-                                   Method::kBiharmonic, Method::kGreen});
-  if (mutator.below(2) == 0) options.method = Method::kValue;
+  options.method =
+      mutator.one_of({Method::kValue, Method::kGradient, Method::kPaper, Method::kLbc2014});
   options.max_iterations = 12;
-  options.certify = mutator.below(4) == 0 && is_local(options.method);
+  options.certify = mutator.below(4) == 0;
   options.phi = some_scheme(mutator);
   if (mutator.below(4) == 0) options.active_set = ActiveSet::kOn;
   if (mutator.below(4) == 0) options.precision = Precision::kDouble;
@@ -155,6 +159,11 @@ SolverOptions some_options(Mutator& mutator) {
 template <int Dim>
 void solve_once(Mutator& mutator) {
   solve(some_cage<Dim>(mutator), some_mesh<Dim>(mutator), some_options(mutator));
+}
+
+template <int Dim>
+void compute_other(Mutator& mutator) {
+  compute_coordinates(some_cage<Dim>(mutator), some_mesh<Dim>(mutator), some_coordinates(mutator));
 }
 
 template <int Dim>
@@ -227,7 +236,7 @@ void solve_and_move(Mutator& mutator) {
   const auto& [cage, mesh, name] = valid<Dim>().sample;
   const bool is_valid = mutator.below(2) == 0;
   auto options = some_options(mutator);
-  options.method = mutator.one_of({Method::kValue, Method::kGradient, Method::kHarmonic});
+  options.method = mutator.one_of({Method::kValue, Method::kGradient});
   options.certify = false;
   Solver<Dim> solver(is_valid ? cage : some_cage<Dim>(mutator),
                      is_valid ? mesh : some_mesh<Dim>(mutator), options);
@@ -388,20 +397,15 @@ template <int Dim>
 void compute_pointwise(Mutator& mutator) {
   const auto cage = some_cage<Dim>(mutator);
   const auto points = some_points<Dim>(mutator);
-  const auto method =
-      mutator.one_of({Method::kMeanValue, Method::kMaxEntropy, Method::kMaxLikelihood,
-                      Method::kBlended, Method::kGreen, Method::kValue});
+  const auto coordinates = some_coordinates(mutator);
   switch (mutator.below(8)) {
     case 0:
-      pointwise_coordinates(cage, points, method);
+      pointwise_coordinates(cage, points, coordinates);
       break;
-    case 1: {
-      SolverOptions options;
-      options.method = method;
-      options.non_negative = NonNegative::kProject;
-      pointwise_coordinates(cage, place_points(cage, points, some_policy(mutator)), options);
+    case 1:
+      pointwise_coordinates(cage, place_points(cage, points, some_policy(mutator)), coordinates,
+                            mutator.below(2) == 0);
       break;
-    }
     case 2:
       mean_value_coordinates(cage, points);
       break;
@@ -547,6 +551,7 @@ void add_calls(std::vector<Call>& calls) {
   const std::string in = Dim == 2 ? "_2d" : "_3d";
   for (const auto& [name, make] : std::initializer_list<std::pair<const char*, void (*)(Mutator&)>>{
            {"solve", solve_once<Dim>},
+           {"coordinates", compute_other<Dim>},
            {"solve_with_topology", solve_with_topology<Dim>},
            {"solve_problem", solve_problem<Dim>},
            {"judge_problem", judge_problem<Dim>},

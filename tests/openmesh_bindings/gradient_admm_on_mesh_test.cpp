@@ -84,6 +84,37 @@ TYPED_TEST(MeshAdmm, HasTheIteratesOfTheArrayKernel) {
   }
 }
 
+// In units of the paper, the thresholds of its section 5 need no conversion, and other units give
+// the same number of iterations.
+TYPED_TEST(MeshAdmm, ConvergesByTheCriterionOfThePaper) {
+  constexpr int kDim = Admm<TypeParam>::kDim;
+  auto sample = make_sample<kDim>(Shape::kCorner, 2, 0.1);
+  const Vector<kDim> center =
+      (sample.mesh.points.rowwise().minCoeff() + sample.mesh.points.rowwise().maxCoeff()) / 2;
+  const double radius = (sample.mesh.points.colwise() - center).colwise().norm().maxCoeff();
+  std::vector<int> iterations;
+  for (const double scale : {250 / radius, 1.0}) {
+    auto scaled = sample;
+    scaled.cage.points *= scale;
+    scaled.mesh.points *= scale;
+    auto mesh = openmesh::to_mesh<TypeParam>(scaled.mesh);
+    Admm<TypeParam> admm(mesh, scaled.cage);
+    EXPECT_FALSE(admm.converged());
+    const double components =
+        static_cast<double>(scaled.cage.size()) * kDim * (kDim + 2) * scaled.mesh.num_cells();
+    int made = 0;
+    for (; made < 20000 && !admm.converged(); ++made) {
+      const auto [primal, dual] = admm.iterate();
+      if (scale == 1) continue;
+      EXPECT_EQ(admm.converged(), primal <= 1e-7 * components && dual <= 1e-6 * components);
+    }
+    iterations.push_back(made);
+  }
+  EXPECT_GT(iterations[0], 1);
+  EXPECT_LT(iterations[0], 20000);
+  EXPECT_NEAR(iterations[1], iterations[0], 1);
+}
+
 TYPED_TEST(MeshAdmm, ResidualsDoNotDependOnThreads) {
   constexpr int kDim = Admm<TypeParam>::kDim;
   const auto sample = moved(make_sample<kDim>(Shape::kRing, kDim == 2 ? 8 : 3, 0.2));

@@ -23,12 +23,13 @@ void align_edges(Cage<2>& cage) {
   }
   std::vector<bool> is_aligned(cage.facets.cols(), false);
   for (Index first = 0; first < cage.facets.cols(); ++first) {
-    for (Index edge = first; !is_aligned[edge];) {
+    // An open loop ends at -1.
+    for (Index edge = first; edge >= 0 && !is_aligned[edge];) {
       is_aligned[edge] = true;
       const Index end = cage.facets(1, edge);
       const auto& edges = edges_at[end];
       edge = edges[0] == edge ? edges[1] : edges[0];
-      if (!is_aligned[edge] && cage.facets(0, edge) != end) {
+      if (edge >= 0 && !is_aligned[edge] && cage.facets(0, edge) != end) {
         std::swap(cage.facets(0, edge), cage.facets(1, edge));
       }
     }
@@ -63,7 +64,6 @@ bool is_in_others(const OrientedCage<Dim>& oriented, Index shell, Index facet_of
 
 template <int Dim>
 OrientedCage<Dim> orient(const Cage<Dim>& cage) {
-  validate(cage);
   OrientedCage<Dim> oriented{cage, facet_shells(cage), {}, 0};
   if constexpr (Dim == 2) align_edges(oriented.cage);
   auto& facets = oriented.cage.facets;

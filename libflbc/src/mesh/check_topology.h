@@ -6,7 +6,7 @@
 
 namespace flbc {
 
-//! \param mesh  with indices in range \throws InputError if the topology is not that of the mesh
+//! \throws InputError if an index of the mesh is out of range, or the topology is not that of the mesh
 template <int Dim>
 void check_topology(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology);
 

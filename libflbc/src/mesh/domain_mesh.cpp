@@ -132,6 +132,7 @@ void check_no_touching(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& top
 
 template <int Dim>
 void check_topology(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology) {
+  check_indices(mesh.cells, mesh.num_vertices(), kMeshNames);
   bool fits = topology.sides.cols() == topology.num_facets() &&
               topology.cell_facets.cols() == mesh.num_cells();
   fits = fits && first_where(mesh.num_cells(), [&](Index s) {

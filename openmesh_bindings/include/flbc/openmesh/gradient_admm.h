@@ -107,6 +107,7 @@ class GradientAdmm {
     for (const Facet facet : Elements<Mesh>::facets(mesh_)) facet_dual(facet).setZero();
     period_duals().setZero();
     resumed_ = false;
+    residuals_.primal = residuals_.dual = std::numeric_limits<double>::infinity();
   }
 
   //! \return residuals of the last iteration \throws SolverError if it diverges
@@ -125,7 +126,18 @@ class GradientAdmm {
     // The duals here lead those of the paper by a part that the G-step removes
     // (docs/explanation/method/gradient_admm.md).
     const double primal = alpha_ == 1 ? change.dual - M_ * change.lead : change.dual;
-    return {std::sqrt(std::max(primal, 0.0)), mu_ * std::sqrt(M_ * change.gradient)};
+    residuals_ = {std::sqrt(std::max(primal, 0.0)), mu_ * std::sqrt(M_ * change.gradient)};
+    return residuals_;
+  }
+
+  //! Whether the last iteration met the criterion of section 5 of the paper: |r_p| <= N tolerance
+  //! and |r_d| <= 10 N tolerance with N components, in the unit of length of the paper, in which
+  //! the farthest vertex is at radius 250.
+  bool converged(double tolerance = 1e-7) const {
+    const double length = problem_.published_scale;
+    const double threshold = tolerance * n_ * kDim * M_ * problem_.base.mesh.num_cells();
+    return residuals_.primal / length <= threshold &&
+           residuals_.dual * std::pow(length, kDim) <= 10 * threshold;
   }
 
   //! Writes the weights whose gradients are nearest to the current ones as a property.
@@ -285,6 +297,8 @@ class GradientAdmm {
   const double mu_, alpha_;
   const double M_;  // copies of a gradient
   bool resumed_ = false;
+  Residuals residuals_{std::numeric_limits<double>::infinity(),
+                       std::numeric_limits<double>::infinity()};
   // Pointers, because OpenMesh finds a property by a dynamic cast on every access.
   Property *gradient_, *extrapolated_, *cell_dual_, *facet_dual_, *period_dual_;
 };

@@ -36,7 +36,8 @@ struct GradientProblem {
   Eigen::Matrix<double, Eigen::Dynamic, Dim + 1> basis;  //!< Q: orthonormal columns, span [1; c]
   Eigen::Matrix<double, Dim, Dim + 1> target;            //!< g Q for every g that satisfies (8)
   std::vector<PeriodConstraint<Dim>> periods;
-  double penalty;  //!< mu that needs few iterations, length^(Dim + 1)
+  double penalty;          //!< mu that needs few iterations, length^(Dim + 1)
+  double published_scale;  //!< length in the paper, where the radius is 250 / length of the mesh
 };
 
 //! \param domain  with the facets of the mesh
