@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Public functions with damaged arguments return or throw flbc::Error. flbc_mutations makes more
-// such calls under sanitizers (scripts/fuzz.sh).
+// such calls.
 #include <cmath>
 #include <functional>
 
@@ -56,7 +56,8 @@ TEST_IN_2D_AND_3D(FuzzFound, FacetsOfTheCageAreChecked) {
            [&] { points_outside(cage, sample.mesh.points); }, [&] { thinnest_place(cage); },
            [&] { place_points(cage, sample.mesh.points); },
            [&] { make_problem(cage, sample.mesh, DistanceScheme::kSquare); }}) {
-    expect_error<InputError>(use, {" 1 ", "refers to control point " + std::to_string(cage.size())});
+    expect_error<InputError>(use,
+                             {" 1 ", "refers to control point " + std::to_string(cage.size())});
   }
   cage = sample.cage;
   cage.points(0, 2) = std::nan("");
