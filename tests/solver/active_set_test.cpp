@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The iteration on the active set: its linear step against a dense solver of the same problem, and
 // its limit against the iteration on all pairs.
-#include "solver/methods/active_set/active_set.h"
 #include "flbc/harmonic.h"
 #include "flbc/solver.h"
 #include "polytope/nearest_point_in_hull.h"
+#include "solver/methods/active_set/active_splitting.h"
 #include "solver/plan/choices.h"
 #include "solver/run/run.h"
 #include "support/fine_cages.h"
@@ -178,8 +178,9 @@ Solution run_on_tight(const LbcProblem<Dim>& problem, double tolerance, bool hal
   parameters.penalty = start.penalty;
   parameters.relaxation = settings.relaxation;
   parameters.half = half;
-  active_set::ActiveSet<Scalar, Dim> iteration(problem, splitting::measure_metric(problem, true),
-                                               parameters, active_of_harmonic(problem, 0.2));
+  active_set::ActiveSplitting<Scalar, Dim> iteration(problem,
+                                                     splitting::measure_metric(problem, true),
+                                                     parameters, active_of_harmonic(problem, 0.2));
   iteration.start(start);
   RunState<Dim> state{std::make_unique<EstimatedError<Dim>>(
       problem, iteration, std::is_same_v<Scalar, double>, Origin::kCold, true)};

@@ -8,7 +8,7 @@
 #include "base/stopwatch.h"
 #include "flbc/errors.h"
 #include "mesh/cell_geometry.h"
-#include "solver/methods/active_set/active_set.h"
+#include "solver/methods/active_set/active_splitting.h"
 #include "solver/methods/gradient/gradient_iteration.h"
 #include "solver/methods/splitting/compact_splitting.h"
 #include "solver/plan/choices.h"
@@ -60,20 +60,27 @@ std::unique_ptr<Iteration<Dim>> make_in(Precision precision, const LbcProblem<Di
   return std::make_unique<Method<float, Dim>>(problem, std::forward<Arguments>(arguments)...);
 }
 
-// Method::kValue on all pairs.
 template <int Dim>
-std::unique_ptr<Iteration<Dim>> make_value(const LbcProblem<Dim>& problem,
-                                           const plan::Settings& settings, double penalty,
-                                           bool looks) {
-  compact::Parameters parameters;
-  parameters.penalty = penalty;
+splitting::Parameters common_parameters(const LbcProblem<Dim>& problem,
+                                        const plan::Settings& settings, double penalty) {
+  splitting::Parameters parameters;
+  parameters.penalty = settings.penalty.value_or(penalty);
   parameters.relaxation = settings.relaxation;
   parameters.linear_solver = plan::linear_solver(plan::sizes_of(problem), settings);
+  return parameters;
+}
+
+// Method::kValue. \param from  its start, or cold
+template <int Dim>
+splitting::Parameters value_parameters(const LbcProblem<Dim>& problem,
+                                       const plan::Settings& settings, const Transfer<Dim>* from) {
+  const bool cold = from == nullptr;
+  auto parameters = common_parameters(
+      problem, settings,
+      cold ? plan::with_smoothness(plan::kFirstPenalty, problem.smoothness) : from->penalty());
   parameters.half = plan::half_precision(problem.mesh.num_cells(), settings);
-  parameters.balances = !settings.penalty;
-  parameters.looks = looks && parameters.balances;
-  return make_in<compact::CompactSplitting>(settings.precision, problem,
-                                            metric_of(problem, settings), parameters);
+  parameters.balances = cold && !settings.penalty;
+  return parameters;
 }
 
 // Method::kLbc2014: the augmented Lagrangian of (2), in which the weight of a cell is its squared
@@ -91,10 +98,7 @@ std::unique_ptr<Iteration<Dim>> make_lbc2014(const LbcProblem<Dim>& problem,
     vertex_weight = chosen ? measure * like_value.vertex.mean()
                            : std::pow(plan::published_scale(problem.mesh), 2 - 2 * Dim);
   }
-  compact::Parameters parameters;
-  parameters.penalty = chosen ? plan::kLbc2014Penalty / measure : *settings.penalty;
-  parameters.relaxation = settings.relaxation;
-  parameters.linear_solver = plan::linear_solver(plan::sizes_of(problem), settings);
+  auto parameters = common_parameters(problem, settings, plan::kLbc2014Penalty / measure);
   // If W = w has a large weight, the existing factor needs hundreds of solves for harmonic
   // coordinates.
   parameters.harmonic_cold = !chosen;
@@ -165,17 +169,11 @@ bool MethodRun<Dim>::begin_on_active_set(const plan::Settings& settings,
                                                active_set::threshold_for(settings.tolerance));
   if (!plan::active_set_pays(active_set::density(*problem_, active), settings)) return false;
   const auto from = cold ? harmonic.start : start.from->start();
-  active_set::Parameters parameters;
-  parameters.penalty = settings.penalty ? *settings.penalty
-                       : cold ? plan::with_smoothness(plan::kFirstPenalty, problem_->smoothness)
-                              : from.penalty;
-  parameters.part = settings.penalty ? 1
-                    : cold           ? plan::kActivePenaltyCold
-                                     : plan::kActivePenaltyWarm;
-  parameters.relaxation = settings.relaxation;
-  parameters.half = plan::half_precision(problem_->mesh.num_cells(), settings);
-  parameters.balances = cold && !settings.penalty;
-  iteration_ = make_in<active_set::ActiveSet>(
+  auto parameters = value_parameters(*problem_, settings, start.from);
+  if (!settings.penalty) {
+    parameters.part = cold ? plan::kActivePenaltyCold : plan::kActivePenaltyWarm;
+  }
+  iteration_ = make_in<active_set::ActiveSplitting>(
       settings.precision, *problem_, metric_of(*problem_, settings), parameters, std::move(active));
   iteration_->start(from);
   return true;
@@ -186,14 +184,12 @@ void MethodRun<Dim>::begin(const plan::Settings& settings, const WarmStart<Dim>&
   is_active_ = begin_on_active_set(settings, start);
   if (is_active_) return;
   if (settings.method == Method::kValue) {
-    const auto from = start.from != nullptr ? start.from->start() : Start<Dim>{};
-    const double penalty = settings.penalty ? *settings.penalty
-                           : from.is_cold()
-                               ? plan::with_smoothness(plan::kFirstPenalty, problem_->smoothness)
-                               : from.penalty;
+    auto parameters = value_parameters(*problem_, settings, start.from);
     // A finer mesh needs the penalty of the first iterations.
-    iteration_ = make_value(*problem_, settings, penalty, !start.for_finer_mesh);
-    iteration_->start(from);
+    parameters.looks = !settings.penalty && !start.for_finer_mesh;
+    iteration_ = make_in<compact::CompactSplitting>(settings.precision, *problem_,
+                                                    metric_of(*problem_, settings), parameters);
+    iteration_->start(start.from != nullptr ? start.from->start() : Start<Dim>{});
     return;
   }
   iteration_ = settings.method == Method::kLbc2014 ? make_lbc2014(*problem_, settings)

@@ -34,13 +34,6 @@ struct Start {
       return factor * dual(vertex);
     };
   }
-
-  //! The same start for an iteration with another penalty.
-  Start with_penalty(double other) && {
-    vertex_dual = vertex_dual_at(other);
-    penalty = other;
-    return std::move(*this);
-  }
 };
 
 //! Weights of any vertex, from the known boundary weights and those of interior vertices.

@@ -9,8 +9,7 @@
 #include "base/instantiate.h"
 #include "base/padded_rows.h"
 #include "base/parallel.h"
-#include "problem/boundary_flux.h"
-#include "solver/start/start.h"
+#include "solver/plan/constants.h"
 
 namespace flbc::active_set {
 namespace {
@@ -53,34 +52,29 @@ PackedLists lists_of(const ActiveLists& active, const std::vector<Index>& vertic
 
 template <class Scalar, int Dim>
 ActiveSplitting<Scalar, Dim>::ActiveSplitting(const LbcProblem<Dim>& problem,
-                                              splitting::Metric metric, double penalty,
-                                              double relaxation, bool half, ActiveLists active,
-                                              const RowMatrix& system)
-    : problem_(problem),
-      loops_(half ? &select_kernel<compact::Kernel<Scalar, Dim>>().half
-                  : &select_kernel<compact::Kernel<Scalar, Dim>>().exact),
+                                              splitting::Metric metric,
+                                              const Parameters& parameters, ActiveLists active)
+    : Base(problem, std::move(metric), parameters, select_kernel<compact::Kernel<Scalar, Dim>>()),
       list_kernel_(select_kernel<Kernel<Scalar, Dim>>()),
-      n_(problem.num_control_points()),
-      metric_(std::move(metric)),
-      unit_(compact::radius_unit(problem, metric_)),
-      penalty_(penalty),
-      relaxation_(relaxation),
-      active_(std::move(active)),
-      order_(sweep_order(system)),
-      data_(compact::make_rows_and_cells<Scalar>(problem, metric_, order_.position, unit_)),
-      lists_(lists_of(active_, vertices_of_rows(problem, data_), static_cast<ControlPoint>(n_))),
-      bases_(row_bases<Scalar, Dim>(
-          lists_, problem.cage.points,
-          problem.mesh.points(Eigen::all, vertices_of_rows(problem, data_)), &targets_)),
-      patches_(make_patches(problem, metric_, unit_, data_, lists_, *loops_)),
-      multigrid_(system, order_, lists_, bases_, problem.cage.points, list_kernel_),
-      rows_(lists_.size(), lists_.starts[data_.vertices.size()], metric_.vertex.size() > 0),
-      left_(patches_.num_left),
-      P_(Dim * patches_.radius.size()) {
+      active_(std::move(active)) {
+  const auto system = splitting::system_matrix(problem, metric_);
+  const auto order = sweep_order(system);
+  data_ = compact::make_rows_and_cells<Scalar>(problem, metric_, order.position, unit_);
+  const auto vertices = vertices_of_rows(problem, data_);
+  lists_ =
+      std::make_unique<PackedLists>(lists_of(active_, vertices, static_cast<ControlPoint>(n_)));
+  bases_ = std::make_unique<AlignedArray<Scalar>>(row_bases<Scalar, Dim>(
+      *lists_, problem.cage.points, problem.mesh.points(Eigen::all, vertices), &targets_));
+  patches_ = make_patches(problem, metric_, unit_, data_, *lists_, *loops_);
+  multigrid_ = std::make_unique<ActiveMultigrid<Scalar, Dim>>(system, order, *lists_, *bases_,
+                                                              problem.cage.points, list_kernel_);
+  rows_ = {lists_->size(), lists_->starts[data_.vertices.size()], metric_.vertex.size() > 0};
+  left_ = AlignedArray<Scalar>(patches_.num_left);
+  P_ = AlignedArray<unsigned char>(Dim * patches_.radius.size());
 }
 
 template <class Scalar, int Dim>
-compact::Arrays<Scalar, Dim> ActiveSplitting<Scalar, Dim>::patch_state(const Patch& patch) {
+auto ActiveSplitting<Scalar, Dim>::patch_state(const Patch& patch) -> State {
   State state{};
   state.stride = state.cell_stride = patch.stride;
   state.num_cells = static_cast<std::size_t>(patch.end_cell - patch.first_cell);
@@ -89,7 +83,7 @@ compact::Arrays<Scalar, Dim> ActiveSplitting<Scalar, Dim>::patch_state(const Pat
   state.cells = patches_.cells.data() + patch.first_cell;
   state.radius = patches_.radius.data() + loops_->bytes * patch.first_number;
   state.sigma = static_cast<Scalar>(sigma());
-  state.smoothing = static_cast<Scalar>(compact::smoothing(problem_, penalty_));
+  state.smoothing = static_cast<Scalar>(compact::smoothing(problem_, this->penalty()));
   return state;
 }
 
@@ -131,53 +125,48 @@ void ActiveSplitting<Scalar, Dim>::gather(const Patch& patch,
                                           const std::vector<std::uint16_t>& slot_of,
                                           const AlignedArray<Scalar>& numbers, Index count,
                                           AlignedArray<Scalar>& block) const {
-  list_kernel_.gather(lists_.view(), patches_.rows.data() + patch.first_row, count, slot_of.data(),
+  list_kernel_.gather(lists_->view(), patches_.rows.data() + patch.first_row, count, slot_of.data(),
                       numbers.data(), patch.stride, block.data());
 }
 
-// Z-steps of all cells; stores the divergence of each patch for collection.
-// \return the squared violation of z = grad w, if measured
+// Z-steps of all cells leave the divergence of each patch, which the rows collect.
 template <class Scalar, int Dim>
-double ActiveSplitting<Scalar, Dim>::pass_cells(bool measures, double relaxation) {
+double ActiveSplitting<Scalar, Dim>::solve(SliceLoop loop, double relaxation) {
+  const bool measures = loop == loops_->z_step_measured;
   std::vector<double> violations(patches_.patches.size(), 0);
-  const Lists lists = lists_.view();
   for_patches(measures, [&](Index p, PatchRows<Scalar>& rows, State& state) {
     const Patch& patch = patches_.patches[p];
     state.relaxation = static_cast<Scalar>(relaxation);
     std::fill_n(state.residual, patch.num_interior * patch.stride, Scalar(0));
-    (measures ? loops_->z_step_measured : loops_->z_step)(state, {0, patch.stride});
+    loop(state, {0, patch.stride});
     violations[p] = std::accumulate(rows.violation.data(),
                                     rows.violation.data() + (measures ? patch.stride : 0), 0.0);
-    list_kernel_.scatter(lists, patches_.rows.data() + patch.first_row, patch.num_interior,
+    list_kernel_.scatter(lists_->view(), patches_.rows.data() + patch.first_row, patch.num_interior,
                          rows.slot_of.data(), state.residual, patch.stride,
                          patches_.leaves.data() + patch.first_row, left_.data());
   });
-  return std::accumulate(violations.begin(), violations.end(), 0.0);
-}
-
-template <class Scalar, int Dim>
-void ActiveSplitting<Scalar, Dim>::collect_divergence() {
-  const auto num_rows = static_cast<Index>(data_.vertices.size());
-  parallel_for(num_rows, [&](Index row) {
-    Scalar* residual = rows_.residual.data() + lists_.starts[row];
-    const std::size_t length = lists_.starts[row + 1] - lists_.starts[row];
+  parallel_for(static_cast<Index>(data_.vertices.size()), [&](Index row) {
+    Scalar* residual = rows_.residual.data() + lists_->starts[row];
+    const std::size_t length = lists_->starts[row + 1] - lists_->starts[row];
     for (const std::size_t place : patches_.left.of(row)) {
       for (std::size_t j = 0; j < length; ++j) residual[j] += left_[place + j];
     }
   });
+  multigrid_->cycle(rows_.residual.data());
+  return std::accumulate(violations.begin(), violations.end(), 0.0);
 }
 
 template <class Scalar, int Dim>
-compact::Arrays<Scalar, Dim> ActiveSplitting<Scalar, Dim>::row_state(Index row) {
-  const std::size_t start = lists_.starts[row];
+auto ActiveSplitting<Scalar, Dim>::row_state(Index row) -> State {
+  const std::size_t start = lists_->starts[row];
   State state{};
-  state.stride = lists_.starts[row + 1] - start;
+  state.stride = lists_->starts[row + 1] - start;
   rows_.set(state, start);
-  state.vertex_metric = has_vertex_dual() ? data_.vertex_metric.data() + row : nullptr;
-  state.basis = bases_.data() + (Dim + 1) * start;
+  state.vertex_metric = rows_.S.size() > 0 ? data_.vertex_metric.data() + row : nullptr;
+  state.basis = bases_->data() + (Dim + 1) * start;
   state.row_target = targets_.data() + static_cast<std::size_t>(row) * (Dim + 1);
   state.sigma = static_cast<Scalar>(sigma());
-  state.relaxation = static_cast<Scalar>(relaxation_);
+  state.relaxation = static_cast<Scalar>(parameters_.relaxation);
   return state;
 }
 
@@ -192,23 +181,9 @@ compact::RowSums ActiveSplitting<Scalar, Dim>::pass_rows(RowLoop loop) {
   });
 }
 
-// As in CompactSplitting.
 template <class Scalar, int Dim>
-Step ActiveSplitting<Scalar, Dim>::iterate(bool measures, splitting::Due due) {
-  if (measures) rows_.set_difference();
-  const double of_cells = pass_cells(measures, relaxation_);
-  collect_divergence();
-  multigrid_.cycle(rows_.residual.data());
-  const auto sums = rows_.with_dual(due != splitting::Due::kNothing, measures, [&] {
-    return pass_rows(measures ? loops_->y_step_measured : loops_->y_step);
-  });
-  const double scale = 1 / (sigma() * sigma());
-  return {scale * sums.change, measures ? scale * (of_cells + sums.violation) : -1};
-}
-
-template <class Scalar, int Dim>
-splitting::BalanceLengths ActiveSplitting<Scalar, Dim>::lengths_since_start() {
-  const auto moved = rows_.moved();
+splitting::BalanceLengths ActiveSplitting<Scalar, Dim>::squared_lengths(
+    const AlignedArray<Scalar>& moved) {
   std::vector<splitting::BalanceLengths> parts(patches_.patches.size());
   for_patches(true, [&](Index p, PatchRows<Scalar>& rows, const State& state) {
     const Patch& patch = patches_.patches[p];
@@ -229,74 +204,17 @@ splitting::BalanceLengths ActiveSplitting<Scalar, Dim>::lengths_since_start() {
   return lengths;
 }
 
-// As in CompactSplitting.
 template <class Scalar, int Dim>
-void ActiveSplitting<Scalar, Dim>::set_penalty(double penalty) {
-  const auto factor = static_cast<Scalar>(penalty / penalty_);
-  penalty_ = penalty;
-  rows_.scale_interior(factor);
+void ActiveSplitting<Scalar, Dim>::scale_boundary(Scalar factor) {
   for (std::size_t k = rows_.W.size(); k < rows_.a.size(); ++k) rows_.a[k] *= factor;
-  pass_rows(loops_->w_step);
 }
 
-// As in CompactSplitting.
-template <class Scalar, int Dim>
-void ActiveSplitting<Scalar, Dim>::store_in_single() {
-  const std::size_t size = Dim * patches_.num_numbers;
-  AlignedArray<unsigned char> exact(size * sizeof(Scalar));
-  loops_->decode(P_.data(), 0, reinterpret_cast<Scalar*>(exact.data()), size);
-  P_ = std::move(exact);
-  loops_ = &select_kernel<compact::Kernel<Scalar, Dim>>().exact;
-  set_radii(problem_, metric_, unit_, *loops_, patches_);
-}
-
-template <class Scalar, int Dim>
-Scalar ActiveSplitting<Scalar, Dim>::weight_at(std::size_t place) const {
-  return static_cast<Scalar>(0.5 / sigma()) * (rows_.a[place] + rows_.W[place]);
-}
-
-// Writes the values of a vertex for all control points; zero for inactive pairs.
-template <class Scalar, int Dim>
-template <class NumberAt>
-void ActiveSplitting<Scalar, Dim>::spread(Index vertex, const NumberAt& number_at,
-                                          double* numbers) const {
-  std::fill_n(numbers, n_, 0.0);
-  const Index row = data_.row_of[vertex];
-  const std::size_t start = lists_.starts[row];
-  for (Index j = 0; j < lists_.counts[row]; ++j) {
-    numbers[lists_.items[start + j]] = number_at(start + j);
-  }
-}
-
-template <class Scalar, int Dim>
-void ActiveSplitting<Scalar, Dim>::read_weights(Index vertex, double* weights) const {
-  spread(
-      vertex, [this](std::size_t place) { return weight_at(place); }, weights);
-}
-
-template <class Scalar, int Dim>
-double ActiveSplitting<Scalar, Dim>::state_scalars_per_cell() const {
-  const std::size_t numbers = rows_.size() + left_.size() + bases_.size();
-  const double cell_numbers = static_cast<double>(P_.size()) / sizeof(Scalar);
-  return (static_cast<double>(numbers) + cell_numbers) / n_ / problem_.mesh.num_cells();
-}
-
-// a = sigma w on the lists, boundary rows included.
+// Truncated weights must be compensated elsewhere in the row.
 template <class Scalar, int Dim>
 void ActiveSplitting<Scalar, Dim>::set_weights(const VectorsAt<1>& weights) {
-  const auto of_vertex = with_known_values(problem_, weights);
-  parallel_for(problem_.mesh.num_vertices(), [&](Index v) {
-    const Eigen::VectorXd numbers = of_vertex(v);
-    const Index row = data_.row_of[v];
-    const std::size_t start = lists_.starts[row];
-    for (Index j = 0; j < lists_.counts[row]; ++j) {
-      rows_.a[start + j] = static_cast<Scalar>(sigma() * numbers[lists_.items[start + j]]);
-    }
-  });
-  // Truncated weights must be compensated elsewhere in the row.
+  Base::set_weights(weights);
   std::fill_n(rows_.residual.data(), rows_.residual.size(), Scalar(0));
   pass_rows(loops_->correct);
-  std::copy_n(rows_.a.data(), rows_.W.size(), rows_.W.data());
 }
 
 template <class Scalar, int Dim>
@@ -308,86 +226,77 @@ void ActiveSplitting<Scalar, Dim>::set_cell_dual(const VectorsAt<Dim>& flux_dens
 }
 
 template <class Scalar, int Dim>
-void ActiveSplitting<Scalar, Dim>::set_vertex_dual(const VectorsAt<1>& vertex_dual) {
-  const std::size_t num_rows = has_vertex_dual() ? data_.vertices.size() : 0;
-  parallel_for(num_rows, [&](std::size_t row) {
-    const std::size_t start = lists_.starts[row];
-    Eigen::VectorXd numbers = Eigen::VectorXd::Zero(n_);
-    if (vertex_dual) numbers = vertex_dual(data_.vertices[row]);
-    for (Index j = 0; j < lists_.counts[row]; ++j) {
-      rows_.S[start + j] = static_cast<Scalar>(sigma() * numbers[lists_.items[start + j]]);
-      rows_.residual[start + j] = data_.vertex_metric[row] * rows_.S[start + j];
-    }
-  });
-}
-
-// As in CompactSplitting: subtracts the effect of the duals on the weights from W.
-template <class Scalar, int Dim>
-void ActiveSplitting<Scalar, Dim>::start(const Start<Dim>& start, bool balances) {
-  set_weights(start.weights);
-  set_cell_dual(start.flux_density);
-  set_vertex_dual(start.vertex_dual_at(penalty_));
-  pass_cells(false, 0);
-  collect_divergence();
-  multigrid_.cycle(rows_.residual.data());
-  pass_rows(loops_->correct);
-  parallel_for(rows_.W.size(), [&](std::size_t k) { rows_.W[k] = 2 * rows_.W[k] - rows_.a[k]; });
-  pass_rows(loops_->w_step);
-  if (balances) rows_.keep_start();
-}
-
-// Boundary values are known to higher than single precision.
-template <class Scalar, int Dim>
-SparseWeights ActiveSplitting<Scalar, Dim>::sparse_weights() const {
-  std::vector<std::int64_t> starts{0};
-  std::vector<std::uint32_t> control_points;
-  std::vector<double> values;
-  const auto add = [&](Index i, double weight) {
-    if (weight == 0) return;
-    control_points.push_back(static_cast<std::uint32_t>(i));
-    values.push_back(weight);
-  };
-  Eigen::VectorXd given(n_);
-  for (Index v = 0; v < problem_.mesh.num_vertices(); ++v) {
-    const auto list = active_.of(v);
-    if (problem_.boundary.is_interior(v)) {
-      Index place = 0;
-      for (const ControlPoint i : list) add(i, weight(v, place++));
-    } else {
-      given.setZero();
-      problem_.boundary.scatter(problem_.boundary.boundary_index[v], given);
-      for (const ControlPoint i : list) add(i, given[i]);
-    }
-    starts.push_back(static_cast<std::int64_t>(values.size()));
-  }
-  return {n_, std::move(starts), std::move(control_points), std::move(values)};
-}
-
-template <class Scalar, int Dim>
-Eigen::VectorXd ActiveSplitting<Scalar, Dim>::vertex_dual_at(Index vertex) const {
-  Eigen::VectorXd dual(n_);
-  spread(
-      vertex, [this](std::size_t place) { return rows_.vertex_dual(place) / sigma(); },
-      dual.data());
-  return dual;
-}
-
-template <class Scalar, int Dim>
-Vectors<Dim> ActiveSplitting<Scalar, Dim>::flux_density(Index cell) const {
-  if (is_boundary_cell(problem_, cell)) return boundary_flux_density(problem_, cell);
-  Vectors<Dim> density = Vectors<Dim>::Zero(n_, Dim);
+Vectors<Dim> ActiveSplitting<Scalar, Dim>::cell_dual(Index cell) const {
+  Vectors<Dim> dual = Vectors<Dim>::Zero(n_, Dim);
   const Index k = patches_.place_of_cell[cell];
   const Patch& patch = patches_.patches[k / kPatchCells];
   AlignedArray<Scalar> rows(Dim * patch.stride);
   loops_->decode(P_.data(), Dim * patch.number_of(k), rows.data(), Dim * patch.stride);
-  const double scale = 1 / compact::dual_scale(problem_, metric_, unit_, cell);
   for (std::size_t j = 0; j < patch.stride; ++j) {
     const Index i = patches_.items[patch.first_item + j];
     if (i >= n_) break;
-    for (int d = 0; d < Dim; ++d) density(i, d) = scale * rows[d * patch.stride + j];
+    for (int d = 0; d < Dim; ++d) dual(i, d) = rows[d * patch.stride + j];
   }
-  make_admissible(problem_, cell, density);
-  return density;
+  return dual;
+}
+
+// A larger set makes a new splitting, which starts from this one.
+template <class Scalar, int Dim>
+int ActiveSplitting<Scalar, Dim>::extend(const Milestone& at) {
+  const bool looks = at.ends || at.made == since_ + plan::kBetweenLooks;
+  if (looks || this->rule_.due(at.made) != splitting::Due::kNothing) since_ = at.made;
+  if (!looks) return 0;
+  auto more = larger_set(at);
+  if (more.items.size() <= active_.items.size()) return 0;
+  ++growths_;
+  auto parameters = parameters_;
+  parameters.penalty = this->penalty() / parameters_.part;
+  parameters.half = this->stores_half();
+  parameters.balances = false;
+  ActiveSplitting larger(problem_, metric_, parameters, std::move(more));
+  larger.start(this->state());
+  active_ = std::move(larger.active_);
+  lists_ = std::move(larger.lists_);
+  targets_ = std::move(larger.targets_);
+  bases_ = std::move(larger.bases_);
+  patches_ = std::move(larger.patches_);
+  multigrid_ = std::move(larger.multigrid_);
+  left_ = std::move(larger.left_);
+  data_ = std::move(larger.data_);
+  rows_ = std::move(larger.rows_);
+  P_ = std::move(larger.P_);
+  return plan::kAfterGrowth;
+}
+
+// The active set, extended if weights at its border exceed a small part of the estimated error,
+// because they would continue beyond; otherwise empty.
+template <class Scalar, int Dim>
+ActiveLists ActiveSplitting<Scalar, Dim>::larger_set(const Milestone& at) const {
+  const double all = static_cast<double>(n_) * problem_.mesh.num_vertices();
+  const auto half = static_cast<Scalar>(0.5 / sigma());
+  const auto weight = [&](Index v, Index place) -> double {
+    const std::size_t k = lists_->starts[data_.row_of[v]] + place;
+    return half * (rows_.a[k] + rows_.W[k]);
+  };
+  const double at_ends = squared_at_ends<Dim>(problem_, active_, weight);
+  if (!(at_ends > plan::kEndsOfError * at.error * all)) return {};
+  return grown<Dim>(problem_, active_, threshold_for(at.tolerance), weight);
+}
+
+template <class Scalar, int Dim>
+Weights ActiveSplitting<Scalar, Dim>::weights() const {
+  const auto of_vertex = with_known_values(problem_, this->state().weights);
+  return {{}, SparseWeights::of(n_, problem_.mesh.num_vertices(), of_vertex)};
+}
+
+template <class Scalar, int Dim>
+void ActiveSplitting<Scalar, Dim>::describe(SolveReport& report) const {
+  const std::size_t numbers = rows_.size() + left_.size() + bases_->size();
+  const double cell_numbers = static_cast<double>(P_.size()) / sizeof(Scalar);
+  report.penalty = this->penalty();
+  report.state_scalars_per_cell =
+      (static_cast<double>(numbers) + cell_numbers) / n_ / problem_.mesh.num_cells();
+  report.active_set = {density(problem_, active_), growths_};
 }
 
 FLBC_INSTANTIATE_SCALAR_CLASS(ActiveSplitting)

@@ -8,7 +8,6 @@
 
 #include "base/aligned_array.h"
 #include "base/parallel.h"
-#include "solver/start/start.h"
 
 namespace flbc::splitting {
 
@@ -20,6 +19,7 @@ struct RowState {
   AlignedArray<Scalar> difference;      // w - W of all rows, where measured
   AlignedArray<Scalar> start;           // w at the start of interior rows, while it is needed
 
+  RowState() = default;
   RowState(std::size_t all, std::size_t interior, bool non_negative)
       : a(all), W(interior), S(non_negative ? interior : 0), residual(interior) {}
 
@@ -85,22 +85,5 @@ struct RowState {
     return S[k] - 0.5 * twice;
   }
 };
-
-//! Views of a splitting. \param n  number of control points
-template <int Dim, class Splitting>
-Start<Dim> start_of(const Splitting& splitting, Index n) {
-  Start<Dim> start;
-  start.penalty = splitting.penalty();
-  start.weights = [&splitting, n](Index v) {
-    Eigen::VectorXd weights(n);
-    splitting.read_weights(v, weights.data());
-    return weights;
-  };
-  start.flux_density = [&splitting](Index s) { return splitting.flux_density(s); };
-  if (splitting.has_vertex_dual()) {
-    start.vertex_dual = [&splitting](Index v) { return splitting.vertex_dual_at(v); };
-  }
-  return start;
-}
 
 }  // namespace flbc::splitting
