@@ -104,7 +104,7 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, SplittingContinuesFromItsOwnOptimum) {
   first.start({});
   first.iterate(0, 3000, false);
   const WeightMatrix weights = first.all_weights();
-  const VectorsAt<1> own_dual = [&](Index v) { return first.vertex_dual_at(v); };
+  const VectorsAt<1> own_dual = first.state().vertex_dual;
   const auto moved = [&](const VectorsAt<Dim>& flux_density, const VectorsAt<1>& dual) {
     compact::CompactSplitting<double, Dim> second(problem, metric, {0.016, 1.9});
     second.start(

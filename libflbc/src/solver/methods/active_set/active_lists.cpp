@@ -103,31 +103,6 @@ ActiveLists completed(const LbcProblem<Dim>& problem, const VectorsAt<1>& weight
   });
 }
 
-// Calls action(place, u) for the entries in the list of an interior vertex whose control points are
-// missing at another interior vertex u of the same cell, in order.
-template <int Dim, class Action>
-void for_missing(const LbcProblem<Dim>& problem, const VertexCells& around,
-                 const ActiveLists& active, Index v, const Action& action) {
-  std::vector<Index> neighbours;
-  for (const Index s : around.cells_of(v)) {
-    for (const Index u : problem.mesh.cells.col(s)) {
-      if (u != v && problem.boundary.is_interior(u)) neighbours.push_back(u);
-    }
-  }
-  std::sort(neighbours.begin(), neighbours.end());
-  neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
-  const auto list = active.of(v);
-  for (const Index u : neighbours) {
-    const auto other = active.of(u);
-    const ControlPoint* theirs = other.first;
-    for (const ControlPoint* item = list.first; item != list.last; ++item) {
-      while (theirs != other.last && *theirs < *item) ++theirs;
-      if (theirs == other.last || *theirs != *item)
-        action(static_cast<Index>(item - list.first), u);
-    }
-  }
-}
-
 }  // namespace
 
 double threshold_for(double tolerance) {
@@ -214,16 +189,25 @@ template <int Dim>
 double squared_at_ends(const LbcProblem<Dim>& problem, const ActiveLists& active,
                        const WeightInList& weight) {
   const VertexCells around(problem.mesh);
+  const auto is_end = [&](Index v, ControlPoint i) {
+    for (const Index s : around.cells_of(v)) {
+      for (const Index u : problem.mesh.cells.col(s)) {
+        const auto other = active.of(u);
+        if (problem.boundary.is_interior(u) && !std::binary_search(other.first, other.last, i)) {
+          return true;
+        }
+      }
+    }
+    return false;
+  };
   const auto interior = problem.boundary.interior_vertices();
   return parallel_sum(static_cast<Index>(interior.size()), 0.0, [&](Index begin, Index end) {
     double sum = 0;
-    std::vector<bool> is_end;
     for (Index k = begin; k < end; ++k) {
-      const Index v = interior[k];
-      is_end.assign(active.start[v + 1] - active.start[v], false);
-      for_missing(problem, around, active, v, [&](Index place, Index) { is_end[place] = true; });
-      for (Index place = 0; place < static_cast<Index>(is_end.size()); ++place) {
-        const double w = is_end[place] ? weight(v, place) : 0;
+      const auto list = active.of(interior[k]);
+      for (const ControlPoint* i = list.first; i != list.last; ++i) {
+        if (!is_end(interior[k], *i)) continue;
+        const double w = weight(interior[k], static_cast<Index>(i - list.first));
         sum += w * w;
       }
     }

@@ -205,7 +205,9 @@ splitting::BalanceLengths ActiveSplitting<Scalar, Dim>::squared_lengths(
 }
 
 template <class Scalar, int Dim>
-void ActiveSplitting<Scalar, Dim>::scale_boundary(Scalar factor) {
+void ActiveSplitting<Scalar, Dim>::set_penalty(double penalty) {
+  const auto factor = static_cast<Scalar>(penalty / this->penalty());
+  Base::set_penalty(penalty);
   for (std::size_t k = rows_.W.size(); k < rows_.a.size(); ++k) rows_.a[k] *= factor;
 }
 

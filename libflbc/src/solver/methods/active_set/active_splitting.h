@@ -55,7 +55,7 @@ class ActiveSplitting final : public splitting::Splitting<Scalar, Dim> {
   Vectors<Dim> cell_dual(Index cell) const override;
   void set_cell_dual(const VectorsAt<Dim>& flux_density) override;
   void set_radii() override { active_set::set_radii(problem_, metric_, unit_, *loops_, patches_); }
-  void scale_boundary(Scalar factor) override;
+  void set_penalty(double penalty) override;
   void set_weights(const VectorsAt<1>& weights) override;
   int extend(const Milestone& at) override;
   ActiveLists larger_set(const Milestone& at) const;

@@ -119,32 +119,8 @@ void set_constraints(const LbcProblem<Dim>& problem, std::size_t stride,
   }
 }
 
-template <class Scalar, int Dim>
-void set_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
-               const splitting::ColumnSlices& slices, const Loops<Scalar, Dim>& loops,
-               CompactData<Scalar, Dim>& data) {
-  const Index n = problem.num_control_points();
-  data.radius = AlignedArray<unsigned char>(data.cells.size() * slices.stride() * loops.bytes);
-  parallel_for(data.cells.size(), [&](std::size_t first, std::size_t last) {
-    AlignedArray<Scalar> row(slices.stride());
-    for (std::size_t k = first; k < last; ++k) {
-      const Index s = data.cell_index[k];
-      const double scale = dual_scale(problem, metric, unit, s);
-      const Eigen::VectorXd phi = problem.phi.col(s);
-      for (Index i = 0; i < n; ++i) {
-        row[i] = static_cast<Scalar>(scale * std::max(phi[i], kSmallestPhi));
-      }
-      slices.for_each(k, data.cells.size(),
-                      [&](std::size_t begin, std::size_t width, std::size_t place) {
-                        loops.encode(row.data() + begin, data.radius.data(), place, width);
-                      });
-    }
-  });
-}
-
 FLBC_INSTANTIATE_FUNCTION(radius_unit)
 FLBC_INSTANTIATE_SCALAR_FUNCTION(make_rows_and_cells)
 FLBC_INSTANTIATE_SCALAR_FUNCTION(set_constraints)
-FLBC_INSTANTIATE_SCALAR_FUNCTION(set_radii)
 
 }  // namespace flbc::compact

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/aligned_array.h"
+#include "base/parallel.h"
 #include "flbc/lbc_problem.h"
 #include "mesh/cell_geometry.h"
 #include "solver/methods/splitting/column_slices.h"
@@ -62,10 +63,26 @@ template <class Scalar, int Dim>
 void set_constraints(const LbcProblem<Dim>& problem, std::size_t stride,
                      CompactData<Scalar, Dim>& data);
 
-//! The radii in slices, in the storage format of the loops.
-template <class Scalar, int Dim>
-void set_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
-               const splitting::ColumnSlices& slices, const Loops<Scalar, Dim>& loops,
-               CompactData<Scalar, Dim>& data);
+//! Stores values of all cells in slices, in the format of the loops, `Rows` per control point.
+//! \param of_cell  n x Rows values of a cell of the mesh
+template <int Rows, class Scalar, int Dim, class OfCell>
+void store_in_cells(const CompactData<Scalar, Dim>& data, const Loops<Scalar, Dim>& loops,
+                    const splitting::ColumnSlices& slices, AlignedArray<unsigned char>& stored,
+                    const OfCell& of_cell) {
+  const std::size_t num_rows = data.cells.size() * Rows;
+  parallel_for(data.cells.size(), [&](std::size_t first, std::size_t last) {
+    AlignedArray<Scalar> row(slices.stride());
+    for (std::size_t k = first; k < last; ++k) {
+      const Eigen::Matrix<double, Eigen::Dynamic, Rows> values = of_cell(data.cell_index[k]);
+      for (int r = 0; r < Rows; ++r) {
+        for (Index i = 0; i < values.rows(); ++i) row[i] = static_cast<Scalar>(values(i, r));
+        slices.for_each(k * Rows + r, num_rows,
+                        [&](std::size_t begin, std::size_t width, std::size_t place) {
+                          loops.encode(row.data() + begin, stored.data(), place, width);
+                        });
+      }
+    }
+  });
+}
 
 }  // namespace flbc::compact

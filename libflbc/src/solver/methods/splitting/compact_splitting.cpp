@@ -123,11 +123,16 @@ splitting::BalanceLengths CompactSplitting<Scalar, Dim>::squared_lengths(
 
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::set_radii() {
-  compact::set_radii(problem_, metric_, unit_, slices_, *loops_, data_);
+  data_.radius = AlignedArray<unsigned char>(data_.cells.size() * stride_ * loops_->bytes);
+  store_in_cells<1>(data_, *loops_, slices_, data_.radius, [&](Index s) -> Eigen::VectorXd {
+    return dual_scale(problem_, metric_, unit_, s) * problem_.phi.col(s).cwiseMax(kSmallestPhi);
+  });
 }
 
 template <class Scalar, int Dim>
-void CompactSplitting<Scalar, Dim>::scale_boundary(Scalar) {
+void CompactSplitting<Scalar, Dim>::set_penalty(double penalty) {
+  if (penalty == this->penalty()) return;
+  Base::set_penalty(penalty);
   Eigen::VectorXd row(n_);
   for (std::size_t b = 0; b < problem_.boundary.vertices.size(); ++b) {
     row.setZero();
@@ -180,22 +185,9 @@ void CompactSplitting<Scalar, Dim>::begin_from_weights() {
 
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::set_cell_dual(const VectorsAt<Dim>& flux_density) {
-  const auto set_cells = [&](std::size_t begin, std::size_t end) {
-    AlignedArray<Scalar> row(stride_);
-    for (std::size_t k = begin; k < end; ++k) {
-      const Index s = data_.cell_index[k];
-      const double scale = dual_scale(problem_, metric_, unit_, s);
-      const Vectors<Dim> density = flux_density(s);
-      for (int d = 0; d < Dim; ++d) {
-        for (Index i = 0; i < n_; ++i) row[i] = static_cast<Scalar>(scale * density(i, d));
-        slices_.for_each(k * Dim + d, data_.cells.size() * Dim,
-                         [&](std::size_t first, std::size_t width, std::size_t place) {
-                           loops_->encode(row.data() + first, P_.data(), place, width);
-                         });
-      }
-    }
-  };
-  parallel_for(data_.cells.size(), set_cells);
+  store_in_cells<Dim>(data_, *loops_, slices_, P_, [&](Index s) -> Vectors<Dim> {
+    return dual_scale(problem_, metric_, unit_, s) * flux_density(s);
+  });
 }
 
 // ---- results ------------------------------------------------------------------------------------

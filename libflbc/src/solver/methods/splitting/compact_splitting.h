@@ -97,7 +97,7 @@ class CompactSplitting final : public splitting::Splitting<Scalar, Dim> {
   Vectors<Dim> cell_dual(Index cell) const override;
   void set_cell_dual(const VectorsAt<Dim>& flux_density) override;
   void set_radii() override;
-  void scale_boundary(Scalar factor) override;
+  void set_penalty(double penalty) override;
 
   const std::size_t stride_;
   const splitting::ColumnSlices slices_;  // one per thread; P and radii are in their order

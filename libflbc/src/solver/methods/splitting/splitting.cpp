@@ -94,14 +94,10 @@ void Splitting<Scalar, Dim>::measure_paper_residuals(AlignedArray<Scalar> moved,
   step.dual = penalty_ * std::sqrt(of_cells + of_rows) / sigma() / (components * n_);
 }
 
-// Keeps weights and duals. The w_step that waited for it must follow.
 template <class Scalar, int Dim>
 void Splitting<Scalar, Dim>::set_penalty(double penalty) {
-  if (penalty == penalty_) return;
-  const auto factor = static_cast<Scalar>(penalty / penalty_);
+  rows_.scale_interior(static_cast<Scalar>(penalty / penalty_));
   penalty_ = penalty;
-  rows_.scale_interior(factor);
-  scale_boundary(factor);
 }
 
 template <class Scalar, int Dim>

@@ -89,8 +89,8 @@ class Splitting : public Iteration<Dim> {
   virtual Vectors<Dim> cell_dual(Index cell) const = 0;
   virtual void set_cell_dual(const VectorsAt<Dim>& flux_density) = 0;
   virtual void set_radii() = 0;
-  //! The boundary rows of a after a change of sigma by a factor.
-  virtual void scale_boundary(Scalar factor) = 0;
+  //! Keeps weights and duals of interior rows. The w_step that waited for it must follow.
+  virtual void set_penalty(double penalty);
   //! Sets a, as sigma w. \param weights  of an interior vertex
   virtual void set_weights(const VectorsAt<1>& weights);
   //! Adds pairs. \return iterations to make before the run may end
@@ -115,7 +115,6 @@ class Splitting : public Iteration<Dim> {
   void for_row(Index vertex, const Body& body) const;
   Eigen::VectorXd vertex_dual_at(Index vertex) const;
   void set_vertex_dual(const VectorsAt<1>& vertex_dual);
-  void set_penalty(double penalty);
   AlignedArray<Scalar> all_rows_of_w() const;
   void measure_paper_residuals(AlignedArray<Scalar> moved, double violation, Step& step);
 };
