@@ -189,24 +189,25 @@ template <int Dim>
 double squared_at_ends(const LbcProblem<Dim>& problem, const ActiveLists& active,
                        const WeightInList& weight) {
   const VertexCells around(problem.mesh);
-  const auto is_end = [&](Index v, ControlPoint i) {
-    for (const Index s : around.cells_of(v)) {
-      for (const Index u : problem.mesh.cells.col(s)) {
-        const auto other = active.of(u);
-        if (problem.boundary.is_interior(u) && !std::binary_search(other.first, other.last, i)) {
-          return true;
-        }
-      }
-    }
-    return false;
-  };
   const auto interior = problem.boundary.interior_vertices();
   return parallel_sum(static_cast<Index>(interior.size()), 0.0, [&](Index begin, Index end) {
     double sum = 0;
+    std::vector<Index> neighbours;
     for (Index k = begin; k < end; ++k) {
+      neighbours.clear();
+      for (const Index s : around.cells_of(interior[k])) {
+        for (const Index u : problem.mesh.cells.col(s)) {
+          if (problem.boundary.is_interior(u)) neighbours.push_back(u);
+        }
+      }
+      std::sort(neighbours.begin(), neighbours.end());
+      neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
       const auto list = active.of(interior[k]);
       for (const ControlPoint* i = list.first; i != list.last; ++i) {
-        if (!is_end(interior[k], *i)) continue;
+        const bool is_end = std::any_of(neighbours.begin(), neighbours.end(), [&](Index u) {
+          return !std::binary_search(active.of(u).first, active.of(u).last, *i);
+        });
+        if (!is_end) continue;
         const double w = weight(interior[k], static_cast<Index>(i - list.first));
         sum += w * w;
       }
