@@ -10,6 +10,7 @@ function(flbc_optimise_lightly target)
 endfunction()
 
 # \param most  maximum number of files in one unit
+# \param ARGN  ACROSS_FOLDERS: files of different folders share units
 function(flbc_compile_in_units target most)
   get_target_property(sources ${target} SOURCES)
   get_target_property(folder ${target} SOURCE_DIR)
@@ -18,6 +19,9 @@ function(flbc_compile_in_units target most)
     cmake_path(GET source PARENT_PATH folder_of_source)
     cmake_path(GET folder_of_source FILENAME group)  # all files that include CGAL are in `cgal`
     string(MAKE_C_IDENTIFIER "${group}" group)
+    if(ACROSS_FOLDERS IN_LIST ARGN)
+      set(group files)
+    endif()
     if(NOT DEFINED files_in_${group})
       set(files_in_${group} 0)
     endif()

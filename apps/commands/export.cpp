@@ -116,9 +116,6 @@ struct ExportArguments {
 // Influences that every reader knows.
 constexpr Index kOneSet = 4;
 
-// Beyond that vertices visibly jitter.
-constexpr double kWorthReporting = 1e-5;
-
 void check_arguments(ExportArguments& arguments) {
   using gltf::WeightFormat;
   if (arguments.bits == 16) arguments.options.weight_format = WeightFormat::kUnsignedShort;
@@ -243,7 +240,7 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
               << ": " << phrase << '\n';
   }
   const double change = skin.position_change / size;
-  if (change > kWorthReporting) {
+  if (change > gltf::kVisibleChange) {
     const bool is_usd = arguments.options.format == gltf::SkinFormat::kUsda;
     std::cerr << "flbc: " << arguments.output << ": single precision, which "
               << (is_usd ? "USD" : "glTF") << " uses, moves vertices by up to " << change

@@ -41,7 +41,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 template <int Dim>
-void make_domain(Comparison<Dim>& all) {
+void mesh_domain(Comparison<Dim>& all) {
   const auto& arguments = all.arguments;
   SolveSettings settings;
   settings.cage = arguments.cage;
@@ -161,7 +161,7 @@ std::vector<Column<Dim>> columns_of(const std::vector<std::string>& methods) {
 
 template <int Dim>
 void solve_columns(Comparison<Dim>& all) {
-  make_domain(all);
+  mesh_domain(all);
   for (auto& column : all.columns) {
     if (!all.arguments.quiet) std::cerr << "flbc: " << column.name << '\n';
     try {

@@ -45,7 +45,7 @@ bool is_plain_name(const std::string& name) {
   return path.filename() == path && name != "." && name != "..";
 }
 
-constexpr int kColumn = 20;
+constexpr int kNameColumn = 20;
 
 }  // namespace
 
@@ -131,9 +131,10 @@ void RunFolder::add_text(const std::string& name, const std::string& facts,
 
 void RunFolder::print(const std::string& name, const std::string& facts) const {
   if (quiet_) return;
-  const auto indent = "\n" + std::string(2 + kColumn, ' ');
-  std::cerr << "  " << std::left << std::setw(kColumn) << name
-            << (isatty(STDERR_FILENO) != 0 ? wrapped(facts, 77 - kColumn, indent) : facts) << '\n';
+  const auto indent = "\n" + std::string(2 + kNameColumn, ' ');
+  std::cerr << "  " << std::left << std::setw(kNameColumn) << name
+            << (isatty(STDERR_FILENO) != 0 ? wrapped(facts, 77 - kNameColumn, indent) : facts)
+            << '\n';
 }
 
 void RunFolder::add_report(nlohmann::ordered_json& report, const std::string& facts) {

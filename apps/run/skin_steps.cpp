@@ -22,9 +22,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Beyond that vertices visibly jitter.
-constexpr double kWorthReporting = 1e-5;
-
 template <int Dim>
 std::vector<PointList<Dim>> points_of(const std::vector<Pose<Dim>>& poses) {
   std::vector<PointList<Dim>> points;
@@ -100,7 +97,7 @@ std::string facts_of(const gltf::ExportedSkin& skin, const Run<Dim>& run) {
           << "% max of the size";
   }
   const double change = skin.position_change / size;
-  if (change > kWorthReporting) {
+  if (change > gltf::kVisibleChange) {
     facts << "; single precision, which glTF uses, moves vertices by up to " << change
           << " of the size";
   }

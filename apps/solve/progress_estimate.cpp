@@ -17,7 +17,7 @@ std::string duration(double seconds) {
   return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
 }
 
-std::string number(double value) {
+std::string two_digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2g", value);
   return text;
@@ -99,8 +99,8 @@ std::string ProgressEstimate::line(const std::string& stage, double seconds) con
   std::string text = "solving " + bar(done_, last_seconds_ - first_seconds_);
   text += ", iteration " + std::to_string(last_.iteration);
   const double residual = std::max(last_.primal_residual, last_.dual_residual);
-  text += tolerance_ > 0 ? ", error " + number(last_.primal_residual * tolerance_)
-                         : ", residual " + number(residual);
+  text += tolerance_ > 0 ? ", error " + two_digits(last_.primal_residual * tolerance_)
+                         : ", residual " + two_digits(residual);
   return text.substr(0, kColumns);
 }
 

@@ -15,6 +15,9 @@
 
 namespace flbc::gltf {
 
+//! Displacements beyond this part of the model size make vertices visibly jitter.
+constexpr double kVisibleChange = 1e-5;
+
 enum class SkinFormat { kGlb, kUsda };
 
 struct SkinOptions {
