@@ -67,7 +67,7 @@ bool has_its_facets(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topolo
     if (f < 0 || f >= topology.num_facets()) return false;
     if ((topology.sides.col(f).array() == cell).count() != 1) return false;
     for (Index j = 0; j <= Dim; ++j) {
-      const Index found = (topology.facets.col(f).array() == mesh.cells(j, cell)).count();
+      const auto found = (topology.facets.col(f).array() == mesh.cells(j, cell)).count();
       if (found != (j == k ? 0 : 1)) return false;
     }
   }
