@@ -8,8 +8,6 @@
 #include <string>
 #include <utility>
 
-#include <Eigen/LU>
-
 #include "Pstream.H"
 #include "Time.H"
 #include "polyMeshGeometry.H"
@@ -17,6 +15,7 @@
 #include "syncTools.H"
 #include "unitConversion.H"
 
+#include "flbc/border.h"
 #include "flbc/errors.h"
 #include "flbc/evaluator.h"
 #include "flbc/io/cage_io.h"
@@ -76,22 +75,6 @@ Foam::boolList points_of_patches(const Foam::polyMesh& mesh, const Foam::diction
   return found;
 }
 
-// Whether a segment meets a facet.
-template <int Dim>
-bool cuts(const Cage<Dim>& cage, Eigen::Index facet, const Vector<Dim>& from,
-          const Vector<Dim>& to) {
-  constexpr double kRounding = 1e-9, kParallel = 1e-12;
-  const Vector<Dim> corner = cage.points.col(cage.facets(0, facet));
-  Eigen::Matrix<double, Dim, Dim> system;
-  for (int k = 1; k < Dim; ++k) system.col(k - 1) = cage.points.col(cage.facets(k, facet)) - corner;
-  system.col(Dim - 1) = from - to;
-  // OpenFOAM ends programs that divide by zero.
-  if (std::abs(system.determinant()) <= kParallel * system.colwise().norm().prod()) return false;
-  const Vector<Dim> place = system.inverse() * (from - corner);
-  return (place.array() > -kRounding).all() && place[Dim - 1] < 1 + kRounding &&
-         place.template head<Dim - 1>().sum() < 1 + kRounding;
-}
-
 }  // namespace
 
 //! The displacements of points.
@@ -110,7 +93,7 @@ class CageDeformer::MotionIn : public Motion {
       : evaluator_(std::move(cage),
                    io::read_domain<Dim>(in_case(mesh, dict.get<Foam::fileName>("domain"))),
                    io::read_weights(in_case(mesh, dict.get<Foam::fileName>("weights"))),
-                   OutsidePoints::kNearest, Foam::Pstream::parRun() ? 1 : 0) {
+                   OutsidePoints::kKeep, Foam::Pstream::parRun() ? 1 : 0) {
     for (const auto& pose : poses) {
       const auto file = in_case(mesh, pose.file);
       const auto soup = io::read_polygons(file);
@@ -129,7 +112,7 @@ class CageDeformer::MotionIn : public Motion {
   void add_to(Foam::pointField& points, std::size_t pose, double part) const override {
     PointList<Dim> shifts = displacements_[pose];
     if (part > 0) shifts += part * (displacements_[pose + 1] - displacements_[pose]);
-    const auto moved = evaluator_.move(placement_, evaluator_.pose(shifts));
+    const auto moved = evaluator_.displace(placement_, evaluator_.pose(shifts));
     for (std::size_t k = 0; k < inside_.size(); ++k) {
       for (int d = 0; d < Dim; ++d) {
         points[inside_[k]][static_cast<Foam::direction>(d)] +=
@@ -177,17 +160,18 @@ class CageDeformer::MotionIn : public Motion {
   void fix_cuts(const Foam::polyMesh& mesh, const Foam::pointField& points,
                 const std::vector<TimedPose>& poses) {
     const auto& cage = evaluator_.cage();
-    Foam::labelList is_cut(cage.size(), 0);
-    std::vector<bool> is_inside(static_cast<std::size_t>(points.size()), false);
-    for (const auto p : inside_) is_inside[static_cast<std::size_t>(p)] = true;
+    std::vector<bool> is_still(static_cast<std::size_t>(points.size()), true);
+    for (const auto p : inside_) is_still[static_cast<std::size_t>(p)] = false;
+    EdgeList edges;
     for (const auto& edge : mesh.edges()) {
-      if (is_inside[edge.start()] == is_inside[edge.end()]) continue;
-      const auto from = to_vector<Dim>(points[edge.start()]);
-      const auto to = to_vector<Dim>(points[edge.end()]);
-      for (Eigen::Index f = 0; f < cage.facets.cols(); ++f) {
-        if (!cuts<Dim>(cage, f, from, to)) continue;
-        for (const Index i : cage.facets.col(f)) is_cut[i] = 1;
-      }
+      const auto from = static_cast<Index>(edge.start()), to = static_cast<Index>(edge.end());
+      if (is_still[from] != is_still[to]) edges.ends.push_back({from, to});
+    }
+    PointList<Dim> places(Dim, points.size());
+    forAll(points, p) places.col(p) = to_vector<Dim>(points[p]);
+    Foam::labelList is_cut(cage.size(), 0);
+    for (const Index i : control_points_at(cage, find_crossings(cage, places, is_still, edges))) {
+      is_cut[i] = 1;
     }
     Foam::Pstream::listCombineGather(is_cut, Foam::maxEqOp<Foam::label>());
     Foam::Pstream::listCombineScatter(is_cut);

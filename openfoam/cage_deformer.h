@@ -18,9 +18,10 @@ struct TimedPose {
   Foam::fileName file;
 };
 
-//! Poses of a cage as displacements of the points of one rank. Points outside the cage and points
-//! of fixed patches keep their exact positions. A displacement depends only on the position of the
-//! point, so ranks that share a point compute bit-identical positions.
+//! Poses of a cage as displacements of the points of one rank. Points outside the cage
+//! (OutsidePoints::kKeep) and points of fixed patches keep their exact positions. A displacement
+//! depends only on the position of the point, so ranks that share a point compute bit-identical
+//! positions.
 class CageDeformer {
  public:
   //! Reads the files and places the points. The entries of the dictionary:

@@ -49,7 +49,7 @@ void check_model(CheckReport<Dim>& report) {
   auto outside = points_outside(report.cage, points);
   NearestOnCage<Dim> farthest;
   for (const auto& point : nearest_on_cage(report.cage, points, outside)) {
-    if (farthest.point < 0 || point.distance > farthest.distance) farthest = point;
+    if (farthest.point < 0 || point.distance() > farthest.distance()) farthest = point;
   }
   report.model = ModelCheck<Dim>{std::move(points), std::move(outside), farthest};
 }

@@ -11,12 +11,15 @@
 #include "files/held_signals.h"
 #include "files/load.h"
 #include "files/movable_model.h"
+#include "flbc/bounding_box.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
 #include "poses/moved_by.h"
+#include "poses/outside.h"
 #include "poses/poses.h"
+#include "solve/cage_solver.h"
 #include "solve/domain_jacobians.h"
 #include "solve/weights_of_model.h"
 
@@ -155,22 +158,23 @@ template <int Dim>
 struct Binding {
   MovedBy<Dim> moved;
   DomainJacobians<Dim> jacobians;  // of no points, unless they are asked for
+  SparseWeights weights{};         // of the control points; empty for Green coordinates
 };
 
 // Weights that fit the model or domain mesh and all poses, and that belong to them as far as is
 // known.
 template <int Dim>
-SparseWeights load_weights(const PointList<Dim>& bound, const PointList<Dim>& rest,
+SparseWeights load_weights(const PointList<Dim>& bound, const RestCage<Dim>& rest,
                            const std::vector<Pose<Dim>>& poses, const DeformArguments& arguments) {
   const auto& file = arguments.domain.empty() ? arguments.file.model : arguments.domain;
   auto weights = io::read_weights(arguments.weights);
   const auto check_cage = [&](const std::string& name, const PointList<Dim>& control_points) {
     check_sizes(weights, control_points.cols(), bound.cols(), {arguments.weights, name, file});
   };
-  if (!arguments.rest.empty()) check_cage(arguments.rest, rest);
+  if (!arguments.rest.empty()) check_cage(arguments.rest, rest.points());
   for (const auto& pose : poses) check_cage(pose.name, pose.points);
   if (!arguments.rest.empty() && !arguments.is_relative) {
-    check_reproduction(weights, rest, bound, {arguments.weights, arguments.rest, file});
+    check_reproduction(weights, rest.cage(), bound, {arguments.weights, arguments.rest, file});
   }
   return weights;
 }
@@ -182,25 +186,32 @@ MovedBy<Dim> green_coordinates_of(const PointList<Dim>& points, const DeformArgu
 }
 
 template <int Dim>
-Binding<Dim> bind_points(const PointList<Dim>& points, const PointList<Dim>& rest,
+Binding<Dim> bind_points(const PointList<Dim>& points, const RestCage<Dim>& rest,
                          const std::vector<Pose<Dim>>& poses, const DeformArguments& arguments) {
   if (!arguments.method.empty()) return {green_coordinates_of(points, arguments), {}};
-  const auto moved_by = [&](SparseWeights weights) {
-    return arguments.is_relative ? by_displacements(weights, rest, points)
-                                 : by_control_points<Dim>(std::move(weights));
+  const auto moved_by = [&](const SparseWeights& weights) {
+    const auto at_rest = arguments.rest.empty() ? PointList<Dim>() : rest.points();
+    return by_weights<Dim>(weights, at_rest, points,
+                           arguments.is_relative ? 0 : kBoundaryTolerance);
   };
   if (arguments.domain.empty()) {
-    return {moved_by(load_weights(points, rest, poses, arguments)), {}};
+    auto weights = load_weights(points, rest, poses, arguments);
+    if (!arguments.quiet && !arguments.rest.empty() && !arguments.is_relative) {
+      warn_outside(weights, rest.cage(), points, arguments.file.model);
+    }
+    return {moved_by(weights), {}, std::move(weights)};
   }
   auto domain = io::read_domain<Dim>(arguments.domain);
   const auto weights = load_weights(domain.points, rest, poses, arguments);
   const auto cage = std::get<Cage<Dim>>(load_cage(arguments.rest));
-  const auto placement = naming(
+  const auto placement = placing<Dim>(
       arguments.file.model, [&] { return place_points(cage, domain, points, arguments.outside); });
+  const double size = bounding_box_diagonal(cage.points);
+  if (!arguments.quiet) warn_outside(placement, size, arguments.file.model);
   auto of_points = weights_at(cage, domain, weights, placement);
-  auto moved = moved_by(std::move(of_points));
-  if (!needs_jacobians(arguments)) return {std::move(moved), {}};
-  return {std::move(moved), {cage, std::move(domain), weights, placement}};
+  auto moved = moved_by(of_points);
+  if (!needs_jacobians(arguments)) return {std::move(moved), {}, std::move(of_points)};
+  return {std::move(moved), {cage, std::move(domain), weights, placement}, std::move(of_points)};
 }
 
 // Removes the files of a sequence that were new, unless all were written.
@@ -233,7 +244,7 @@ void write_results(const MovableModel<Dim>& model, const Binding<Dim>& binding,
                    const std::vector<std::string>& outputs, const DeformArguments& arguments) {
   NewFiles files;
   for (std::size_t k = 0; k < poses.size(); ++k) {
-    const auto points = deform(binding.moved.weights, poses[k].points);
+    const auto points = binding.moved.at(poses[k].points);
     const auto jacobians = binding.jacobians.at(poses[k].points);
     files.expect(outputs[k]);
     Eigen::VectorXd lengths;
@@ -241,6 +252,7 @@ void write_results(const MovableModel<Dim>& model, const Binding<Dim>& binding,
     const HeldSignals held;
     naming(outputs[k],
            [&] { model.write(outputs[k], points, lengths, displacement.largest, jacobians); });
+    if (!arguments.quiet) warn_inverted(model, points, outputs[k], poses[k].name);
   }
   if (!arguments.displacement.empty()) {
     const HeldSignals held;
@@ -272,8 +284,19 @@ void print_summary(const MovableModel<Dim>& model, const std::vector<Pose<Dim>>&
   }
 }
 
+// Of vertices without weights.
 template <int Dim>
-void deform_in_batches(const io::PointLayout& layout, const PointList<Dim>& rest,
+void warn_border(const MovableModel<Dim>& model, const RestCage<Dim>& rest,
+                 const SparseWeights& weights, const std::vector<Pose<Dim>>& poses,
+                 const DeformArguments& arguments) {
+  if (count_without_weights(weights) == 0) return;
+  const Border<Dim> border(rest.cage(), model.points(), model.edges(), weights);
+  const auto text = border.describe(poses);
+  if (!text.empty()) std::cerr << "flbc: " << arguments.file.model << ' ' << text << '\n';
+}
+
+template <int Dim>
+void deform_in_batches(const io::PointLayout& layout, const RestCage<Dim>& rest,
                        const std::vector<Pose<Dim>>& poses, const std::vector<std::string>& outputs,
                        const DeformArguments& arguments) {
   const auto& input = arguments.file.model;
@@ -289,18 +312,23 @@ void deform_in_batches(const io::PointLayout& layout, const PointList<Dim>& rest
                                  std::move(weights), outside);
   const auto start = std::chrono::steady_clock::now();
   NewFiles files;
-  double largest = 0;
+  MovedPoints all;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     files.expect(outputs[k]);
     const PointMotion motion{input, layout, outputs[k], arguments.outside, arguments.quiet};
-    largest = std::max(largest, deform_points(motion, evaluator, poses[k].points));
+    const auto moved = deform_points(motion, evaluator, poses[k].points);
+    all = {std::max(all.largest, moved.largest), moved.outside, moved.farthest};
   }
   files.keep();
   if (arguments.quiet) return;
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   std::cerr << arguments.file.output << ": " << layout.count << " vertices, " << poses.size()
             << (poses.size() == 1 ? " pose, " : " poses, ") << seconds.count()
-            << " s; largest displacement " << largest << '\n';
+            << " s; largest displacement " << all.largest;
+  if (all.outside > 0) {
+    std::cerr << "; " << all.outside << " vertices are outside the cage, by up to " << all.farthest;
+  }
+  std::cerr << '\n';
 }
 
 template <int Dim>
@@ -310,27 +338,29 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
   // Without a rest cage, the poses of a sequence must at least be poses of one cage.
   const bool has_rest = !arguments.rest.empty();
   const RestCage<Dim> cage(has_rest ? arguments.rest : cages.paths.front(), arguments.quiet);
-  const PointList<Dim> rest = has_rest ? cage.points() : PointList<Dim>();
-  auto poses = arguments.keyframes.empty() ? load_poses(cages, cage)
-                                           : load_keyframes<Dim>(arguments.keyframes, rest);
+  const auto poses = arguments.keyframes.empty()
+                         ? load_poses(cages, cage)
+                         : load_keyframes<Dim>(arguments.keyframes, cage.points());
   const auto outputs = name_outputs(poses, arguments.file.output);
   check_outputs(arguments, cages, outputs);
-  if (layout) return deform_in_batches<Dim>(*layout, rest, poses, outputs, arguments);
+  if (layout) return deform_in_batches<Dim>(*layout, cage, poses, outputs, arguments);
 
   const MovableModel<Dim> model(arguments.file);
-  const auto binding = bind_points(model.points(), rest, poses, arguments);
-  for (auto& pose : poses) pose.points = binding.moved.vectors(pose.points);
+  const auto binding = bind_points(model.points(), cage, poses, arguments);
   const auto start = std::chrono::steady_clock::now();
   Displacement displacement;
   if (!arguments.rest.empty()) {
-    displacement = measure_displacement(binding.moved.weights, model.points(), poses);
+    displacement = measure_displacement(binding.moved, model.points(), poses);
     if (!displacement.lengths.allFinite()) {
       throw InputError(poses[displacement.pose].name + ": displacements are not finite");
     }
   }
   write_results(model, binding, poses, displacement, outputs, arguments);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  if (!arguments.quiet) print_summary(model, poses, displacement, seconds.count(), arguments);
+  if (arguments.quiet) return;
+  print_summary(model, poses, displacement, seconds.count(), arguments);
+  if (has_rest && arguments.method.empty())
+    warn_border(model, cage, binding.weights, poses, arguments);
 }
 
 }  // namespace
@@ -368,7 +398,9 @@ void add_deform_command(CLI::App& app, int&) {
       "--pose", a.cages, "deformed cage: one or more files, or a pattern such as pose_%d.obj");
   command->add_option("--keyframes", a.keyframes, "poses as displacements of the rest cage")
       ->excludes(pose);
-  command->add_option("--rest", a.rest, "rest cage, to check that the weights belong to MODEL");
+  command->add_option("--rest", a.rest,
+                      "rest cage, to check that the weights belong to MODEL, and to move vertices "
+                      "outside of it (weights by --outside nearest)");
   auto* relative = command->add_flag(
       "--relative", a.is_relative,
       "add weighted displacements to MODEL, for weights that do not reproduce it (method bbw)");

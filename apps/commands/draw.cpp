@@ -129,10 +129,10 @@ PosedModel<Dim> load_posed(const Cage<Dim>& cage, const DrawArguments& arguments
   PosedModel<Dim> posed{load_shown_model<Dim>(arguments.model),
                         io::read_weights(arguments.weights)};
   check_sizes(posed.weights, cage.size(), posed.model.points.cols(), files);
-  check_reproduction<Dim>(posed.weights, cage.points, posed.model.points, files);
+  check_reproduction<Dim>(posed.weights, cage, posed.model.points, files);
   if (arguments.pose.empty()) return posed;
   posed.pose = RestCage<Dim>(arguments.cage).load_pose(arguments.pose);
-  posed.moved = deform<Dim>(posed.weights, posed.pose);
+  posed.moved = by_weights<Dim>(posed.weights, cage.points, posed.model.points).at(posed.pose);
   return posed;
 }
 

@@ -16,8 +16,10 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
+#include "flbc/placement.h"
 #include "flbc/sparse_weights.h"
 #include "gltf/skin.h"
+#include "poses/outside.h"
 #include "poses/poses.h"
 #include "solve/weights_of_model.h"
 #include "view/model_page.h"
@@ -139,17 +141,16 @@ void check_arguments(ExportArguments& arguments) {
 
 // Vertex groups of Blender, as a program.
 template <int Dim>
-void write_vertex_groups(const PointList<Dim>& rest, const PointList<Dim>& points,
-                         const EdgeList& edges, const SparseWeights& weights,
-                         const ExportArguments& arguments) {
+void write_vertex_groups(const Cage<Dim>& rest, const PointList<Dim>& points, const EdgeList& edges,
+                         const SparseWeights& weights, const ExportArguments& arguments) {
   const auto few = naming(arguments.model, [&] {
-    return reduce_influences<Dim>(rest, points, edges, weights, {},
-                                  {arguments.options.max_influences});
+    return reduce_influences<Dim>(rest.points, attached_points(rest, points, weights), edges,
+                                  weights, {}, {arguments.options.max_influences});
   });
-  const auto script = blender_script<Dim>(rest, few);
+  const auto script = blender_script<Dim>(rest.points, few);
   write_text(arguments.output, script);
   if (arguments.quiet) return;
-  std::cerr << arguments.output << ": " << rest.cols() << " vertex groups and bones, at most "
+  std::cerr << arguments.output << ": " << rest.size() << " vertex groups and bones, at most "
             << count_influences(few).max << " influences per vertex; " << script.size()
             << " bytes; run it in Blender with the imported model selected\n";
 }
@@ -220,9 +221,10 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
   const auto weights = io::read_weights(arguments.weights);
   const WeightFiles files{arguments.weights, arguments.cage, arguments.model};
   check_sizes(weights, rest.cols(), points.cols(), files);
-  check_reproduction(weights, rest, points, files);
+  check_reproduction(weights, cage.cage(), points, files);
+  if (!arguments.quiet) warn_outside(weights, cage.cage(), points, arguments.model);
   if (io::extension_of(arguments.output) == "py") {
-    return write_vertex_groups<Dim>(rest, points, model.edges(), weights, arguments);
+    return write_vertex_groups<Dim>(cage.cage(), points, model.edges(), weights, arguments);
   }
 
   auto options = arguments.options;

@@ -11,8 +11,10 @@
 #include "flbc/gradients.h"
 #include "flbc/io/files.h"
 #include "flbc/io/mesh_io.h"
+#include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/quality.h"
+#include "poses/outside.h"
 #include "report/report_json.h"
 #include "solve/cage_solver.h"
 
@@ -86,6 +88,17 @@ void save_gradients(const std::string& path, const CageSolver<Dim>& solver, bool
   io::write_weights(path, gradients_at(domain, weights, places));
 }
 
+// Of vertices without weights.
+template <int Dim>
+void warn_border(const Cage<Dim>& cage, const PointList<Dim>& model, const SparseWeights& weights,
+                 const SolveSettings& settings) {
+  if (settings.outside != OutsidePoints::kKeep || is_point_file(settings.model)) return;
+  const auto soup = io::read_polygons(settings.model);
+  const auto edges = edges_of_polygons(model, soup.polygons, soup.polylines);
+  const auto text = Border<Dim>(cage, model, edges, weights).describe({});
+  if (!text.empty()) std::cerr << "flbc: " << settings.model << ' ' << text << '\n';
+}
+
 template <int Dim>
 int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
   const auto& settings = arguments.settings;
@@ -110,7 +123,10 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
       io::write_file(arguments.report, [&](std::ostream& file) { file << json; });
     }
   }
-  if (!arguments.quiet) print_summary(arguments, solver, delivered);
+  if (!arguments.quiet) {
+    print_summary(arguments, solver, delivered);
+    warn_border(cage, model, rows, settings);
+  }
   return report_convergence(solver.report(), settings) ? kDone : kNotConverged;
 }
 

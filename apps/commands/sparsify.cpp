@@ -18,6 +18,7 @@
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/io/weights_triplets.h"
+#include "flbc/placement.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
 #include "poses/poses.h"
@@ -118,9 +119,10 @@ void sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments)
                                     model.points.cols());
   const auto before = load_weights(arguments, cage.points, model.points);
   const auto poses = load_poses<Dim>(arguments);
+  const ConnectedPoints<Dim> attached{attached_points(cage, model.points, before), model.edges};
   const auto start = std::chrono::steady_clock::now();
   const auto after = naming(arguments.points, [&] {
-    return make_sparse<Dim>(cage.points, model, before, poses, method, arguments);
+    return make_sparse<Dim>(cage.points, attached, before, poses, method, arguments);
   });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   Json report{{"method", method},
@@ -133,7 +135,7 @@ void sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments)
     report["options"]["max_influences"] = arguments.options.max_influences;
   }
   report["before"] = weights_json(arguments.weights, size_of_file(arguments.weights), before,
-                                  cage.points, model.points);
+                                  cage.points, attached.points);
   {
     const ProgressBar bar(arguments.quiet, "measuring the errors");
     report["error"] = errors_json<Dim>(
@@ -144,7 +146,7 @@ void sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments)
     const HeldSignals held;
     io::write_weights(arguments.output, after);
     report["after"] = weights_json(arguments.output, size_of_file(arguments.output), after,
-                                   cage.points, model.points);
+                                   cage.points, attached.points);
     if (!arguments.report.empty()) {
       io::write_file(arguments.report, [&](std::ostream& file) { file << to_text(report); });
     }

@@ -56,9 +56,11 @@ Transferred<Dim> from_domain(const Cage<Dim>& cage, const SparseWeights& weights
               {arguments.weights, arguments.cage, arguments.domain});
   const auto to = load_model<Dim>(arguments.to);
   const auto placement =
-      naming(arguments.to, [&] { return place_points(cage, domain, to, arguments.outside); });
+      placing<Dim>(arguments.to, [&] { return place_points(cage, domain, to, arguments.outside); });
+  const double size = bounding_box_diagonal(cage.points);
+  if (!arguments.quiet) warn_outside(placement, size, arguments.to);
   return {weights_at(cage, domain, weights, placement), placement.points,
-          describe(placement, bounding_box_diagonal(cage.points))};
+          describe(placement, size)};
 }
 
 template <int Dim>

@@ -131,12 +131,13 @@ void write_page(const ViewArguments& arguments, const CageFiles& poses) {
   const auto given = io::read_weights(arguments.weights);
   const WeightFiles files{arguments.weights, arguments.cage, arguments.model};
   check_sizes(given, content.cage.points.cols(), content.points.cols(), files);
-  check_reproduction<Dim>(given, content.cage.points, content.points, files);
+  const Cage<Dim> rest{content.cage.points, content.cage.facets};
+  check_reproduction<Dim>(given, rest, content.points, files);
   // The page moves larger models on the graphics card, which takes 8 influences per vertex.
   constexpr Eigen::Index kManyVertices = 100'000;
   const Index usual = content.points.cols() > kManyVertices ? 8 : view::kMostInfluences;
   content.weights = naming(arguments.weights, [&] {
-    return view::limit_influences(content.cage.points, content.points, given,
+    return view::limit_influences(rest.points, attached_points(rest, content.points, given), given,
                                   arguments.max_influences.value_or(usual));
   });
   const auto page = make_page(content);

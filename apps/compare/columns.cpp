@@ -94,8 +94,8 @@ double solve_green(const Comparison<Dim>& all, Column<Dim>& column) {
 // What holds for the deformation, of which weights of control points are only a part.
 template <int Dim>
 double reproduction_error(const Comparison<Dim>& all, const MovedBy<Dim>& moved) {
-  const auto rest = deform<Dim>(moved.weights, moved.vectors(all.cage.points));
-  return displacements<Dim>(all.points(), rest).maxCoeff() / bounding_box_diagonal(all.cage.points);
+  return displacements<Dim>(all.points(), moved.at(all.cage.points)).maxCoeff() /
+         bounding_box_diagonal(all.cage.points);
 }
 
 template <int Dim>
@@ -110,7 +110,7 @@ void measure(const Comparison<Dim>& all, double seconds, Column<Dim>& column) {
   constexpr int kFrames = 5;
   const auto& pose = all.pose.cols() > 0 ? all.pose : all.cage.points;
   const auto start = std::chrono::steady_clock::now();
-  for (int k = 0; k < kFrames; ++k) deform<Dim>(column.moved.weights, column.moved.vectors(pose));
+  for (int k = 0; k < kFrames; ++k) column.moved.at(pose);
   column.facts["seconds"] = seconds;
   column.facts["seconds_per_frame"] = seconds_since(start) / kFrames;
 }
@@ -122,9 +122,7 @@ void solve_column(const Comparison<Dim>& all, Column<Dim>& column) {
   column.of_mesh = weights_of_mesh(all, column);
   const double seconds = seconds_since(start);
   column.rows = weights_of_shape(all, column);
-  column.moved = column.settings.coordinates == Coordinates::kBiharmonic
-                     ? by_displacements(column.rows, all.cage.points, all.points())
-                     : by_control_points<Dim>(column.rows);
+  column.moved = by_weights<Dim>(column.rows, all.cage.points, all.points());
   measure(all, seconds, column);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 template <int Dim>
 PointList<Dim> posed_points(const Comparison<Dim>& all, const Column<Dim>& column) {
-  return deform<Dim>(column.moved.weights, column.moved.vectors(all.pose));
+  return column.moved.at(all.pose);
 }
 
 draw::WeightPictureOptions options_of(const CompareArguments& arguments) {

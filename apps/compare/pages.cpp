@@ -73,8 +73,7 @@ std::string viewer_of(const Comparison<Dim>& all, const Column<Dim>& column) {
   content.points = all.points();
   content.up = up_axis(arguments.view.up, content.points);
   content.surface = all.shape.surface;
-  content.is_relative = column.settings.coordinates == Coordinates::kBiharmonic;
-  content.weights = content.is_relative
+  content.weights = column.settings.coordinates == Coordinates::kBiharmonic
                         ? largest_weights(column.rows.dense())
                         : view::limit_influences<Dim>(all.cage.points, all.points(),
                                                       column.rows.dense(), view::kMostInfluences);

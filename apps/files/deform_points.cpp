@@ -17,18 +17,18 @@ template <int Dim>
                                std::int64_t first, const PointList<Dim>& batch) {
   std::ostringstream message;
   message << motion.input << ": point " << first + point.point << " at ("
-          << batch.col(point.point).transpose() << ") is outside the cage, " << point.distance
-          << " from it; add --outside nearest or --outside extend";
+          << batch.col(point.point).transpose() << ") is outside the cage, " << point.distance()
+          << " from it; add --outside keep or --outside nearest";
   throw InputError(message.str());
 }
 
 }  // namespace
 
 template <int Dim>
-double deform_points(const PointMotion& motion, const Evaluator<Dim>& evaluator,
-                     const PointList<Dim>& control_points) {
+MovedPoints deform_points(const PointMotion& motion, const Evaluator<Dim>& evaluator,
+                          const PointList<Dim>& control_points) {
   const auto pose = evaluator.pose(control_points);
-  double largest = 0;
+  MovedPoints all;
   ProgressBar bar(motion.quiet, "moving points");
   HeldSignals held;
   const auto move = [&](const PointList<Dim>& batch, std::int64_t first) -> PointList<Dim> {
@@ -38,7 +38,11 @@ double deform_points(const PointMotion& motion, const Evaluator<Dim>& evaluator,
       refuse_point(motion, placement.outside.front(), first, batch);
     }
     auto moved = evaluator.move(placement, pose);
-    largest = std::max(largest, (moved - batch).colwise().norm().maxCoeff());
+    all.largest = std::max(all.largest, (moved - batch).colwise().norm().maxCoeff());
+    all.outside += static_cast<std::int64_t>(placement.outside.size());
+    for (const auto& point : placement.outside) {
+      all.farthest = std::max(all.farthest, point.distance());
+    }
     bar.show("moving points",
              static_cast<double>(first + batch.cols()) / static_cast<double>(motion.layout.count));
     return moved;
@@ -46,10 +50,10 @@ double deform_points(const PointMotion& motion, const Evaluator<Dim>& evaluator,
   io::write_file(motion.output, [&](std::ostream& out) {
     io::rewrite_points<Dim>(motion.input, motion.layout, out, move);
   });
-  return largest;
+  return all;
 }
 
-template double deform_points(const PointMotion&, const Evaluator<2>&, const PointList<2>&);
-template double deform_points(const PointMotion&, const Evaluator<3>&, const PointList<3>&);
+template MovedPoints deform_points(const PointMotion&, const Evaluator<2>&, const PointList<2>&);
+template MovedPoints deform_points(const PointMotion&, const Evaluator<3>&, const PointList<3>&);
 
 }  // namespace flbc::app

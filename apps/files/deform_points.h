@@ -2,6 +2,7 @@
 // Moves files of points of any size, batch by batch.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "flbc/evaluator.h"
@@ -17,11 +18,18 @@ struct PointMotion {
   bool quiet = false;
 };
 
-//! Writes the output in the format of the input. \return the largest displacement
+//! Of the points in a pose.
+struct MovedPoints {
+  double largest = 0;        //!< displacement
+  std::int64_t outside = 0;  //!< number outside the cage
+  double farthest = 0;       //!< distance of those
+};
+
+//! Writes the output in the format of the input.
 //! \param evaluator  moves points outside to some place, whatever the policy of the motion
 //! \throws IoError, InputError; then the output is not written
 template <int Dim>
-double deform_points(const PointMotion& motion, const Evaluator<Dim>& evaluator,
-                     const PointList<Dim>& control_points);
+MovedPoints deform_points(const PointMotion& motion, const Evaluator<Dim>& evaluator,
+                          const PointList<Dim>& control_points);
 
 }  // namespace flbc::app

@@ -127,6 +127,17 @@ RestCage<Dim>::RestCage(const Cage<Dim>& cage, std::string name, bool quiet)
 }
 
 template <int Dim>
+Cage<Dim> RestCage<Dim>::cage() const {
+  if (polygons_.polygons.empty() && polygons_.polylines.empty()) return {points_, {}};
+  try {
+    auto cage = io::to_cage(polygons_, name_);
+    if (auto* of_dimension = std::get_if<Cage<Dim>>(&cage)) return std::move(*of_dimension);
+  } catch (const InputError&) {  // points suffice to move a model
+  }
+  return {points_, {}};
+}
+
+template <int Dim>
 PointList<Dim> RestCage<Dim>::load_pose(const std::string& path) const {
   auto pose = io::read_polygons(path);
   // Mere points have no faces to compare.

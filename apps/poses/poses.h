@@ -12,6 +12,7 @@
 #include "flbc/io/model.h"
 #include "flbc/types.h"
 #include "gltf/skin.h"
+#include "poses/moved_by.h"
 
 namespace flbc::app {
 
@@ -46,6 +47,9 @@ class RestCage {
   RestCage(const Cage<Dim>& cage, std::string name, bool quiet = false);
 
   const PointList<Dim>& points() const { return points_; }
+
+  //! The cage; without facets if the file has none, or is no cage of this dimension.
+  Cage<Dim> cage() const;
 
   //! The control points in another file, in the order of this cage. A note that the file has them
   //! in another order goes to the standard error output.
@@ -96,13 +100,13 @@ struct Displacement {
 
 //! \param points  Dim x P, where the model rests
 template <int Dim>
-Displacement measure_displacement(const SparseWeights& weights, const PointList<Dim>& points,
+Displacement measure_displacement(const MovedBy<Dim>& moved, const PointList<Dim>& points,
                                   const std::vector<Pose<Dim>>& poses) {
   Displacement result;
   result.lengths.resize(static_cast<Eigen::Index>(poses.size()), points.cols());
   for (std::size_t k = 0; k < poses.size(); ++k) {
     result.lengths.row(static_cast<Eigen::Index>(k)) =
-        displacements(points, deform(weights, poses[k].points)).transpose();
+        displacements<Dim>(points, moved.at(poses[k].points)).transpose();
   }
   if (result.lengths.size() == 0) return result;
   Eigen::Index pose = 0;

@@ -73,7 +73,7 @@ Json model_json(const CheckReport<Dim>& report) {
                            {"place", list(points.col(outside.front()))}};
   json["farthest_outside"] = {{"point", farthest.point},
                               {"place", list(points.col(farthest.point))},
-                              {"distance", farthest.distance}};
+                              {"distance", farthest.distance()}};
   return json;
 }
 
@@ -106,6 +106,7 @@ Json weights_json(const CheckReport<Dim>& report) {
             {"max_reproduction_error", check.quality.max_reproduction_error},
             {"mean_influences", check.quality.mean_influences},
             {"max_influences", check.influences.value},
+            {"without_weights", check.without_weights},
             {"non_finite", check.non_finite},
             {"negative", check.negative},
             {"control_points_found", check.control_points_found},

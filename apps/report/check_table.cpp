@@ -141,8 +141,8 @@ void print_model(std::ostream& out, const CheckReport<Dim>& report) {
   }
   out << outside.size() << " of " << count(points.cols(), "vertex", "vertices")
       << " are outside the cage; the farthest is vertex " << farthest.point << " at "
-      << position<Dim>(points.col(farthest.point)) << ", " << number(farthest.distance)
-      << " from it, " << number(100 * farthest.distance / report.facts->size)
+      << position<Dim>(points.col(farthest.point)) << ", " << number(farthest.distance())
+      << " from it, " << number(100 * farthest.distance() / report.facts->size)
       << "% of the cage size; use flbc solve --outside, or make a cage around it with flbc cage\n";
 }
 
@@ -178,6 +178,10 @@ void print_weights(std::ostream& out, const CheckReport<Dim>& report) {
   out << report.weights_file << ": weights of " << count(check.points, "point") << " ("
       << (report.domain_file.empty() ? report.model_file : report.domain_file) << ") for "
       << count(check.control_points, "control point") << '\n';
+  if (check.without_weights > 0) {
+    out << "  without weights, so that they do not move: " << count(check.without_weights, "point")
+        << '\n';
+  }
   print_line(out, "property", "value", "", "worst place");
   print_line(out, "finite", check.non_finite == 0 ? "all" : count(check.non_finite, "not"),
              yes_no(check.non_finite == 0), place(check.first_non_finite));

@@ -13,6 +13,7 @@
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "help/options.h"
+#include "solve/weights_of_model.h"
 
 namespace flbc::app {
 namespace {
@@ -88,6 +89,7 @@ Json weights_json(const std::string& file, std::uintmax_t bytes, const SparseWei
           {"max_influences", influences.max},
           {"mean_nonzeros", stored.mean},
           {"max_nonzeros", stored.max},
+          {"without_weights", count_without_weights(weights)},
           {"min_weight", quality.min_weight},
           {"max_partition_error", quality.max_partition_error},
           {"max_reproduction_error", quality.max_reproduction_error}};
@@ -119,6 +121,9 @@ std::string summary_of(const Json& report) {
        << before["mean_influences"].get<double>() << ", " << before["max_influences"] << "); "
        << after["bytes"] << " bytes (before " << before["bytes"] << "); deformation error "
        << percents(error["deformation"]) << " of the size";
+  if (after["without_weights"] > 0) {
+    text << "; " << after["without_weights"] << " vertices have no weights and stay where they are";
+  }
   if (error.contains("edge")) {
     text << "; error of edges " << percents(error["edge"]) << " of their length";
   }

@@ -42,7 +42,7 @@ void write_page(Run<Dim>& run) {
   content.points = shape.points;
   content.surface = shape.surface;
   content.up = up_axis(run.arguments.up, shape.points);
-  content.weights = view::limit_influences<Dim>(run.cage.points, shape.points, run.reduced,
+  content.weights = view::limit_influences<Dim>(run.cage.points, run.attached(), run.reduced,
                                                 view::kMostInfluences);
   content.poses = shown_poses(run.poses(), times_of(run));
   const auto page = view::make_page(content);

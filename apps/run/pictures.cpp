@@ -82,11 +82,11 @@ std::string deformation_image(const Run<2>& run, const Pose<2>& pose, Index cont
   const auto& domain = run.solver.domain();
   const bool is_surface = shape.surface.triangles.cols() > 0;
   const auto& points = is_surface ? shape.points : domain.points;
-  const auto& weights = is_surface ? run.reduced : run.solver.domain_weights();
+  const PointList<2> posed =
+      is_surface ? run.moved.at(pose.points) : deform<2>(run.solver.domain_weights(), pose.points);
   return draw::draw_deformation(
       run.cage.facets, is_surface ? gltf::triangles_of_points(shape.surface) : domain.cells,
-      {run.cage.points, points}, {pose.points, deform<2>(weights, pose.points)}, {}, control_point,
-      options_of(run));
+      {run.cage.points, points}, {pose.points, posed}, {}, control_point, options_of(run));
 }
 
 // The shape at rest and in the pose; slices through the mesh of the interior
@@ -100,7 +100,7 @@ std::string deformation_image(const Run<3>& run, const Pose<3>& pose, Index cont
                              weights.of_control_point(control_point), control_point, 3,
                              options_of(run));
   }
-  const PointList<3> points = deform<3>(run.reduced, pose.points);
+  const PointList<3> points = run.moved.at(pose.points);
   return draw::draw_model({gltf::triangles_of_points(shape.surface), shown_cage(run).edges},
                           {{run.cage.points, shape.points}, {pose.points, points}}, {},
                           usual_view(run), options_of(run));

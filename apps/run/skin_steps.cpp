@@ -39,9 +39,9 @@ SparseWeights reduce(const Run<Dim>& run, const std::string& method,
   options.progress = [&](double done) { bar.show(stage, done); };
   const auto& shape = run.shape();
   if (method == kQuadratic) {
-    return sparsify<Dim>(run.cage.points, shape.points, run.weights(), options);
+    return sparsify<Dim>(run.cage.points, run.attached(), run.weights(), options);
   }
-  return reduce_by_poisson<Dim>(run.cage.points, shape.points, shape.edges, run.weights(), poses,
+  return reduce_by_poisson<Dim>(run.cage.points, run.attached(), shape.edges, run.weights(), poses,
                                 options);
 }
 
@@ -151,6 +151,7 @@ void reduce_influences(Run<Dim>& run) {
   const auto method = reduction_for(run.arguments.reduction, file, shape.edges, run.cage.size(),
                                     shape.points.cols());
   run.reduced = naming(file, [&] { return reduce(run, method, poses); });
+  run.moved = by_weights<Dim>(run.reduced, run.cage.points, shape.points);
   std::vector<std::string> pose_files;
   for (const auto& pose : run.poses()) pose_files.push_back(pose.name);
 
@@ -173,9 +174,9 @@ void reduce_influences(Run<Dim>& run) {
                             {"max_influences", run.arguments.max_influences},
                             {"deformation_error", {{"rms", error.rms}, {"max", error.max}}},
                             {"before", weights_json(kWeights, size_of_file(kWeights), before,
-                                                    run.cage.points, shape.points)},
+                                                    run.cage.points, run.attached())},
                             {"after", weights_json(kSparseWeights, size_of_file(kSparseWeights),
-                                                   after, run.cage.points, shape.points)},
+                                                   after, run.cage.points, run.attached())},
                             {"error", errors}};
 }
 

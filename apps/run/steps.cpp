@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/steps.h"
 
+#include <iostream>
+
 #include "files/load.h"
 #include "files/model_facets.h"
 #include "flbc/bounding_box.h"
@@ -9,12 +11,14 @@
 #include "flbc/io/weights_io.h"
 #include "flbc/names.h"
 #include "flbc/quality.h"
+#include "poses/outside.h"
 #include "poses/poses.h"
 #include "report/check_report.h"
 #include "report/facts.h"
 #include "report/report_json.h"
 #include "solve/domain_jacobians.h"
 #include "solve/progress_bar.h"
+#include "solve/weights_of_model.h"
 
 namespace flbc::app {
 
@@ -33,12 +37,14 @@ void mesh_interior(Run<Dim>& run) {
   solver.make_domain(run.arguments.quiet);
   const auto& domain = solver.domain();
   if (!run.has_model()) run.inputs.shape = shape_of(domain);
-  run.inputs.shape.points = solver.points();  // vertices beside the cage are where it puts them
   if (run.inputs.splats) {
-    run.splats = naming(run.arguments.splats, [&] {
+    run.splats = placing<Dim>(run.arguments.splats, [&] {
       return place_points(run.cage, domain, run.inputs.splats->points(),
                           run.arguments.settings.outside);
     });
+    if (!run.arguments.quiet) {
+      warn_outside(run.splats, bounding_box_diagonal(run.cage.points), run.arguments.splats);
+    }
   }
   const auto name = domain_file<Dim>();
   run.report["mesh"] = {{"file", name},
@@ -58,7 +64,7 @@ template <int Dim>
 void compute_weights(Run<Dim>& run) {
   auto& solver = run.solver;
   solver.solve(run.arguments.quiet);
-  const auto delivered = measure_quality(run.cage.points, run.shape().points, run.weights());
+  const auto delivered = measure_quality(run.cage.points, run.attached(), run.weights());
   run.report["solve"] = solver.json(delivered);
   if (run.has_model()) {
     run.folder.add(kDomainWeights, "a row per vertex of the domain",
@@ -100,6 +106,7 @@ void deform_splats(Run<Dim>& run) {
   const auto& domain = run.solver.domain();
   const auto& of_domain = run.solver.domain_weights();
   const auto weights = weights_at(run.cage, domain, of_domain, run.splats);
+  const auto moved = by_weights<Dim>(weights, run.cage.points, run.inputs.splats->points());
   const DomainJacobians<Dim> jacobians(run.cage, domain, of_domain, run.splats);
   for (const auto& pose : run.poses()) {
     const auto name = name_of_deformed(pose.number, run.poses().size(), kSplats);
@@ -107,29 +114,40 @@ void deform_splats(Run<Dim>& run) {
     facts << weights.num_points() << " splats";
     run.folder.add(name, facts.text(), [&](const std::string& path) {
       naming(path, [&] {
-        run.inputs.splats->write(path, deform(weights, pose.points), {}, 0,
-                                 jacobians.at(pose.points));
+        run.inputs.splats->write(path, moved.at(pose.points), {}, 0, jacobians.at(pose.points));
       });
     });
     run.report["deform"].push_back({{"pose", pose.name}, {"file", name}});
   }
 }
 
+// Where vertices stay that are outside of the cage.
+template <int Dim>
+void tell_border(Run<Dim>& run) {
+  if (count_without_weights(run.reduced) == 0) return;
+  const auto& shape = run.shape();
+  const Border<Dim> border(run.cage, shape.points, shape.edges, run.reduced);
+  run.report["border"] = border.json(run.poses());
+  const auto text = border.describe(run.poses());
+  if (run.arguments.quiet || text.empty()) return;
+  std::cerr << "flbc: " << run.arguments.settings.model << ' ' << text << '\n';
+}
+
 }  // namespace
 
 template <int Dim>
 void deform_shape(Run<Dim>& run) {
-  const auto& weights = run.reduced;
   const auto& shape = run.shape();
-  run.displacement = measure_displacement(weights, shape.points, run.poses());
+  run.displacement = measure_displacement(run.moved, shape.points, run.poses());
   auto& report = run.report["deform"] = nlohmann::ordered_json::array();
   for (std::size_t k = 0; k < run.poses().size(); ++k) {
     const auto& pose = run.poses()[k];
-    const PointList<Dim> points = deform(weights, pose.points);
+    const PointList<Dim> points = run.moved.at(pose.points);
     const auto name = name_of_deformed(pose.number, run.poses().size(), shape.extension);
     run.folder.add(name, "", [&](const std::string& path) {
       if (shape.file) {
         naming(path, [&] { shape.file->write(path, points, {}, 0); });
+        if (!run.arguments.quiet) warn_inverted(*shape.file, points, name, pose.name);
       } else {
         io::write_domain<Dim>(path, {points, run.solver.domain().cells});
       }
@@ -141,6 +159,7 @@ void deform_shape(Run<Dim>& run) {
                       {"largest_displacement", largest},
                       {"point", farthest}});
   }
+  tell_border(run);
   if (run.poses().empty()) return;
   if (run.inputs.splats) deform_splats(run);
   const auto& pose = run.poses()[run.displacement.pose];

@@ -24,11 +24,14 @@ struct Run {
   nlohmann::ordered_json report{};
 
   SparseWeights reduced{};      //!< of the shape's points, at most so many influences of each
+  MovedBy<Dim> moved{};         //!< how the shape moves, by these weights
   Displacement displacement{};  //!< in the poses
   Placement<Dim> splats{};      //!< of the splats, if there are any
 
   const std::vector<Pose<Dim>>& poses() const { return inputs.poses; }
   const Shape<Dim>& shape() const { return inputs.shape; }
+  //! The points that the weights reproduce: the shape's, or the nearest ones of the cage.
+  const PointList<Dim>& attached() const { return solver.points(); }
   bool has_model() const { return !arguments.settings.model.empty(); }
   //! Of the shape's points, with all influences.
   const SparseWeights& weights() const { return solver.rows(); }

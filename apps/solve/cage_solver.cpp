@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "files/load.h"
+#include "flbc/bounding_box.h"
 #include "flbc/cage_facts.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
@@ -17,6 +18,7 @@
 #include "flbc/names.h"
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
+#include "report/facts.h"
 #include "report/report_json.h"
 #include "solve/estimate.h"
 #include "solve/make_domain.h"
@@ -28,7 +30,7 @@ namespace {
 template <int Dim>
 const NearestOnCage<Dim>& farthest(const std::vector<NearestOnCage<Dim>>& points) {
   return *std::max_element(points.begin(), points.end(),
-                           [](const auto& a, const auto& b) { return a.distance < b.distance; });
+                           [](const auto& a, const auto& b) { return a.distance() < b.distance(); });
 }
 
 template <int Dim>
@@ -36,7 +38,7 @@ nlohmann::ordered_json beside_json(const std::vector<NearestOnCage<Dim>>& points
   nlohmann::ordered_json json{{"count", points.size()}};
   if (points.empty()) return json;
   json["farthest"] = farthest(points).point;
-  json["distance"] = farthest(points).distance;
+  json["distance"] = farthest(points).distance();
   return json;
 }
 
@@ -147,9 +149,14 @@ template <int Dim>
 void CageSolver<Dim>::make_domain(bool quiet) {
   if (is_meshless(settings_)) {
     const ProgressBar bar(quiet, "locating the model vertices in the cage");
-    placement_ =
-        naming(settings_.model, [&] { return place_points(cage_, model_, settings_.outside); });
+    placement_ = placing<Dim>(settings_.model,
+                              [&] { return place_points(cage_, model_, settings_.outside); });
+    if (!quiet) warn_outside(placement_, bounding_box_diagonal(cage_.points), settings_.model);
     return;
+  }
+  if (!settings_.model.empty() && settings_.outside == OutsidePoints::kFail) {
+    const ProgressBar bar(quiet, "locating the model vertices in the cage");
+    placing<Dim>(settings_.model, [&] { return place_points(cage_, model_); });
   }
   const auto start = std::chrono::steady_clock::now();
   if (settings_.embed) embedded_ = embeddable_points(cage_, model_);
@@ -161,8 +168,9 @@ void CageSolver<Dim>::make_domain(bool quiet) {
   mesh_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (settings_.model.empty()) return;
   const ProgressBar bar(quiet, "locating the model vertices in the mesh");
-  placement_ = naming(settings_.model,
-                      [&] { return place_points(cage_, domain_, model_, settings_.outside); });
+  placement_ = placing<Dim>(
+      settings_.model, [&] { return place_points(cage_, domain_, model_, settings_.outside); });
+  if (!quiet) warn_outside(placement_, bounding_box_diagonal(cage_.points), settings_.model);
 }
 
 template <int Dim>
@@ -256,16 +264,24 @@ std::string describe(const Placement<Dim>& placement, double size) {
   text.precision(3);
   if (!placement.on_cage.empty()) {
     text << "; " << placement.on_cage.size() << " vertices within "
-         << farthest(placement.on_cage).distance / size
+         << farthest(placement.on_cage).distance() / size
          << " of the cage size were snapped to the cage";
   }
-  if (!placement.outside.empty()) {
-    text << "; " << placement.outside.size() << " vertices outside the cage, by up to "
-         << 100 * farthest(placement.outside).distance / size << "% of its size, "
-         << (placement.policy == OutsidePoints::kNearest ? "follow its nearest point"
-                                                         : "are extrapolated");
-  }
   return text.str();
+}
+
+template <int Dim>
+void warn_outside(const Placement<Dim>& placement, double size, const std::string& file) {
+  if (placement.outside.empty()) return;
+  const char* const what = placement.policy == OutsidePoints::kKeep ? "stay where they are"
+                           : placement.policy == OutsidePoints::kNearest
+                               ? "follow its nearest point at a constant offset"
+                               : "are extrapolated";
+  Facts facts;
+  facts << file << ": " << placement.outside.size() << " of " << placement.places.size()
+        << " vertices are outside the cage, by up to "
+        << 100 * farthest(placement.outside).distance() / size << "% of its size; they " << what;
+  std::cerr << "flbc: " << facts.text() << '\n';
 }
 
 bool report_convergence(const SolveReport& report, const SolveSettings& settings) {
@@ -292,7 +308,8 @@ bool report_convergence(const SolveReport& report, const SolveSettings& settings
                                            const SparseWeights&, const Placement<Dim>&, \
                                            const SolveSettings&);                       \
   template class CageSolver<Dim>;                                                       \
-  template std::string describe(const Placement<Dim>&, double);
+  template std::string describe(const Placement<Dim>&, double);                         \
+  template void warn_outside(const Placement<Dim>&, double, const std::string&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

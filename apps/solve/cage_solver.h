@@ -7,13 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "files/load.h"
 #include "flbc/cage.h"
 #include "flbc/cell_locator.h"
+#include "flbc/errors.h"
 #include "flbc/interpolate.h"
+#include "flbc/io/formats.h"
 #include "flbc/meshing.h"
 #include "flbc/placement.h"
 #include "flbc/quality.h"
 #include "flbc/solver.h"
+#include "help/wording.h"
 #include "report/history.h"
 #include "solve/solve_settings.h"
 
@@ -38,8 +42,8 @@ class CageSolver {
   //! Keeps references to all. \param model  Dim x P, not looked at if settings name no model
   CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model, const SolveSettings& settings);
 
-  //! Reads the mesh, or makes it. Then finds the model's vertices in it, so that a model outside
-  //! its cage is refused before the solve.
+  //! Refuses a model outside its cage. Then reads the mesh, or makes it, and finds the model's
+  //! vertices in it.
   //! \param quiet  without a progress line
   void make_domain(bool quiet);
 
@@ -53,8 +57,8 @@ class CageSolver {
   double mesh_seconds() const { return mesh_seconds_; }
   Mesher mesher() const { return mesher_; }
 
-  //! The points that get weights: the model's vertices, or those of the mesh. Vertices beside the
-  //! cage are where their weights put them.
+  //! The points that the weights reproduce: the model's vertices, or those of the mesh. Vertices
+  //! that follow the nearest point of the cage are there.
   const PointList<Dim>& points() const;
   //! Their weights.
   const SparseWeights& rows() const { return settings_.model.empty() ? domain_weights() : rows_; }
@@ -86,9 +90,26 @@ class CageSolver {
   SparseWeights rows_;              // at the model's vertices, once solved
 };
 
-//! How many vertices lie beside the cage, and what became of them; empty for none.
+//! How many vertices were snapped to the cage; empty for none.
 template <int Dim>
 std::string describe(const Placement<Dim>& placement, double size);
+
+//! Prints how many vertices are outside the cage, how far, and what they do, if there are any.
+//! \param file  of the model
+template <int Dim>
+void warn_outside(const Placement<Dim>& placement, double size, const std::string& file);
+
+//! Calls an action that places the vertices of a model. Refusals name the file, and what to do with
+//! vertices outside the cage.
+template <int Dim, class Action>
+auto placing(const std::string& file, const Action& action) {
+  try {
+    return naming(file, action);
+  } catch (const InputError& error) {
+    const bool is_mesh = Dim == 2 || io::holds(file, {io::Content::kMesh3D});
+    throw InputError(is_mesh ? advise_keeping(error.what()) : error.what());
+  }
+}
 
 //! That weights are not what was asked for, on standard error. \return whether they are
 bool report_convergence(const SolveReport& report, const SolveSettings& settings);

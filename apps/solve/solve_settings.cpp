@@ -94,9 +94,9 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
   command.add_option("--threads", options.threads, "number of threads (default: all cores)");
   command.option_defaults()->group(kMore);
   add_choice(command, "--outside", settings.outside,
-             "method for model vertices outside the cage (default: fail). nearest: use the weights "
-             "of the nearest point on the cage. extend: reproduce the vertex, possibly with "
-             "negative weights");
+             "method for model vertices outside the cage (default: fail). nearest: follow the "
+             "nearest point of the cage at a constant offset. keep: stay where they are, without "
+             "weights. extend: reproduce the vertex, possibly with negative weights");
   add_choice(command, "--non-negative", options.non_negative,
              "method that keeps weights non-negative (default: depends on --method)");
   add_choice(command, "--coarse-to-fine", options.coarse_to_fine,

@@ -4,8 +4,9 @@
 #include <sstream>
 
 #include "flbc/bounding_box.h"
-#include "flbc/cage.h"
+#include "flbc/deform.h"
 #include "flbc/errors.h"
+#include "flbc/placement.h"
 
 namespace flbc::app {
 namespace {
@@ -29,12 +30,22 @@ void check_sizes(const SparseWeights& weights, Eigen::Index num_control_points,
   }
 }
 
+Index count_without_weights(const SparseWeights& weights) {
+  Index count = 0;
+  for (Index p = 0; p < weights.num_points(); ++p) count += weights.has_weights(p) ? 0 : 1;
+  return count;
+}
+
 template <int Dim>
-void check_reproduction(const SparseWeights& weights, const PointList<Dim>& rest,
+void check_reproduction(const SparseWeights& weights, const Cage<Dim>& rest,
                         const PointList<Dim>& points, const WeightFiles& files) {
-  const auto moved = deform(weights, rest);
+  const auto moved = deform(weights, rest.points);
+  auto lengths = displacements(attached_points(rest, points, weights), moved);
+  for (Index p = 0; p < weights.num_points(); ++p) {
+    if (!weights.has_weights(p)) lengths[p] = 0;
+  }
   Eigen::Index worst = 0;
-  const double error = displacements(points, moved).maxCoeff(&worst) / bounding_box_diagonal(rest);
+  const double error = lengths.maxCoeff(&worst) / bounding_box_diagonal(rest.points);
   if (error <= kReproduction) return;
   const Eigen::IOFormat row(6, Eigen::DontAlignCols, ", ", ", ", "", "", "(", ")");
   std::ostringstream text;
@@ -48,9 +59,9 @@ void check_reproduction(const SparseWeights& weights, const PointList<Dim>& rest
   throw InputError(text.str());
 }
 
-template void check_reproduction(const SparseWeights&, const PointList<2>&, const PointList<2>&,
+template void check_reproduction(const SparseWeights&, const Cage<2>&, const PointList<2>&,
                                  const WeightFiles&);
-template void check_reproduction(const SparseWeights&, const PointList<3>&, const PointList<3>&,
+template void check_reproduction(const SparseWeights&, const Cage<3>&, const PointList<3>&,
                                  const WeightFiles&);
 
 }  // namespace flbc::app

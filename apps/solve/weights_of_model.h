@@ -5,7 +5,8 @@
 
 #include <string>
 
-#include "flbc/deform.h"
+#include "flbc/cage.h"
+#include "flbc/sparse_weights.h"
 
 namespace flbc::app {
 
@@ -21,11 +22,17 @@ struct WeightFiles {
 void check_sizes(const SparseWeights& weights, Eigen::Index num_control_points,
                  Eigen::Index num_points, const WeightFiles& files);
 
-//! \param rest  Dim x n \param points  Dim x P, of the model
-//! \throws InputError naming the worst vertex if the weights put one beside its place by more than
-//! 1e-6 of the cage's size: they are for another model, or for another cage
+//! The number of points without weights, which do not move.
+Index count_without_weights(const SparseWeights& weights);
+
+//! Vertices without weights are right, and vertices outside that follow the nearest point of the
+//! cage.
+//! \param rest  n control points; without facets no vertex counts as outside
+//! \param points  Dim x P, of the model
+//! \throws InputError naming the worst vertex if the weights put one elsewhere by more than 1e-6 of
+//! the cage size: they are for another model, or for another cage
 template <int Dim>
-void check_reproduction(const SparseWeights& weights, const PointList<Dim>& rest,
+void check_reproduction(const SparseWeights& weights, const Cage<Dim>& rest,
                         const PointList<Dim>& points, const WeightFiles& files);
 
 }  // namespace flbc::app

@@ -164,13 +164,12 @@ std::string pack_offsets(const SparseWeights& weights, const PointList<Dim>& res
 }
 
 template <int Dim>
-Json pack_points(const PageContent<Dim>& content, const SparseWeights& weights) {
+Json pack_points(const PageContent<Dim>& content) {
   const auto& rest = content.cage.points;
   const Vector<Dim> center = page_center<Dim>(rest);
   const PointList<Dim> offsets = content.points.colwise() - center;
   return {{"center", std::vector<double>(center.begin(), center.end())},
-          {"offsets", content.is_relative ? pack<float>(offsets.reshaped())
-                                          : pack_offsets<Dim>(weights, rest, center)}};
+          {"offsets", pack<float>(offsets.reshaped())}};
 }
 
 template <int Dim>
@@ -184,7 +183,7 @@ Json to_json(const PageContent<Dim>& content) {
               {"weights", content.weights_file},
               {"cage", content.cage_file}}},
             {"cage", pack_cage(content.cage)},
-            {"points", pack_points(content, weights)},
+            {"points", pack_points(content)},
             {"weights", pack_weights(weights)},
             {"palette", pack_palette()},
             {"picture", content.picture}};

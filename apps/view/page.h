@@ -53,11 +53,9 @@ struct PageContent {
   std::string weights_file{};
   std::string cage_file{};
   ShownCage<Dim> cage{};
-  PointList<Dim> points{};   //!< Dim x P, of the model
-  gltf::Surface surface{};   //!< of these points; without triangles points are shown
-  SparseWeights weights{};   //!< of P points, at most kMostInfluences of each
-  bool is_relative = false;  //!< the points rest where they are, even if the weights put the
-                             //!< resting cage elsewhere
+  PointList<Dim> points{};  //!< Dim x P, of the model; they rest there, whatever the weights
+  gltf::Surface surface{};  //!< of these points; without triangles points are shown
+  SparseWeights weights{};  //!< of P points, at most kMostInfluences of each
   std::vector<ShownPose<Dim>> poses{};
   int up = 1;                //!< 3D: axis that points up at first
   std::string picture{};     //!< data URI of a texture, or empty

@@ -141,22 +141,18 @@ class _Task:
             settings, 'solve', folder / 'cage.ply', '--model', folder / 'model.ply', '-o', solved,
             '--report', folder / 'report.json', '--smoothness', settings.smoothness,
             *quality.solve)
-        outside = json.loads((folder / 'report.json').read_text())['outside']
-        count = outside['outside']['count']
+        report = json.loads((folder / 'report.json').read_text())
+        count = report['outside']['outside']['count']
         if count == len(self._model.points):
             raise Refusal(f'All vertices are outside the cage {self._cage_name}')
         if count:
-            note += f'{count} vertices are outside the cage and follow its nearest point. '
+            note += f'{count} vertices are outside the cage and follow its nearest point '
+                     'at a constant offset. '
         if not quality.reduction:
             return *files.largest_weights(solved, k), note
-        points = folder / 'model.ply'
-        if count + outside['on_cage']['count']:
-            points = folder / 'inside.ply'
-            places = files.weighted_points(solved, self._cage.points)
-            files.write_ply(points, *self._model._replace(points=places))
         yield self._command(settings, 'sparsify', solved, '--cage', folder / 'cage.ply',
-                            '--points', points, '--reduction', quality.reduction, '-k', k,
-                            '-o', reduced)
+                            '--points', folder / 'model.ply', '--reduction', quality.reduction,
+                            '-k', k, '-o', reduced)
         return *files.largest_weights(reduced, k), note
 
     def _items(self):

@@ -56,9 +56,3 @@ def largest_weights(path, k):
         columns[rows, :k_there] = np.where(kept > 0, places, 0)
         weights[rows, :k_there] = kept / kept.sum(1, keepdims=True)
     return columns, weights
-
-
-def weighted_points(path, points):
-    """The product of a weight matrix (.npy) and the points of its columns."""
-    matrix = np.load(path, mmap_mode='r')
-    return np.concatenate([matrix[rows] @ points for rows in _slices(len(matrix))])

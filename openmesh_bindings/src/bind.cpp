@@ -33,7 +33,8 @@ DomainMesh<Dim> make_interior(const BindInput<Dim>& input, const BindOptions& op
   }
 }
 
-//! The points that the weights must reproduce: points outside are moved onto the cage.
+//! The points that the weights must reproduce: for kNearest, those outside are moved onto the cage.
+//! A constant offset is what the weights do not reproduce.
 template <int Dim>
 struct Evaluation {
   SparseWeights weights;
@@ -50,14 +51,15 @@ Evaluation<Dim> evaluate(const BindInput<Dim>& input, const DomainMesh<Dim>& dom
                              std::move(placement.points),
                              {},
                              static_cast<Index>(placement.outside.size())};
-  if (placement.outside.empty() || outside != OutsidePoints::kNearest) return evaluation;
+  if (placement.outside.empty() || outside == OutsidePoints::kExtend) return evaluation;
   evaluation.offsets = RowBlock<double>(1, Dim);
   evaluation.offsets.resize(placement.places.size());
-  for (const auto& [point, facet, coordinates, distance] : placement.outside) {
-    const auto offset = evaluation.offsets[static_cast<std::size_t>(point)];
-    for (int d = 0; d < Dim; ++d) {
-      offset[static_cast<std::size_t>(d)] = input.points(d, point) - evaluation.points(d, point);
-    }
+  for (const auto& beside : placement.outside) {
+    const auto offset = evaluation.offsets[static_cast<std::size_t>(beside.point)];
+    const Vector<Dim> constant = outside == OutsidePoints::kKeep
+                                     ? Vector<Dim>(input.points.col(beside.point))
+                                     : beside.offset;
+    for (int d = 0; d < Dim; ++d) offset[static_cast<std::size_t>(d)] = constant[d];
   }
   return evaluation;
 }
@@ -80,6 +82,8 @@ Binding<Dim> bind_points(const BindInput<Dim>& input, const BindOptions& options
   validate(options.solver);
   validate(input.cage);
   const ThreadScope threads(options.solver.threads);
+  // Before the mesher and the solver start.
+  if (options.outside == OutsidePoints::kFail) place_points(input.cage, input.points);
   Binding<Dim> binding;
   auto& report = binding.report;
   Stopwatch watch;

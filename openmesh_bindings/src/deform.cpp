@@ -66,7 +66,10 @@ Index move_points(const Block& weights, const PointList<Dim>& control_points,
   std::atomic<Index> left{0};
   parallel_for(count, [&](std::int64_t p) {
     Vector<Dim> place = place_of<Dim>(weights, p, cage);
-    if (place.isZero(0) && is_unbound(weights[static_cast<std::size_t>(p)])) {
+    const auto has_offset = [&] {
+      return offsets && !is_unbound((*offsets)[static_cast<std::size_t>(p)]);
+    };
+    if (place.isZero(0) && is_unbound(weights[static_cast<std::size_t>(p)]) && !has_offset()) {
       ++left;
       return;
     }

@@ -40,7 +40,12 @@ void write_skin_file(const std::string& path, SkinInput<Dim> input,
   skin.max_influences = options.max_influences;
   const auto animation = animation_of(poses, options.frames_per_second);
   require_control_points(static_cast<std::size_t>(input.weights.rows()), input.cage.cols());
-  const PointList<Dim> rest = input.cage * input.weights;
+  PointList<Dim> rest = input.cage * input.weights;
+  for (std::size_t p = 0; input.offsets.width() > 0 && p < input.offsets.size(); ++p) {
+    for (int d = 0; d < Dim; ++d) {
+      rest(d, static_cast<Eigen::Index>(p)) += input.offsets[p][static_cast<std::size_t>(d)];
+    }
+  }
   for (const auto& point : rest.colwise()) {
     Vector<3> place = Vector<3>::Zero();
     place.head<Dim>() = point;

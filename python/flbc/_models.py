@@ -217,7 +217,8 @@ def bind(
         As in `solve`, but with another default.
     outside : str, default "fail"
         For vertices outside the cage: "fail"; "nearest", to follow the nearest point of the
-        cage at a constant offset; or "extend", which needs ``max_influences=0``.
+        cage at a constant offset; "keep", to stay where they are, without weights; or "extend",
+        which needs ``max_influences=0``.
 
     callback : callable, optional
         As for `solve`.
@@ -252,6 +253,8 @@ def bind(
     polygons = as_polygons(faces, "faces", len(points))
     named = {name: value for name, value in given.items() if np.ndim(value) == 0}
     given["smoothness"] = _core.smoothness_of_bind(named)
+    if outside == "fail":
+        _core.require_inside(cage.points, cage.facets, points)
     fill = mesh(cage, mesh_vertices) if domain is None else domain
     solution = solve(cage, fill, callback=callback, **given)
     parts, placed, which = evaluate(solution, points, outside)
@@ -259,9 +262,10 @@ def bind(
     if max_influences:
         flat = None if len(polygons[1]) == 1 else faces
         weights = sparsify(weights, cage, placed, max_influences, faces=flat)
-    offsets = points - placed if which and outside == "nearest" else None
-    if offsets is not None:
-        offsets[np.setdiff1d(np.arange(len(points)), which)] = 0
+    offsets = None
+    if which and outside != "extend":
+        offsets = np.zeros_like(points)
+        offsets[which] = (points - deform(weights, cage.points))[which]
     return Binding(weights, offsets, cage, solution.report, np.array(which, np.int32))
 
 
@@ -297,7 +301,7 @@ def _model(
     points = as_points(vertices, "vertices", cage.dim)
     polygons = as_polygons(faces, "faces", len(points))
     given = as_weights(weights, "weights", len(points), len(cage))
-    error = np.abs(deform(weights, cage.points) - points).max(initial=0)
+    error = _core.misplacement(cage.points, cage.facets, points, given)
     if error > 1e-6 * np.linalg.norm(np.ptp(cage.points, axis=0)):
         raise InputError(
             f"weights do not belong to this model and cage: they put a vertex {error:.3g} away "

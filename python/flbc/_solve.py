@@ -210,7 +210,8 @@ class Solution:
             In the units of the cage.
         outside : str, default "fail"
             For points outside the cage: "fail", "nearest" (the weights of the nearest point of
-            the cage), or "extend" (reproduce the point, with negative weights).
+            the cage, which the point follows at a constant offset), "keep" (no weights: the
+            point stays where it is), or "extend" (reproduce the point, with negative weights).
 
         Returns
         -------

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The compiled part of the Python module: one function per function of the library, for arrays that
 // the Python files have checked. Those files have the documentation.
+#include <algorithm>
 #include <optional>
 #include <string>
 
 #include "arrays.h"
 #include "flbc/cage_facts.h"
 #include "flbc/check.h"
+#include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/gradients.h"
 #include "flbc/io/cut_polygon.h"
@@ -34,6 +36,18 @@ void set_error(const char* type, const char* message) {
   PyErr_SetString(py::module_::import("flbc._errors").attr(type).ptr(), message);
 }
 
+// The library names its own options.
+std::string in_words_of_python(std::string message) {
+  const std::string library =
+      "choose OutsidePoints kNearest, kKeep, or kExtend, or make a cage around the model with "
+      "cage_from_model()";
+  const auto at = message.find(library);
+  if (at == std::string::npos) return message;
+  return message.replace(at, library.size(),
+                         "choose outside='nearest', 'keep', or 'extend', or make a cage around the "
+                         "model with make_cage()");
+}
+
 void translate(std::exception_ptr pointer) {
   try {
     if (pointer) std::rethrow_exception(pointer);
@@ -42,7 +56,7 @@ void translate(std::exception_ptr pointer) {
   } catch (const OptionError& error) {
     set_error("OptionError", error.what());
   } catch (const InputError& error) {
-    set_error("InputError", error.what());
+    set_error("InputError", in_words_of_python(error.what()).c_str());
   } catch (const IoError& error) {
     set_error("IoError", error.what());
   } catch (const SolverError& error) {
@@ -112,7 +126,7 @@ py::tuple outside(const Doubles& points, const Indices& facets, const Doubles& p
     std::vector<double> distances;
     for (const auto& point : found) {
       which.push_back(point.point);
-      distances.push_back(point.distance);
+      distances.push_back(point.distance());
     }
     return py::make_tuple(which, distances);
   });
@@ -170,6 +184,39 @@ py::tuple normalized_mesh(const Doubles& vertices, const Indices& cells) {
 }
 
 // ---------------------------------------------------------------------------------------- weights
+
+// How far weights put a point from where they should.
+double misplacement(const Doubles& points, const Indices& facets, const Doubles& places,
+                    const py::object& weights) {
+  return by_dimension(points, [&](auto dim) {
+    constexpr int kDim = decltype(dim)::value;
+    const auto cage = cage_of<kDim>(points, facets);
+    const auto all = points_of<kDim>(places);
+    const auto given = weights_of(weights);
+    return without_gil([&] {
+      const auto moved = deform<kDim>(given, cage.points);
+      const auto errors = displacements<kDim>(attached_points(cage, all, given), moved);
+      double largest = 0;
+      for (Index p = 0; p < given.num_points(); ++p) {
+        if (given.has_weights(p)) largest = std::max(largest, errors[p]);
+      }
+      return largest;
+    });
+  });
+}
+
+void require_inside(const Doubles& points, const Indices& facets, const Doubles& places) {
+  by_dimension(points, [&](auto dim) {
+    constexpr int kDim = decltype(dim)::value;
+    const auto cage = cage_of<kDim>(points, facets);
+    const auto all = points_of<kDim>(places);
+    without_gil([&] {
+      validate(cage);
+      place_points(cage, all);
+    });
+    return py::none();
+  });
+}
 
 // Weights at points, the points that they reproduce, and the points outside.
 py::tuple weights_at(const Doubles& points, const Indices& facets, const Doubles& vertices,
@@ -318,6 +365,8 @@ PYBIND11_MODULE(_core, module) {
   module.def("triangles", &triangles);
   module.def("check_cage", &check_cage);
   module.def("outside", &outside);
+  module.def("misplacement", &misplacement);
+  module.def("require_inside", &require_inside);
   module.def("make_cage", &make_cage);
   module.def("repair", &repair);
   module.def("normalized_mesh", &normalized_mesh);

@@ -12,6 +12,7 @@
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/io/weights_triplets.h"
+#include "flbc/placement.h"
 #include "gltf/skin.h"
 #include "view/page.h"
 #ifdef FLBC_WITH_OPENMESH
@@ -186,8 +187,8 @@ std::string make_page(const Doubles& cage_points, const Indices& facets, const D
     const auto given = weights_of(weights);
     return without_gil([&] {
       content.surface = surface_of<kDim>(points, polygons);
-      content.weights =
-          view::limit_influences<kDim>(cage.points, content.points, given, view::kMostInfluences);
+      content.weights = view::limit_influences<kDim>(
+          cage.points, attached_points(cage, content.points, given), given, view::kMostInfluences);
       return view::make_page(content);
     });
   });

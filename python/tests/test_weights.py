@@ -157,6 +157,41 @@ def test_bind_keeps_vertices_outside_at_an_offset(square):
     assert np.allclose(binding.deform(square.points + [0, 3]), np.add(points, [0, 3]))
 
 
+@pytest.mark.parametrize("max_influences", [0, 4])
+def test_bind_leaves_vertices_outside_where_they_are(square, max_influences):
+    points = np.array([[0.5, 0.5], [1.25, 0.5]])
+    binding = flbc.bind(
+        points, None, square, mesh_vertices=200, outside="keep", max_influences=max_influences
+    )
+    assert binding.outside.tolist() == [1]
+    assert binding.weights[[1]].nnz == 0
+    assert np.allclose(binding.deform(square.points), points)
+    assert np.allclose(binding.deform(square.points + [0, 3]), [[0.5, 3.5], [1.25, 0.5]])
+
+
+@pytest.mark.parametrize("outside", ["nearest", "keep"])
+def test_pages_and_skins_of_models_partly_outside(model, outside, tmp_path):
+    cage, vertices, faces, _ = model
+    vertices = vertices.copy()
+    vertices[:3] += 2 * np.ptp(cage.points)
+    binding = flbc.bind(vertices, faces, cage, mesh_vertices=2000, outside=outside)
+    assert binding.outside.tolist() == [0, 1, 2]
+    flbc.view(vertices, faces, binding.weights, cage)
+    flbc.export(tmp_path / "model.glb", vertices, faces, binding.weights, cage)
+    flbc.export(tmp_path / "model.usda", vertices, faces, binding.weights.toarray(), cage)
+    with pytest.raises(flbc.InputError, match="do not belong"):
+        flbc.view(vertices[::-1], faces, binding.weights, cage)
+
+
+def test_messages_name_options_of_python(square, flat):
+    for action in (
+        lambda: flbc.bind([[1.25, 0.5]], None, square, mesh_vertices=200),
+        lambda: flat.at([[1.25, 0.5]]),
+    ):
+        with pytest.raises(flbc.InputError, match="choose outside='nearest', 'keep'.*make_cage"):
+            action()
+
+
 def test_bindings_take_control_points_of_their_dimension(limb, solid):
     cage, vertices, faces = limb
     seen = []

@@ -64,10 +64,10 @@ const char* const kOutside = R"(
 0 flbc check square.obj --model outside.obj
 flbc solve square.obj --model outside.obj $V --outside nearest -o x.npy
 flbc cage outside.obj -o c.obj && flbc check c.obj --model outside.obj
-# choose --outside nearest or --outside extend, or make a cage around the model with flbc cage
+# add --outside keep, by which they stay where they are, or --outside nearest, by which they follow the cage; or make a cage around the model with flbc cage
 2 flbc solve square.obj --model outside.obj $V -o x.npy
+flbc solve square.obj --model outside.obj $V --outside keep -o x.npy
 flbc solve square.obj --model outside.obj $V --outside nearest -o x.npy
-flbc solve square.obj --model outside.obj $V --outside extend -o x.npy
 flbc cage outside.obj -o c.obj && flbc solve c.obj --model outside.obj $V -o x.npy
 # leave out --embed or --outside
 1 flbc solve square.obj --model model.obj $V --embed --outside nearest -o x.npy

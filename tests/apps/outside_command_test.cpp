@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Models that extend outside their cage, slightly or more, from the view of a user.
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "support/command_line.h"
 
@@ -92,8 +96,230 @@ TEST_F(OutsideCommand, FartherPointsGoTheWayThatIsAskedFor) {
          " -q -o moved.obj");
   expect("run " + square() + ' ' + of + " --outside nearest --vertices 300 -q -o out");
   expect("run " + square() + ' ' + of + " --outside extend --vertices 300 -q -o out", 1);
+  expect(solve("--outside keep"), 0,
+         "model.obj: 2 of 3 vertices are outside the cage, by up to 17.7% of its size; they stay");
+  EXPECT_TRUE(io::read_weights("w.npy").dense().rightCols(2).isZero(0));
   expect(solve("--outside nearest --embed"), 1);
   expect(solve("--outside there"), 1);
+}
+
+// A box in a part of a mesh, as engineers deform meshes. The same in 2D, with a mesh of
+// quadrilaterals, and in 3D, with a plate of triangles.
+class BoxInMesh : public OutsideCommand, public ::testing::WithParamInterface<int> {
+ protected:
+  // The vertices of the mesh are at whole numbers, from 0 to 8 and 0 to 4. The box is from 1.5 to
+  // 6.5, and above the middle of the mesh in y.
+  static constexpr int kColumns = 9, kRows = 5;
+  using Points = std::vector<Vector<3>>;
+
+  BoxInMesh() {
+    std::ostringstream mesh;
+    for (int y = 0; y < kRows; ++y) {
+      for (int x = 0; x < kColumns; ++x) mesh << "v " << x << ' ' << y << " 0\n";
+    }
+    for (int y = 1; y < kRows; ++y) {
+      for (int x = 1; x < kColumns; ++x) {
+        const int a = (y - 1) * kColumns + x;
+        mesh << "f " << a << ' ' << a + 1 << ' ' << a + 1 + kColumns << ' ' << a + kColumns << '\n';
+      }
+    }
+    file("mesh.obj", mesh.str());
+    write_box("box.obj", box());
+  }
+
+  bool is_flat() const { return GetParam() == 2; }
+
+  // In 2D the outline of the box, in 3D two of them.
+  Points box() const {
+    const Points outline = {{1.5, 1.5, 0}, {4, 1.5, 0}, {6.5, 1.5, 0},
+                            {6.5, 5, 0},   {4, 5, 0},   {1.5, 5, 0}};
+    if (is_flat()) return outline;
+    Points points;
+    for (const double z : {-1.0, 1.0}) {
+      for (const auto& point : outline) points.push_back(point + Vector<3>(0, 0, z));
+    }
+    return points;
+  }
+  void write_box(const std::string& name, const Points& points) const {
+    std::ostringstream text;
+    text.precision(17);
+    for (const auto& point : points) text << "v " << point.transpose() << '\n';
+    if (is_flat()) {
+      text << "l 1 2 3 4 5 6 1\n";
+    } else {
+      text << "f 6 5 4 3 2 1\nf 7 8 9 10 11 12\n";
+      for (int k = 0; k < 6; ++k) {
+        const int next = (k + 1) % 6;
+        text << "f " << k + 1 << ' ' << next + 1 << ' ' << next + 7 << ' ' << k + 7 << '\n';
+      }
+    }
+    file(name, text.str());
+  }
+  // The box with some control points moved: in 3D those in both planes.
+  Points moved(const std::vector<int>& which, const Vector<3>& by) const {
+    auto points = box();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (std::count(which.begin(), which.end(), static_cast<int>(i % 6)) > 0) points[i] += by;
+    }
+    return points;
+  }
+  static bool is_outside(const Vector<3>& point) {
+    return point.x() < 1.5 || point.x() > 6.5 || point.y() < 1.5;
+  }
+  static Points points_of(const std::string& name) {
+    return io::ModelFile(name).model().soup.points;
+  }
+  // x + sum_i w_i (c'_i - c_i), from files.
+  Points expected(const std::string& weights, const Points& pose) const {
+    const auto rows = io::read_weights(weights).dense();
+    const auto rest = box();
+    auto points = points_of("mesh.obj");
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      for (std::size_t i = 0; i < rest.size(); ++i) {
+        points[p] += rows(static_cast<Index>(i), static_cast<Index>(p)) * (pose[i] - rest[i]);
+      }
+    }
+    return points;
+  }
+  static double distance(const Points& a, const Points& b) {
+    double largest = 0;
+    for (std::size_t p = 0; p < a.size(); ++p) largest = std::max(largest, (a[p] - b[p]).norm());
+    return largest;
+  }
+  Ended run_box(const std::string& policy) {
+    return expect("run box.obj mesh.obj --vertices 400 --pose pose.obj -o out --outside " + policy);
+  }
+};
+
+TEST_P(BoxInMesh, NothingMovesAtRest) {
+  write_box("pose.obj", box());
+  for (const std::string policy : {"nearest", "keep"}) {
+    SCOPED_TRACE(policy);
+    const auto ended = run_box(policy);
+    EXPECT_NE(ended.errors.find("mesh.obj: 30 of 45 vertices are outside the cage"),
+              std::string::npos)
+        << ended.errors;
+    EXPECT_EQ(ended.errors.find("jump"), std::string::npos) << ended.errors;
+    EXPECT_EQ(ended.errors.find("inverted"), std::string::npos) << ended.errors;
+    EXPECT_LT(distance(points_of("out/deformed.obj"), points_of("mesh.obj")), 1e-12);
+    EXPECT_LT(report("out/report.json")["deform"][0]["largest_displacement"], 1e-12);
+    EXPECT_LT(report("out/report.json")["sparsify"]["after"]["max_reproduction_error"], 1e-12);
+    for (const char* weights : {"out/weights.npy", "out/sparse_weights.mtx"}) {
+      expect(std::string("deform mesh.obj --rest box.obj --pose box.obj -q -o x.obj --weights ") +
+             weights);
+      EXPECT_LT(distance(points_of("x.obj"), points_of("mesh.obj")), 1e-12);
+    }
+  }
+}
+
+TEST_P(BoxInMesh, TranslationsMoveWhatFollows) {
+  const Vector<3> shift(3, -7, is_flat() ? 0 : 2);
+  write_box("pose.obj", moved({0, 1, 2, 3, 4, 5}, shift));
+  for (const std::string policy : {"nearest", "keep"}) {
+    SCOPED_TRACE(policy);
+    run_box(policy);
+    auto points = points_of("mesh.obj");
+    for (auto& point : points) {
+      if (policy == "nearest" || !is_outside(point)) point += shift;
+    }
+    EXPECT_LT(distance(points_of("out/deformed.obj"), points), 1e-11);
+    EXPECT_NEAR(report("out/report.json")["deform"][0]["largest_displacement"], shift.norm(),
+                1e-11);
+  }
+}
+
+TEST_P(BoxInMesh, FiguresAreThoseOfTheFiles) {
+  const auto pose = moved({1}, {0.2, 4.5, 0});
+  write_box("pose.obj", pose);
+  for (const std::string policy : {"nearest", "keep"}) {
+    SCOPED_TRACE(policy);
+    const auto ended = run_box(policy);
+    const auto rest = points_of("mesh.obj"), found = points_of("out/deformed.obj");
+    EXPECT_LT(distance(found, expected("out/sparse_weights.mtx", pose)), 1e-12);
+    const auto json = report("out/report.json");
+    EXPECT_NEAR(json["deform"][0]["largest_displacement"], distance(found, rest), 1e-12);
+    // The order of the corners turns.
+    int inverted = 0;
+    for (int y = 1; y < kRows; ++y) {
+      for (int x = 1; x < kColumns; ++x) {
+        const std::size_t a = (y - 1) * kColumns + x - 1, d = a + kColumns;
+        const Vector<3> one = found[d + 1] - found[a], other = found[d] - found[a + 1];
+        inverted += one.x() * other.y() - one.y() * other.x() <= 0 ? 1 : 0;
+      }
+    }
+    ASSERT_GT(inverted, 0);
+    const auto words = std::to_string(inverted) + " of 32 cells are inverted in pose.obj";
+    EXPECT_EQ(ended.errors.find(words) != std::string::npos, is_flat()) << ended.errors;
+    // The program deforms the same by the files.
+    expect(
+        "deform mesh.obj --rest box.obj --weights out/sparse_weights.mtx --pose pose.obj "
+        "-q -o x.obj");
+    EXPECT_LT(distance(points_of("x.obj"), found), 1e-12);
+  }
+}
+
+TEST_P(BoxInMesh, WhatIsKeptStaysAndTheBorderIsNamed) {
+  // Control points 0 and 2 are where the mesh passes through the box, and 1 is between them.
+  const Vector<3> shift(0, 0.5, 0);
+  write_box("pose.obj", moved({1}, shift));
+  const auto ended = run_box("keep");
+  const auto rest = points_of("mesh.obj"), found = points_of("out/deformed.obj");
+  for (std::size_t p = 0; p < rest.size(); ++p) {
+    if (is_outside(rest[p])) {
+      EXPECT_EQ(found[p], rest[p]) << p;
+    }
+  }
+  // An edge of the mesh passes through the box at the control point that moves.
+  EXPECT_NE(ended.errors.find("the deformation jumps there by up to 0.5, at the edge between "
+                              "vertices 22 and 13 in pose.obj"),
+            std::string::npos)
+      << ended.errors;
+  const auto border = report("out/report.json")["border"];
+  EXPECT_NEAR(border["jumps"][0]["length"], 0.5, 1e-12);
+  const std::vector<int> held = border["control_points"];
+  // All but the middle of the top, which no edge of the mesh reaches.
+  const std::vector<int> flat = {0, 1, 2, 3, 5}, solid = {0, 1, 2, 3, 5, 6, 7, 8, 9, 11};
+  EXPECT_EQ(held, is_flat() ? flat : solid);
+
+  write_box("pose.obj", moved({4}, shift));
+  const auto still = run_box("keep");
+  EXPECT_EQ(still.errors.find("jump"), std::string::npos) << still.errors;
+  EXPECT_GT(report("out/report.json")["deform"][0]["largest_displacement"], 0.1);
+}
+
+TEST_P(BoxInMesh, AllCommandsTakeVerticesWithoutWeightsOrAtAnOffset) {
+  write_box("pose.obj", moved({1}, {0, 0.5, 0}));
+  for (const std::string policy : {"nearest", "keep"}) {
+    SCOPED_TRACE(policy);
+    expect("solve box.obj --model mesh.obj --vertices 400 -o w.npy --outside " + policy);
+    const auto check = expect("check box.obj --model mesh.obj --weights w.npy --json check.json");
+    EXPECT_EQ(report("check.json")["weights"]["without_weights"], policy == "keep" ? 30 : 0);
+    expect("sparsify w.npy --cage box.obj --points mesh.obj -k 4 -q -o few.mtx --report r.json");
+    EXPECT_EQ(report("r.json")["after"]["without_weights"], policy == "keep" ? 30 : 0);
+    EXPECT_LT(report("r.json")["after"]["max_reproduction_error"], 1e-12);
+    expect("export mesh.obj --cage box.obj --weights w.npy --pose pose.obj -q -o m.glb");
+    expect("export mesh.obj --cage box.obj --weights w.npy --pose pose.obj -k 4 -q -o m.usda");
+    expect("export mesh.obj --cage box.obj --weights w.npy -q -o m.py");
+    expect("view mesh.obj --cage box.obj --weights w.npy -k 4 -q -o m.html");
+    expect("draw --cage box.obj --model mesh.obj --weights w.npy --pose pose.obj -o m.png");
+    // Weights of another model are refused as before.
+    auto other = slurp("mesh.obj");
+    other.replace(other.find("v 4 3 0"), 7, "v 4 3.1 0");
+    file("other.obj", other);
+    expect("deform other.obj --weights w.npy --rest box.obj --pose pose.obj -o x.obj", 2,
+           "the weights do not belong to this model");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(In, BoxInMesh, ::testing::Values(2, 3));
+
+// Before anything that takes long.
+TEST_F(OutsideCommand, RefusesBeforeTheMesherStarts) {
+  const auto of = model("0.25");
+  const auto refused = expect("run " + square() + ' ' + of + " --vertices 900000 -o out", 2,
+                              "step mesh: model.obj: 2 of 3 vertices are outside the cage");
+  EXPECT_LT(report("out/report.json").value("/mesh/seconds"_json_pointer, 0.0), 1.0);
+  EXPECT_FALSE(std::filesystem::exists("out/domain.obj"));
 }
 
 }  // namespace

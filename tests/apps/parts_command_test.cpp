@@ -171,7 +171,7 @@ TYPED_TEST(PartsCommand, OutsideOfAllParts) {
       solve("fail"), 2,
       std::to_string(n / 2) + " of " + std::to_string(2 * n) + " vertices are outside the cage");
   for (const std::string policy : {"nearest", "extend"}) {
-    this->expect(solve(policy), 0, "vertices outside the cage");
+    this->expect(solve(policy), 0, "vertices are outside the cage");
     const auto weights = io::read_weights("w.npy").dense();
     EXPECT_EQ(weights.bottomLeftCorner(n, n).cwiseAbs().maxCoeff(), 0);
     EXPECT_LT((weights.colwise().sum().array() - 1).abs().maxCoeff(), 1e-12);

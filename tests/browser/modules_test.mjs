@@ -301,11 +301,12 @@ test("of a resting cage the last shape is solved, one at a time, and refused sha
 });
 
 test("the copied command names files where they are", () => {
-  const viewer = { content: { title: "arm (2)", files: { model: "../in put/arm #2.ply", weights: "w.mtx" } } };
+  const viewer = { content: { title: "arm (2)", files: { model: "../in put/arm #2.ply", weights: "w.mtx", cage: "cage.obj" } } };
   assert.equal(commandOf(viewer, "file:///home/me/out%20dir/model.html"),
                "flbc deform '/home/me/in put/arm #2.ply' --weights '/home/me/out dir/w.mtx' "
-               + "--pose 'arm (2)_pose.obj' -o 'arm (2)_posed.ply'");
+               + "--pose 'arm (2)_pose.obj' --rest '/home/me/out dir/cage.obj' "
+               + "-o 'arm (2)_posed.ply'");
   assert.equal(commandOf(viewer, "http://127.0.0.1:8000/0/"),
                "flbc deform '../in put/arm #2.ply' --weights w.mtx "
-               + "--pose 'arm (2)_pose.obj' -o 'arm (2)_posed.ply'");
+               + "--pose 'arm (2)_pose.obj' --rest cage.obj -o 'arm (2)_posed.ply'");
 });

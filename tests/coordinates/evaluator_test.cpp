@@ -41,33 +41,58 @@ struct EvaluatorTest {
   double size = 0;
 };
 
+constexpr OutsidePoints kPolicies[] = {OutsidePoints::kNearest, OutsidePoints::kKeep,
+                                       OutsidePoints::kExtend};
+
+// x + sum_i w_i (c'_i - c_i), whatever the policy. Points within the tolerance are on the cage.
 TEST_IN_2D_AND_3D(EvaluatorTest, MovesPointsAsTheirWeightsDo) {
   const EvaluatorTest<Dim> t;
-  for (const auto outside : {OutsidePoints::kNearest, OutsidePoints::kExtend}) {
+  for (const auto outside : kPolicies) {
     const auto placement = place_points(t.sample.cage, t.sample.mesh, t.points, outside);
     ASSERT_GT(placement.outside.size(), 100U);
     const auto weights = weights_at(t.sample.cage, t.sample.mesh, t.weights, placement);
-    const auto expected = deform(weights, t.pose);
+    const PointList<Dim> expected = t.points + deform<Dim>(weights, t.pose - t.sample.cage.points);
     const auto evaluator = t.evaluator(outside);
     const auto placed = evaluator.place(t.points);
     const auto moved = evaluator.move(placed, evaluator.pose(t.pose));
-    EXPECT_LT((moved - expected).colwise().norm().maxCoeff(), 1e-13 * t.size);
+    EXPECT_LT((moved - expected).colwise().norm().maxCoeff(), 1e-12 * t.size);
     EXPECT_LT((evaluator.weights(placed).dense() - weights.dense()).cwiseAbs().maxCoeff(), 1e-13);
   }
 }
 
 TEST_IN_2D_AND_3D(EvaluatorTest, DisplacementsGiveDisplacements) {
   const EvaluatorTest<Dim> t;
-  const auto evaluator = t.evaluator(OutsidePoints::kNearest);
-  const auto placement = evaluator.place(t.points);
-  const auto moved = evaluator.move(placement, evaluator.pose(t.pose));
-  const auto shifts = evaluator.move(placement, evaluator.pose(t.pose - t.sample.cage.points));
-  EXPECT_LT((placement.points + shifts - moved).cwiseAbs().maxCoeff(), 1e-12 * t.size);
+  for (const auto outside : kPolicies) {
+    const auto evaluator = t.evaluator(outside);
+    const auto placement = evaluator.place(t.points);
+    const auto moved = evaluator.move(placement, evaluator.pose(t.pose));
+    const auto shifts =
+        evaluator.displace(placement, evaluator.pose(t.pose - t.sample.cage.points));
+    EXPECT_LT((t.points + shifts - moved).cwiseAbs().maxCoeff(), 1e-12 * t.size);
+  }
+}
+
+TEST_IN_2D_AND_3D(EvaluatorTest, RestAndTranslationsAtAndOutsideTheCage) {
+  const EvaluatorTest<Dim> t;
+  const Vector<Dim> shift = Vector<Dim>::LinSpaced(-3, 5) * t.size;
+  for (const auto outside : kPolicies) {
+    const auto evaluator = t.evaluator(outside);
+    const auto placement = evaluator.place(t.points);
+    const auto rest = evaluator.move(placement, evaluator.pose(t.sample.cage.points));
+    EXPECT_LT((rest - t.points).cwiseAbs().maxCoeff(), 1e-12 * t.size);
+    const PointList<Dim> pose = t.sample.cage.points.colwise() + shift;
+    const auto moved = evaluator.move(placement, evaluator.pose(pose));
+    PointList<Dim> expected = t.points.colwise() + shift;
+    for (const auto& point : placement.outside) {
+      if (outside == OutsidePoints::kKeep) expected.col(point.point) = t.points.col(point.point);
+    }
+    EXPECT_LT((moved - expected).cwiseAbs().maxCoeff(), 1e-12 * shift.norm());
+  }
 }
 
 TEST_IN_2D_AND_3D(EvaluatorTest, BatchesAndThreadsChangeNothing) {
   const EvaluatorTest<Dim> t;
-  for (const auto outside : {OutsidePoints::kNearest, OutsidePoints::kExtend}) {
+  for (const auto outside : kPolicies) {
     const auto evaluator = t.evaluator(outside, 2);
     const auto pose = evaluator.pose(t.pose);
     const auto expected = evaluator.move(evaluator.place(t.points), pose);

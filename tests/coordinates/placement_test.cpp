@@ -124,7 +124,7 @@ TEST_IN_2D_AND_3D(PlacementTest, RefusalsNameTheFarthest) {
   expect_error<InputError>(
       [&] { place_points(t.sample.cage, t.sample.mesh, points); },
       {"2 of " + std::to_string(points.cols()) + " vertices are outside",
-       "the farthest is vertex 3", "kNearest", "kExtend", "cage_from_model()"});
+       "the farthest is vertex 3", "kNearest", "kKeep", "kExtend", "cage_from_model()"});
 }
 
 TEST_IN_2D_AND_3D(PlacementTest, NearestIsTheNearestPointOfTheCage) {
@@ -137,7 +137,10 @@ TEST_IN_2D_AND_3D(PlacementTest, NearestIsTheNearestPointOfTheCage) {
   t.expect_sums_are_one(weights);
   const PointList<Dim> places = cage.points * weights;
   EXPECT_LT((places - placement.points).cwiseAbs().maxCoeff(), 1e-12);
-  for (const auto& [point, facet, coordinates, distance] : placement.outside) {
+  for (const auto& beside : placement.outside) {
+    const Index point = beside.point;
+    const double distance = beside.distance();
+    EXPECT_LT((places.col(point) + beside.offset - points.col(point)).norm(), 1e-12);
     EXPECT_GE(weights.col(point).minCoeff(), 0);
     EXPECT_LE((weights.col(point).array() > 0).count(), Dim);
     EXPECT_NEAR((places.col(point) - points.col(point)).norm(), distance, 1e-12);
@@ -153,6 +156,69 @@ TEST_IN_2D_AND_3D(PlacementTest, NearestIsTheNearestPointOfTheCage) {
         }
       }
     }
+  }
+}
+
+TEST_IN_2D_AND_3D(PlacementTest, PointsThatAreKeptHaveNoWeights) {
+  PlacementTest<Dim> t;
+  const auto& cage = t.sample.cage;
+  for (const double part : {-0.01, 1e-7, 0.2}) {
+    const auto points = t.off_the_facets(part * t.size);
+    const auto placement = place_points(cage, t.sample.mesh, points, OutsidePoints::kKeep);
+    const auto weights = weights_at(cage, t.sample.mesh, t.weights, placement);
+    const auto outside = points_outside(cage, points);
+    std::vector<bool> is_outside(static_cast<std::size_t>(points.cols()), false);
+    for (const Index p : outside) is_outside[p] = true;
+    EXPECT_EQ(outside.empty(), part < 1e-6);
+    const auto near = t.weights_at_points(points, OutsidePoints::kNearest);
+    for (Index p = 0; p < weights.num_points(); ++p) {
+      EXPECT_EQ(weights.has_weights(p), !is_outside[p]);
+      if (is_outside[p]) {
+        EXPECT_EQ(placement.points.col(p), points.col(p));
+      } else {
+        EXPECT_EQ(weights.at(p), near.col(p));
+      }
+    }
+    // They have none in any reduction either.
+    const auto few = sparsify<Dim>(cage.points, placement.points, weights, {Dim + 1});
+    EdgeList edges;
+    for (Index p = 0; p + 1 < weights.num_points(); ++p) edges.ends.push_back({p, p + 1});
+    const auto smooth =
+        reduce_by_poisson<Dim>(cage.points, placement.points, edges, weights, {}, {Dim + 1});
+    for (const auto& reduced : {few, smooth}) {
+      for (Index p = 0; p < weights.num_points(); ++p) {
+        ASSERT_EQ(reduced.has_weights(p), !is_outside[p]);
+        const double sum = is_outside[p] ? 0 : 1;
+        EXPECT_NEAR(reduced.at(p).sum(), sum, 1e-12);
+      }
+    }
+  }
+}
+
+TEST_IN_2D_AND_3D(PlacementTest, AttachedPointsAreThoseThatTheWeightsReproduce) {
+  PlacementTest<Dim> t;
+  const auto& cage = t.sample.cage;
+  PointList<Dim> points(Dim, 4 * cage.facets.cols());
+  points << t.off_the_facets(-0.01 * t.size), t.off_the_facets(0.2 * t.size);
+  for (const auto policy :
+       {OutsidePoints::kNearest, OutsidePoints::kKeep, OutsidePoints::kExtend}) {
+    const auto placement = place_points(cage, t.sample.mesh, points, policy);
+    ASSERT_GT(placement.outside.size(), 0U);
+    // Reproducing on the mesh, as the weights of a solve.
+    SparseWeights linear = mean_value_coordinates<Dim>(cage, t.sample.mesh.points);
+    const auto weights = weights_at(cage, t.sample.mesh, linear, placement);
+    const auto attached = attached_points(cage, points, weights);
+    EXPECT_LT((attached - placement.points).cwiseAbs().maxCoeff(), 1e-12 * t.size);
+    if (policy == OutsidePoints::kExtend) {
+      EXPECT_EQ(attached, points);
+    }
+    // Weights of other points are not taken for weights of these.
+    const PointList<Dim> others = points.rowwise().reverse();
+    const auto of_others = attached_points<Dim>(cage, others, weights);
+    EXPECT_GT((of_others - deform<Dim>(weights, cage.points)).colwise().norm().maxCoeff(),
+              1e-3 * t.size);
+    const Cage<Dim> without_facets{cage.points, {}};
+    EXPECT_EQ(attached_points(without_facets, points, weights), points);
   }
 }
 

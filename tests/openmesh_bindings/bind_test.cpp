@@ -241,6 +241,30 @@ TYPED_TEST(Bind, VerticesOutsideAreNamedOrFollowTheCage) {
             TypeParam::kRounding);
 }
 
+TYPED_TEST(Bind, VerticesOutsideStayIfTheyAreKept) {
+  const auto& cage = this->sample_.cage;
+  constexpr int kVertex = 11;
+  put_outside<TypeParam::kDim>(this->model_, cage, kVertex, 1);
+  const auto rest = this->points();
+  this->options_.outside = openmesh::OutsidePoints::kKeep;
+  for (const Index most : {0, 5}) {
+    this->options_.max_influences = most;
+    const auto report = openmesh::bind(this->model_, cage, this->sample_.mesh, this->options_);
+    EXPECT_EQ(report.outside, 1);
+    EXPECT_LT(report.quality.max_reproduction_error, 1e-12);
+    EXPECT_TRUE(openmesh::get_weights(this->model_).col(kVertex).isZero(0));
+    EXPECT_EQ(openmesh::deform(this->model_, cage), 0);
+    EXPECT_LT((this->points() - rest).cwiseAbs().maxCoeff(), TypeParam::kRounding);
+    EXPECT_EQ(openmesh::deform(this->model_, this->random_pose(5)), 0);
+    EXPECT_EQ(this->points().col(kVertex), rest.col(kVertex));
+    EXPECT_GT((this->points() - rest).cwiseAbs().maxCoeff(), 1e-3);
+    openmesh::restore_rest(this->model_);
+    EXPECT_EQ(this->points(), rest);
+    // It is bound, to where it is.
+    EXPECT_EQ(openmesh::bind_new_vertices(this->model_), 0);
+  }
+}
+
 TYPED_TEST(Bind, FilesKeepABinding) {
   this->options_.persistent = true;
   this->options_.outside = openmesh::OutsidePoints::kNearest;

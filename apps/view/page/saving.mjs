@@ -71,5 +71,5 @@ export function commandOf(viewer, address) {
   const extension = /\.[^./]*$/.exec(files.model)?.[0] ?? ".obj";
   const place = (file) => quoted(placeOf(file, address));
   return ["flbc deform", place(files.model), "--weights", place(files.weights), "--pose",
-          quoted(`${title}_pose.obj`), "-o", quoted(`${title}_posed${extension}`)].join(" ");
+          quoted(`${title}_pose.obj`), "--rest", place(files.cage), "-o", quoted(`${title}_posed${extension}`)].join(" ");
 }

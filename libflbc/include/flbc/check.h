@@ -54,6 +54,7 @@ struct WeightCheck {
   Index points = 0;          //!< P
   Index control_points = 0;  //!< n
 
+  Index without_weights = 0;      //!< number of points without weights, which do not move
   std::int64_t non_finite = 0;    //!< number of non-finite weights
   Extreme<Dim> first_non_finite;  //!< the first of them
   std::int64_t negative = 0;      //!< number of weights below -1e-12
@@ -72,8 +73,9 @@ struct WeightCheck {
   std::optional<MeshCheck<Dim>> mesh;  //!< only for weights at the vertices of a mesh
 };
 
-//! Measures weights at any points. A point within 1e-10 of cage size from the cage or from a
-//! control point counts as on it.
+//! Measures weights at any points. Points without weights are only counted. Points outside that
+//! have the weights of the nearest point of the cage are measured there (attached_points()). A
+//! point within 1e-10 of cage size from the cage or from a control point counts as on it.
 //! \param cage  has passed validate()
 //! \param points  Dim x P, in the units of the cage
 //! \param weights  of P points

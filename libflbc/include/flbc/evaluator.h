@@ -50,17 +50,25 @@ class Evaluator {
 
   //! Moves the domain mesh. move() then needs Dim + 1 vertices per point, however many weights
   //! those have.
-  //! \param control_points  Dim x n, in any units. Displacements of the control points are also
-  //! valid, and move() then returns displacements
+  //! \param control_points  Dim x n, in the units of the cage for move(), and displacements in any
+  //! units for displace()
   //! \throws InputError if the numbers of control points differ
   PosedDomain<Dim> pose(const PointList<Dim>& control_points) const;
 
-  //! Moves placed points. The result differs from deform() with the weights of these points only by
-  //! rounding.
+  //! Moves placed points. Inside the cage, the result differs from deform() with the weights of
+  //! these points only by rounding. Outside, the policy applies.
   //! \param placement  of P points
   //! \param pose  as returned by pose()
-  //! \return Dim x P, in the units of the pose
+  //! \return Dim x P
   PointList<Dim> move(const Placement<Dim>& placement, const PosedDomain<Dim>& pose) const;
+
+  //! The displacements of placed points. They differ from deform() with the weights of these points
+  //! only by rounding.
+  //! \param placement  of P points
+  //! \param displacements  as returned by pose() for displacements of the control points
+  //! \return Dim x P, in the units of the displacements
+  PointList<Dim> displace(const Placement<Dim>& placement,
+                          const PosedDomain<Dim>& displacements) const;
 
  private:
   struct Parts;

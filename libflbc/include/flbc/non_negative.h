@@ -13,9 +13,10 @@ namespace flbc {
 //! Replaces the weights w of every point by the nearest ones (in the Euclidean norm) with w >= 0,
 //! sum w = 1 and sum w c = x. Afterwards no weight is negative (nor -0). The sum holds to 1e-13,
 //! and reproduction to 1e-13 of the size of the control points. Feasible weights are unchanged. A
-//! point outside the convex hull of the control points by at most kBoundaryTolerance of their size
-//! counts as the nearest point of the hull. The result may be other feasible weights where rounding
-//! hides the nearest one. This happens at points on the boundary of the hull, if control points are
+//! point without weights keeps none, because it does not move (OutsidePoints::kKeep). A point
+//! outside the convex hull of the control points by at most kBoundaryTolerance of their size counts
+//! as the nearest point of the hull. The result may be other feasible weights where rounding hides
+//! the nearest one. This happens at points on the boundary of the hull, if control points are
 //! within 1e-8 of the size from a facet. The projection solves the dual problem with a semismooth
 //! Newton method (Qi and Sun 1993).
 //! \param control_points  Dim x n, n >= 1, finite

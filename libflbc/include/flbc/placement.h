@@ -12,11 +12,14 @@
 
 namespace flbc {
 
-//! Treatment of points outside the cage.
+//! Treatment of points outside the cage. The policy chooses the weights w of a point x. Control
+//! points that move from c to c' move it to x + sum_i w_i (c'_i - c_i), so that nothing moves at
+//! rest. Inside, this is sum_i w_i c'_i, because the weights reproduce x.
 enum class OutsidePoints {
   kFail,     //!< throws InputError with their number, the farthest one, and its distance
-  kNearest,  //!< uses the weights of the nearest point of the cage: non-negative, sum 1; they
-             //!< reproduce that nearest point
+  kNearest,  //!< the weights of the nearest point of the cage: non-negative, sum 1. The point
+             //!< follows that point at a constant offset
+  kKeep,     //!< no weights: the point stays where it is
   kExtend    //!< as kNearest, plus an affine function of the offset from the nearest point. The
              //!< offset follows the affine map that best fits the nearby control points. The sum is
              //!< 1 and the point is reproduced; weights may be negative. Continuous across the
@@ -29,14 +32,16 @@ struct NearestOnCage {
   Index point = -1;
   Index facet = -1;
   Vector<Dim> coordinates = Vector<Dim>::Zero();  //!< barycentric in the facet: >= 0, sum 1
-  double distance = 0;
+  Vector<Dim> offset = Vector<Dim>::Zero();       //!< from the nearest point of the cage
+
+  double distance() const { return offset.norm(); }
 };
 
 //! Locations of points relative to a cage.
 template <int Dim>
 struct Placement {
   OutsidePoints policy = OutsidePoints::kFail;
-  PointList<Dim> points;              //!< Dim x P, as reproduced by the weights
+  PointList<Dim> points;              //!< Dim x P, as reproduced by the weights, if there are any
   std::vector<Location<Dim>> places;  //!< P locations, coordinates >= 0; cell -1: not inside
   //! Points outside by at most kBoundaryTolerance, which were moved onto the cage; ascending.
   std::vector<NearestOnCage<Dim>> on_cage;
@@ -75,6 +80,16 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const PointList<Dim>& points,
 template <int Dim>
 std::vector<NearestOnCage<Dim>> nearest_on_cage(const Cage<Dim>& cage, const PointList<Dim>& points,
                                                 const std::vector<Index>& which);
+
+//! The points that weights should reproduce: the nearest point of the cage for a point outside that
+//! has the weights of OutsidePoints::kNearest, else the point itself.
+//! \param cage  its facets may be missing; then all points are unchanged
+//! \param points  Dim x P, finite, in the units of the cage
+//! \param weights  of P points
+//! \return Dim x P
+template <int Dim>
+PointList<Dim> attached_points(const Cage<Dim>& cage, const PointList<Dim>& points,
+                               const SparseWeights& weights);
 
 //! Weights at placed points: linear in cells and facets; outside, by the policy. They are
 //! non-negative if the given weights are, except for OutsidePoints::kExtend.

@@ -12,7 +12,8 @@ namespace flbc {
 //! A weight is an influence if |w_i| exceeds this threshold.
 constexpr double kInfluenceThreshold = 1e-4;
 
-//! Quality measures that need only weights, points, and control points.
+//! Quality measures that need only weights, points, and control points. Points without weights,
+//! which do not move, have no errors.
 struct Quality {
   double min_weight = 0;              //!< smallest w_i
   double max_partition_error = 0;     //!< max |sum_i w_i - 1|

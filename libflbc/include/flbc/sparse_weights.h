@@ -70,6 +70,10 @@ class SparseWeights {
     }
   }
 
+  //! Whether a point has weights other than zero. Points without weights do not move.
+  //! \param point  in [0, P)
+  bool has_weights(Index point) const;
+
   //! All n weights of a point, zeros included. \param point  in [0, P)
   Eigen::VectorXd at(Index point) const;
 

@@ -34,10 +34,11 @@ void validate(const SparsifyOptions& options);
 //! = 1, and sum w c = x. The sum holds to 1e-13, and reproduction to 1e-13 of the size of the
 //! control points. Weights that satisfy the limits are unchanged. With default options the result
 //! equals that of project_non_negative(). The given weights may be negative and need not reproduce
-//! points. For the chosen influences, the weights minimize |w - given|^2. This is the expected
-//! squared error of the point under random independent displacements of the control points.
-//! Influences are chosen by repeatedly removing the cheapest one, and by exchange with others whose
-//! given weight is at least 1e-3. The choice is usually, but not always, the best one.
+//! points. A point without weights keeps none. For the chosen influences, the weights minimize |w -
+//! given|^2. This is the expected squared error of the point under random independent displacements
+//! of the control points. Influences are chosen by repeatedly removing the cheapest one, and by
+//! exchange with others whose given weight is at least 1e-3. The choice is usually, but not always,
+//! the best one.
 //! \param control_points  Dim x n, finite
 //! \param points  Dim x P, inside the convex hull of the control points, in the same units
 //! \param weights  of P points, finite

@@ -110,6 +110,11 @@ SparseWeights SparseWeights::of(Index num_control_points, Index num_points,
   return result;
 }
 
+bool SparseWeights::has_weights(Index point) const {
+  return std::any_of(values_.begin() + starts_[point], values_.begin() + starts_[point + 1],
+                     [](double weight) { return weight != 0; });
+}
+
 Eigen::VectorXd SparseWeights::at(Index point) const {
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(num_control_points_);
   visit(point, [&](Index i, double weight) { weights[i] = weight; });

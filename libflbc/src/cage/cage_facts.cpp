@@ -129,9 +129,7 @@ std::vector<Index> points_outside(const Cage<Dim>& cage, const PointList<Dim>& p
   const CageLocator<Dim> locator(cage, kBoundaryTolerance * bounding_box_diagonal(cage.points));
   const auto num_points = static_cast<Index>(points.cols());
   std::vector<char> is_outside(num_points);  // not bool: neighbors are written concurrently
-  parallel_for(num_points, [&](Index p) {
-    is_outside[p] = locator.locate(points.col(p)) == Containment::kOutside;
-  });
+  parallel_for(num_points, [&](Index p) { is_outside[p] = locator.is_outside(points.col(p)); });
   std::vector<Index> outside;
   for (Index p = 0; p < num_points; ++p) {
     if (is_outside[p]) outside.push_back(p);

@@ -94,6 +94,11 @@ Containment CageLocator<Dim>::locate(const Vector<Dim>& point) const {
 }
 
 template <int Dim>
+bool CageLocator<Dim>::is_outside(const Vector<Dim>& point) const {
+  return !is_enclosed(point) && !is_on_cage(point);
+}
+
+template <int Dim>
 bool CageLocator<Dim>::is_on_cage(const Vector<Dim>& point) const {
   for (Index facet = 0; facet < cage_.facets.cols(); ++facet) {
     const Eigen::Matrix<double, Dim, Dim> corners =

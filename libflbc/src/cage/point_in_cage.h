@@ -26,6 +26,9 @@ class CageLocator {
 
   Containment locate(const Vector<Dim>& point) const;
 
+  //! Whether locate() returns kOutside. For points inside this takes less time.
+  bool is_outside(const Vector<Dim>& point) const;
+
  private:
   bool is_on_cage(const Vector<Dim>& point) const;
   bool is_enclosed(const Vector<Dim>& point) const;

@@ -81,6 +81,19 @@ PosedDomain<Dim> Evaluator<Dim>::pose(const PointList<Dim>& control_points) cons
 template <int Dim>
 PointList<Dim> Evaluator<Dim>::move(const Placement<Dim>& placement,
                                     const PosedDomain<Dim>& pose) const {
+  auto moved = displace(placement, pose);
+  for (const auto& point : placement.outside) {
+    if (placement.policy == OutsidePoints::kNearest) moved.col(point.point) += point.offset;
+    if (placement.policy == OutsidePoints::kKeep) {
+      moved.col(point.point) = placement.points.col(point.point);
+    }
+  }
+  return moved;
+}
+
+template <int Dim>
+PointList<Dim> Evaluator<Dim>::displace(const Placement<Dim>& placement,
+                                        const PosedDomain<Dim>& pose) const {
   check_placement(parts_->cage, placement);
   check_size(pose.control_points.cols(), pose.vertices.cols(), parts_->cage.size(),
              parts_->mesh.num_vertices());
@@ -100,16 +113,10 @@ PointList<Dim> Evaluator<Dim>::move(const Placement<Dim>& placement,
   for (const auto& point : placement.on_cage) {
     moved.col(point.point) = place_on_cage(posed_cage, point);
   }
-  if (placement.policy == OutsidePoints::kExtend && !placement.outside.empty()) {
-    const auto extended =
-        deform(weights(outside_of(placement)), pose.control_points, parts_->threads);
-    for (std::size_t k = 0; k < placement.outside.size(); ++k) {
-      moved.col(placement.outside[k].point) = extended.col(static_cast<Eigen::Index>(k));
-    }
-  } else {
-    for (const auto& point : placement.outside) {
-      moved.col(point.point) = place_on_cage(posed_cage, point);
-    }
+  if (placement.outside.empty()) return moved;
+  const auto outside = deform(weights(outside_of(placement)), pose.control_points, parts_->threads);
+  for (std::size_t k = 0; k < placement.outside.size(); ++k) {
+    moved.col(placement.outside[k].point) = outside.col(static_cast<Eigen::Index>(k));
   }
   return moved;
 }

@@ -116,7 +116,7 @@ WeightMatrix green_coordinates(const Cage<Dim>& cage, const PointList<Dim>& poin
   parallel_for_chunks(num_points, 64, [&](Index p) {
     Vector<Dim> x = points.col(p);
     auto place = on_cage.locate(x);
-    if (place.facet < 0 && inside.locate(x) == Containment::kOutside) {
+    if (place.facet < 0 && inside.is_outside(x)) {
       place = near_cage.locate(x);
       if (place.facet < 0) {
         is_outside[p] = 1;

@@ -2,6 +2,7 @@
 #include "flbc/placement.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <string>
@@ -21,6 +22,7 @@
 #include "coordinates/place_on_cage.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
+#include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/interpolate.h"
 #include "linear/dense.h"
@@ -121,15 +123,15 @@ void refuse_outside(const Placement<Dim>& placement, const PointList<Dim>& point
   const auto& outside = placement.outside;
   const auto farthest =
       std::max_element(outside.begin(), outside.end(),
-                       [](const auto& a, const auto& b) { return a.distance < b.distance; });
+                       [](const auto& a, const auto& b) { return a.distance() < b.distance(); });
   throw InputError(
       std::to_string(outside.size()) + " of " + std::to_string(points.cols()) +
       " vertices are outside the cage; the farthest is vertex " + std::to_string(farthest->point) +
       " at " + format_point(points.col(farthest->point)) + ", " +
-      format_number(farthest->distance) + " from it, " +
-      format_number(100 * farthest->distance / size) +
-      "% of the cage size; choose OutsidePoints kNearest or kExtend, or make a cage around the "
-      "model with cage_from_model()");
+      format_number(farthest->distance()) + " from it, " +
+      format_number(100 * farthest->distance() / size) +
+      "% of the cage size; choose OutsidePoints kNearest, kKeep, or kExtend, or make a cage around "
+      "the model with cage_from_model()");
 }
 
 // Lists the points that are not inside, and moves them onto the cage where that is due.
@@ -138,7 +140,7 @@ void place_beside(const Cage<Dim>& cage, const PointList<Dim>& points,
                   const std::vector<Index>& beside, Placement<Dim>& placement) {
   const double size = bounding_box_diagonal(cage.points);
   for (const auto& point : nearest_on_cage(cage, points, beside)) {
-    const bool is_near = point.distance <= kBoundaryTolerance * size;
+    const bool is_near = point.distance() <= kBoundaryTolerance * size;
     (is_near ? placement.on_cage : placement.outside).push_back(point);
     if (is_near || placement.policy == OutsidePoints::kNearest) {
       placement.points.col(point.point) = place_on_cage(cage, point);
@@ -159,28 +161,31 @@ class WeightsAt {
   WeightsAt(const Cage<Dim>& cage, const Placement<Dim>& placement, Inside inside)
       : cage_(cage), placement_(placement), inside_(std::move(inside)) {
     check_placement(cage, placement);
-    for (const auto& beside : placement.on_cage) beside_[beside.point] = {&beside, false};
-    const bool extends = placement.policy == OutsidePoints::kExtend;
-    for (const auto& beside : placement.outside) beside_[beside.point] = {&beside, extends};
-    if (extends) fit_round_facets();
+    const auto policy = placement.policy;
+    for (const auto& beside : placement.on_cage) {
+      beside_[beside.point] = {&beside, OutsidePoints::kNearest};
+    }
+    for (const auto& beside : placement.outside) beside_[beside.point] = {&beside, policy};
+    if (policy == OutsidePoints::kExtend) fit_round_facets();
   }
 
   Eigen::VectorXd operator()(Index point) const {
     const auto found = beside_.find(point);
     if (found == beside_.end()) return inside_(point);
-    const auto& [beside, extends] = found->second;
+    const auto& [beside, policy] = found->second;
     Eigen::VectorXd result = Eigen::VectorXd::Zero(cage_.size());
+    if (policy == OutsidePoints::kKeep) return result;
     for (int k = 0; k < Dim; ++k) {
       result[cage_.facets(k, beside->facet)] = beside->coordinates[k];
     }
-    if (extends) extend(*beside, result);
+    if (policy == OutsidePoints::kExtend) extend(*beside, result);
     return result;
   }
 
  private:
   struct Beside {
     const NearestOnCage<Dim>* place = nullptr;
-    bool extends = false;
+    OutsidePoints policy = OutsidePoints::kNearest;
   };
 
   void fit_round_facets() {
@@ -197,12 +202,12 @@ class WeightsAt {
 
   // Adds sum_k b_k G_k (x - q) with the affine fits G_k at the corners of the facet.
   void extend(const NearestOnCage<Dim>& beside, Eigen::VectorXd& result) const {
-    const Vector<Dim> offset = placement_.points.col(beside.point) - place_on_cage(cage_, beside);
     for (int k = 0; k < Dim; ++k) {
       if (beside.coordinates[k] == 0) continue;
       const auto& fit = fits_.at(cage_.facets(k, beside.facet));
       for (std::size_t i = 0; i < fit.control_points.size(); ++i) {
-        result[fit.control_points[i]] += beside.coordinates[k] * fit.gradients.row(i).dot(offset);
+        result[fit.control_points[i]] +=
+            beside.coordinates[k] * fit.gradients.row(i).dot(beside.offset);
       }
     }
   }
@@ -233,8 +238,9 @@ std::vector<NearestOnCage<Dim>> nearest_on_cage(const Cage<Dim>& cage, const Poi
   parallel_for(count, [&](Index k) {
     HullPoint<Dim> place{};
     const Index facet = nearest(points.col(which[k]), place);
-    result[k] = {which[k], facet, Vector<Dim>::Zero(), place.distance};
+    result[k] = {which[k], facet};
     for (int c = 0; c < place.size; ++c) result[k].coordinates[place.support[c]] = place.weights[c];
+    result[k].offset = points.col(which[k]) - place_on_cage(cage, result[k]);
   });
   return result;
 }
@@ -275,9 +281,7 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const PointList<Dim>& points,
   const CageLocator<Dim> locator(cage, kRounding * bounding_box_diagonal(cage.points));
   const auto num_points = static_cast<Index>(points.cols());
   std::vector<char> is_beside(static_cast<std::size_t>(num_points));
-  parallel_for(num_points, [&](Index p) {
-    is_beside[p] = locator.locate(points.col(p)) == Containment::kOutside;
-  });
+  parallel_for(num_points, [&](Index p) { is_beside[p] = locator.is_outside(points.col(p)); });
   std::vector<Index> beside;
   for (Index p = 0; p < num_points; ++p) {
     if (is_beside[p]) beside.push_back(p);
@@ -288,6 +292,29 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const PointList<Dim>& points,
   placement.places.resize(static_cast<std::size_t>(num_points));
   place_beside(cage, points, beside, placement);
   return placement;
+}
+
+template <int Dim>
+PointList<Dim> attached_points(const Cage<Dim>& cage, const PointList<Dim>& points,
+                               const SparseWeights& weights) {
+  check_size(weights, cage.size(), points.cols());
+  const double tolerance = kBoundaryTolerance * bounding_box_diagonal(cage.points);
+  const auto reproduced = deform<Dim>(weights, cage.points);
+  std::vector<Index> elsewhere;
+  for (Index p = 0; p < weights.num_points() && cage.facets.cols() > 0; ++p) {
+    if (!weights.has_weights(p)) continue;
+    if ((reproduced.col(p) - points.col(p)).norm() > tolerance) elsewhere.push_back(p);
+  }
+  const CageLocator<Dim> locator(cage, tolerance);
+  PointList<Dim> result = points;
+  for (const auto& beside : nearest_on_cage(cage, points, elsewhere)) {
+    const Index p = beside.point;
+    // By the distance, because several points of the cage may be equally near.
+    const double error = (reproduced.col(p) - points.col(p)).norm();
+    if (std::abs(error - beside.distance()) > tolerance) continue;
+    if (locator.is_outside(points.col(p))) result.col(p) = reproduced.col(p);
+  }
+  return result;
 }
 
 template <int Dim>
@@ -324,5 +351,6 @@ FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE
 FLBC_INSTANTIATE_FUNCTION(nearest_on_cage)
+FLBC_INSTANTIATE_FUNCTION(attached_points)
 
 }  // namespace flbc

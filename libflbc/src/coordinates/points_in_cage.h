@@ -42,7 +42,7 @@ WeightMatrix weights_in_cage(const Cage<Dim>& cage, const PointList<Dim>& points
   parallel_for_chunks(num_points, 64, [&](Index p) {
     const Vector<Dim> x = points.col(p);
     auto place = on_cage.locate(x);
-    const bool is_inside = place.facet < 0 && inside.locate(x) != Containment::kOutside;
+    const bool is_inside = place.facet < 0 && !inside.is_outside(x);
     if (place.facet < 0 && !is_inside) place = near_cage.locate(x);
     if (is_inside) {
       const bool found = of_point(x, weights.col(p));

@@ -106,9 +106,10 @@ Quality measure_quality(const PointList<Dim>& control_points, const PointList<Di
       quality.min_weight = std::min(quality.min_weight, weight);
       count += std::abs(weight) > kInfluenceThreshold ? 1 : 0;
     });
+    influences.add(count);
+    if (!weights.has_weights(p)) continue;
     quality.max_partition_error = std::max(quality.max_partition_error, std::abs(sum - 1));
     quality.max_reproduction_error = std::max(quality.max_reproduction_error, error.norm() / size);
-    influences.add(count);
   }
   if (points.cols() == 0 || control_points.cols() == 0) quality.min_weight = 0;
   quality.mean_influences = influences.value();

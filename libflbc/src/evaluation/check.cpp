@@ -15,6 +15,7 @@
 #include "flbc/errors.h"
 #include "flbc/harmonic.h"
 #include "flbc/lbc_problem.h"
+#include "flbc/placement.h"
 #include "flbc/quality.h"
 #include "flbc/sparsify_error.h"
 #include "mesh/vertex_cells.h"
@@ -157,6 +158,7 @@ struct WeightExtremes {
     finite_points += other.finite_points;
     const WeightCheck<Dim>& next = other.check;
     check.non_finite += next.non_finite;
+    check.without_weights += next.without_weights;
     check.negative += next.negative;
     if (check.first_non_finite.point < 0) check.first_non_finite = next.first_non_finite;
     keep_smaller(check.min_weight, next.min_weight);
@@ -168,9 +170,10 @@ struct WeightExtremes {
   }
 };
 
+// \param may_be_still  whether points without weights are right
 template <int Dim>
 void add_point(WeightExtremes<Dim>& extremes, const Cage<Dim>& cage, double size, Index p,
-               const Vector<Dim>& place, const WeightMatrix& weights) {
+               const Vector<Dim>& place, const WeightMatrix& weights, bool may_be_still) {
   WeightCheck<Dim>& check = extremes.check;
   const auto column = weights.col(p);
   if (!column.allFinite()) {
@@ -187,6 +190,10 @@ void add_point(WeightExtremes<Dim>& extremes, const Cage<Dim>& cage, double size
   const double most = column.maxCoeff(&highest);
   const auto influences = (column.array().abs() > kInfluenceThreshold).count();
   const Vector<Dim> error = cage.points * column - place;
+  if (column.isZero(0)) {
+    ++check.without_weights;
+    if (may_be_still) return keep_smaller(check.min_weight, {0, p, 0, place});
+  }
   check.negative += (column.array() < -kRounding).count();
   extremes.influences += influences;
   keep_smaller(check.min_weight, {least, p, lowest, place});
@@ -270,14 +277,14 @@ std::vector<KnownWeights<Dim>> to_known_weights(const BoundaryValues<Dim>& bound
 template <int Dim>
 WeightCheck<Dim> check_at_points(const Cage<Dim>& cage, const PointList<Dim>& points,
                                  const WeightMatrix& weights,
-                                 const std::vector<KnownWeights<Dim>>& known) {
+                                 const std::vector<KnownWeights<Dim>>& known, bool may_be_still) {
   const double size = bounding_box_diagonal(cage.points);
   const auto num_points = static_cast<Index>(points.cols());
   const auto extremes =
       parallel_sum(num_points, WeightExtremes<Dim>(), [&](Index begin, Index end) {
         WeightExtremes<Dim> part;
         for (Index p = begin; p < end; ++p)
-          add_point<Dim>(part, cage, size, p, points.col(p), weights);
+          add_point<Dim>(part, cage, size, p, points.col(p), weights, may_be_still);
         return part;
       });
 
@@ -309,7 +316,11 @@ template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const PointList<Dim>& points,
                                const SparseWeights& weights) {
   check_size(weights, cage.size(), points.cols());
-  return check_at_points(cage, points, weights.dense(), find_points_on_cage(cage, points));
+  const auto attached = attached_points(cage, points, weights);
+  auto known = find_points_on_cage(cage, attached);
+  const auto is_still = [&](const auto& at) { return !weights.has_weights(at.point); };
+  known.erase(std::remove_if(known.begin(), known.end(), is_still), known.end());
+  return check_at_points(cage, attached, weights.dense(), known, true);
 }
 
 template <int Dim>
@@ -319,7 +330,8 @@ WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& dom
   check_size(weights, cage.size(), domain.num_vertices());
   auto problem = make_geometry(cage, domain);  // which may have several parts
   const auto dense = weights.dense();
-  auto check = check_at_points(cage, domain.points, dense, to_known_weights(problem.boundary));
+  auto check =
+      check_at_points(cage, domain.points, dense, to_known_weights(problem.boundary), false);
   check.mesh =
       check_on_mesh(std::move(problem), domain, weights, dense, check.quality.mean_influences);
   return check;

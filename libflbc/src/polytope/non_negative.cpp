@@ -3,6 +3,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <atomic>
 #include <numeric>
 #include <string>
@@ -127,7 +128,12 @@ SparseWeights project_non_negative(const PointList<Dim>& control_points,
                                    const PointList<Dim>& points, const SparseWeights& weights,
                                    const std::optional<std::vector<Index>>& some) {
   check_size(weights, control_points.cols(), points.cols());
-  return project_columns<Dim>(control_points, points, numbers_of(some, points.cols()),
+  auto numbers = numbers_of(some, points.cols());
+  const auto is_still = [&](Index p) {
+    return p >= 0 && p < weights.num_points() && !weights.has_weights(p);
+  };
+  numbers.erase(std::remove_if(numbers.begin(), numbers.end(), is_still), numbers.end());
+  return project_columns<Dim>(control_points, points, numbers,
                               [&](Index p) { return weights.at(p); });
 }
 

@@ -137,7 +137,8 @@ class ModelBuilder {
       const auto joints = weights.joints.middleRows(4 * set, 4);
       const auto numbers = weights.numbers.middleRows(4 * set, 4);
       const auto suffix = std::to_string(set);
-      attributes["JOINTS_" + suffix] = scene_.joints.cols() <= 256
+      // The joint after the control points is the root.
+      attributes["JOINTS_" + suffix] = scene_.joints.cols() < 256
                                            ? buffer_.add_attribute<std::uint8_t>(joints)
                                            : buffer_.add_attribute<std::uint16_t>(joints);
       attributes["WEIGHTS_" + suffix] = add_numbers(numbers);

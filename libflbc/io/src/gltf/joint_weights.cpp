@@ -23,6 +23,7 @@ std::vector<Influence> influences_by_weight(const SparseWeights& weights, Index 
   weights.visit(point, [&](Index joint, double weight) {
     if (weight > 0) influences.push_back({joint, weight});
   });
+  if (influences.empty()) return {{weights.num_control_points(), 1}};
   std::stable_sort(influences.begin(), influences.end(),
                    [](const auto& a, const auto& b) { return a.weight > b.weight; });
   return influences;
@@ -106,6 +107,7 @@ SparseWeights to_weights(const JointWeights& stored, Eigen::Index num_joints) {
   return SparseWeights::of(static_cast<Index>(num_joints), num_points, [&](Index v) {
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(num_joints);
     for (Eigen::Index slot = 0; slot < stored.joints.rows(); ++slot) {
+      if (stored.joints(slot, v) == num_joints) continue;
       weights[stored.joints(slot, v)] += stored.numbers(slot, v) / unit_of(stored.format);
     }
     return weights;

@@ -18,7 +18,8 @@ enum class WeightFormat {
 double unit_of(WeightFormat format);
 
 //! The influences of each point, largest first; unused slots have joint 0 and weight 0. There are 4
-//! or 8 slots, depending on the maximum number of influences.
+//! or 8 slots, depending on the maximum number of influences. A point without weights has joint n,
+//! which does not move, with all the weight.
 struct JointWeights {
   WeightFormat format = WeightFormat::kFloat;
   Eigen::Matrix<std::uint16_t, Eigen::Dynamic, Eigen::Dynamic> joints{};  //!< slots x P
@@ -28,7 +29,7 @@ struct JointWeights {
 
 //! Rounds so that the weights of a point still sum to the unit: integers exactly, by the largest
 //! remainder method; floats to single precision.
-//! \param weights  non-negative, at most 8 nonzero per point, sum 1; n <= 65535
+//! \param weights  non-negative, at most 8 nonzero per point, sum 1 or none; n <= 65535
 JointWeights to_joint_weights(const SparseWeights& weights, WeightFormat format);
 
 //! The weights as read back, of P points.

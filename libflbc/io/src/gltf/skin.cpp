@@ -6,6 +6,8 @@
 #include <limits>
 #include <sstream>
 
+#include "flbc/bounding_box.h"
+#include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/poses.h"
 #include "flbc/sparsify_error.h"
@@ -85,6 +87,18 @@ std::vector<Channel> channels_of(const Animation<Dim>& animation, const Eigen::M
     if (moves) channels.push_back(std::move(channel));
   }
   return channels;
+}
+
+// The points themselves, up to the tolerance.
+template <int Dim>
+PointList<Dim> reproduced(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                          const SparseWeights& weights) {
+  auto result = deform<Dim>(weights, control_points);
+  const double tolerance = kBoundaryTolerance * bounding_box_diagonal(control_points);
+  for (Eigen::Index p = 0; p < points.cols(); ++p) {
+    if ((result.col(p) - points.col(p)).norm() <= tolerance) result.col(p) = points.col(p);
+  }
+  return result;
 }
 
 bool is_identity(const std::vector<Index>& sources, Eigen::Index num_points) {
@@ -182,8 +196,9 @@ ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<D
                          const SkinOptions& options, const Animation<Dim>& animation) {
   check(control_points, points, weights, surface, options);
   validate(animation, control_points.cols());
-  const auto few = reduce_influences(control_points, points, options.edges, weights,
-                                     animation.poses, {options.max_influences});
+  const auto few =
+      reduce_influences<Dim>(control_points, reproduced(control_points, points, weights),
+                             options.edges, weights, animation.poses, {options.max_influences});
   const auto stored = to_joint_weights(few, options.weight_format);
   const Vector<Dim> origin = origin_of(control_points, options.format);
   auto scene = make_scene(control_points, points, stored, surface, animation, origin);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A model that moves with its cage, for engines and viewers: a glTF skin in which every control
 // point is a joint that only translates. Joint i moves from c_i to c_i', and so a point x to sum
-// w_i (x + c_i' - c_i), which is sum w_i c_i' because the weights sum to 1 and reproduce x.
-// Normals do not change, because the joints do not rotate.
+// w_i (x + c_i' - c_i), which is sum w_i c_i' if the weights sum to 1 and reproduce x. Otherwise
+// the point keeps its offset from what they reproduce. A point without weights belongs to the root
+// joint and does not move. Normals do not change, because the joints do not rotate.
 #pragma once
 
 #include <string>
@@ -61,7 +62,8 @@ struct ExportedSkin {
 
 //! Weights are reduced by reduce_influences() with the poses of the animation. Non-negative weights
 //! with at most `max_influences` influences are unchanged.
-//! \param control_points  Dim x n \param points  Dim x P \param weights  of P points, reproducing
+//! \param control_points  Dim x n \param points  Dim x P \param weights  of P points, which
+//! reproduce these or other points
 //! \param surface  of these points; in 2D it lies in the plane z = 0
 //! \throws OptionError for another number of influences; InputError if sizes do not match, there
 //! are more than 65535 control points, or a coordinate is too large for single precision, and as

@@ -102,7 +102,9 @@ void write_surface(std::ostream& text, const GlbScene& scene) {
   const auto slots = scene.weights.joints.rows();
   const Eigen::MatrixXf weights =
       (scene.weights.numbers / unit_of(scene.weights.format)).cast<float>();
-  const Eigen::MatrixXi joints = scene.weights.joints.cast<int>().array() + kRoots;
+  const auto num_joints = static_cast<int>(scene.joints.cols());
+  const Eigen::MatrixXi joints = scene.weights.joints.cast<int>().unaryExpr(
+      [num_joints](int joint) { return joint == num_joints ? 0 : joint + kRoots; });
   const std::string per_vertex =
       " (elementSize = " + std::to_string(slots) + "\n            interpolation = \"vertex\")\n";
   text << "    def Mesh \"surface\" (prepend apiSchemas = [\"SkelBindingAPI\"])\n    {\n"

@@ -83,6 +83,6 @@ FLBC_NAMES(DefectKind, {DefectKind::kCount, "count"}, {DefectKind::kNonFinite, "
            {DefectKind::kNonManifold, "non-manifold"}, {DefectKind::kOrientation, "orientation"},
            {DefectKind::kSelfIntersection, "self-intersection"})
 FLBC_NAMES(OutsidePoints, {OutsidePoints::kFail, "fail"}, {OutsidePoints::kNearest, "nearest"},
-           {OutsidePoints::kExtend, "extend"})
+           {OutsidePoints::kKeep, "keep"}, {OutsidePoints::kExtend, "extend"})
 
 }  // namespace flbc

@@ -229,7 +229,8 @@ class PoissonDescent {
     for (const auto& neighbour : graph_.neighbours_of(point)) {
       if (supports.size() == kSupports) return;
       const auto& support = weights_[neighbour.point].support;
-      if (static_cast<Index>(support.size()) > options_.max_influences) continue;
+      // A point without weights does not move; see project_non_negative().
+      if (support.empty() || static_cast<Index>(support.size()) > options_.max_influences) continue;
       const auto may_enter = [&](Index i) { return work.may_enter[i]; };
       if (options_.threshold > 0 && !std::all_of(support.begin(), support.end(), may_enter))
         continue;

@@ -26,9 +26,9 @@
 
 namespace flbc::openmesh {
 
-//! Treatment of the model's vertices outside the cage. With kNearest they follow the nearest point
-//! of the cage at a constant offset. kExtend needs BindOptions::max_influences = 0, because
-//! negative weights cannot be reduced.
+//! Treatment of the model's vertices outside the cage (flbc/placement.h). With kNearest they follow
+//! the nearest point of the cage at a constant offset, and with kKeep they stay where they are.
+//! kExtend needs BindOptions::max_influences = 0, because negative weights cannot be reduced.
 using flbc::OutsidePoints;
 
 //! Options of bind().
@@ -102,13 +102,16 @@ void require_at_rest(const Mesh& mesh, const RowBlock<double>& rest,
   }
 }
 
-//! Whether each vertex has weights. All have if the mesh has no weights of this name.
+//! Whether each vertex was bound, which it also was if it stays where it is (kKeep). All were if
+//! the mesh has no weights of this name.
 template <class Mesh>
 std::vector<bool> bound_vertices(const Mesh& mesh, const std::string& weights) {
   std::vector<bool> are_bound(mesh.n_vertices(), true);
   const auto* influences = find_property<Influences>(mesh, weights);
   const auto* rows = find_property<Wide<double>>(mesh, weights);
+  const auto* offsets = find_property<Wide<double>>(mesh, name_of_offset(weights));
   for (std::size_t v = 0; v < are_bound.size(); ++v) {
+    if (offsets && !is_unbound(offsets->data_vector()[v])) continue;
     if (influences) {
       are_bound[v] = !is_unbound(influences->data_vector()[v]);
     } else if (rows) {

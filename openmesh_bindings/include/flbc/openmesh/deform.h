@@ -57,8 +57,8 @@ bool is_unbound(const RowsView<Weight>& row) {
 }
 
 //! Deforms one point per element of `weights` with the control points (Dim x n).
-//! \param offsets  Dim values per point to add, at distances of offset_stride; may be null
-//! \return number of points without weights
+//! \param offsets  Dim values per point to add; may be null
+//! \return number of points with neither weights nor an offset
 //! \throws InputError if the numbers of control points differ
 template <class Block, class Scalar, int Dim>
 Index move_points(const Block& weights, const PointList<Dim>& control_points,
@@ -78,11 +78,12 @@ void update_normals(Mesh& mesh) {
 }  // namespace internal
 
 //! Moves mesh points to x = sum_i w_i c_i, plus the offset for points outside the cage at bind().
+//! For those that stay where they are, the offset is their position.
 //! The current positions have no effect. The third coordinate of a planar mesh is unchanged.
-//! Vertices without weights, such as those that split() added after bind(), stay where they are;
-//! see bind_new_vertices().
+//! Vertices that were not bound, such as those that split() added after bind(), are unchanged; see
+//! bind_new_vertices().
 //! \param control_points  Dim x n
-//! \return number of vertices without weights
+//! \return number of vertices that were not bound
 //! \throws InputError if the mesh has no weights of this name, or the number of control points
 //! differs
 template <class Mesh, int Dim>

@@ -31,7 +31,8 @@ template <int Dim>
 struct SkinInput {
   PointList<Dim> cage;
   WeightMatrix weights;
-  io::Model model;  //!< without points, which follow from the weights
+  RowBlock<double> offsets;  //!< from bind(); of width 0 if there are none
+  io::Model model;           //!< without points, which follow from weights and offsets
 };
 
 template <int Dim>
@@ -72,8 +73,7 @@ io::Model faces_and_attributes(const Mesh& mesh) {
 //! Writes the rest mesh as a glTF 2.0 skin (.glb) or a USD skin (.usda), like `flbc export`. The
 //! joints are the control points and only translate, so other programs deform the mesh as deform()
 //! does. The current vertex positions have no effect. Vertex colors and texture coordinates are
-//! written if the mesh has them; normals are those of the rest mesh. Vertices that were outside the
-//! cage at bind() are moved onto it.
+//! written if the mesh has them; normals are those of the rest mesh.
 //! \param mesh  with weights and the rest cage from bind() or solve() (set_rest_cage())
 //! \param poses  an animation: control points, Dim x n each; may be empty
 //! \throws InputError if the mesh has no weights or faces, the rest cage is missing or has another
@@ -91,10 +91,11 @@ void write_skin(const std::string& path, const Mesh& mesh, const std::vector<Poi
                      std::to_string(cage.rows()) + " dimensions, but the poses have " +
                      std::to_string(Dim));
   }
-  internal::write_skin_file<Dim>(path,
-                                 {PointList<Dim>(cage), get_weights(mesh, options.weights),
-                                  internal::faces_and_attributes(mesh)},
-                                 poses, options);
+  internal::write_skin_file<Dim>(
+      path,
+      {PointList<Dim>(cage), get_weights(mesh, options.weights),
+       internal::offsets_of(mesh, options.weights), internal::faces_and_attributes(mesh)},
+      poses, options);
 }
 
 //! The same without an animation.
