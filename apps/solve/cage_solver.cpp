@@ -29,8 +29,9 @@ namespace {
 
 template <int Dim>
 const NearestOnCage<Dim>& farthest(const std::vector<NearestOnCage<Dim>>& points) {
-  return *std::max_element(points.begin(), points.end(),
-                           [](const auto& a, const auto& b) { return a.distance() < b.distance(); });
+  return *std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
+    return a.distance() < b.distance();
+  });
 }
 
 template <int Dim>

@@ -465,7 +465,11 @@ TEST_IN_2D_AND_3D(GltfSkinTest, WhatDoesNotFitIsRefused) {
   expect_refusal([&](auto& e) { e.surface.triangles(0, 0) = -1; }, "surface of the skin");
   expect_refusal([&](auto& e) { e.surface.sources[0] = 100000; }, "surface of the skin");
   expect_refusal([&](auto& e) { e.surface.triangles.resize(3, 0); }, "surface of the skin");
-  expect_refusal([&](auto& e) { e.sample.mesh.points.col(0).setConstant(50); }, "point 0");
+
+  // A point that the weights do not reproduce keeps its offset.
+  auto apart = example;
+  apart.sample.mesh.points.col(0).setConstant(50);
+  EXPECT_NO_THROW(apart.skin());
 
   const auto& cage = example.sample.cage.points;
   const auto expect_refused_times = [&](const std::vector<double>& times,

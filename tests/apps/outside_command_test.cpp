@@ -202,8 +202,8 @@ TEST_P(BoxInMesh, NothingMovesAtRest) {
     EXPECT_EQ(ended.errors.find("jump"), std::string::npos) << ended.errors;
     EXPECT_EQ(ended.errors.find("inverted"), std::string::npos) << ended.errors;
     EXPECT_LT(distance(points_of("out/deformed.obj"), points_of("mesh.obj")), 1e-12);
-    EXPECT_LT(report("out/report.json")["deform"][0]["largest_displacement"], 1e-12);
-    EXPECT_LT(report("out/report.json")["sparsify"]["after"]["max_reproduction_error"], 1e-12);
+    EXPECT_LT(json_in("out/report.json")["deform"][0]["largest_displacement"], 1e-12);
+    EXPECT_LT(json_in("out/report.json")["sparsify"]["after"]["max_reproduction_error"], 1e-12);
     for (const char* weights : {"out/weights.npy", "out/sparse_weights.mtx"}) {
       expect(std::string("deform mesh.obj --rest box.obj --pose box.obj -q -o x.obj --weights ") +
              weights);
@@ -223,7 +223,7 @@ TEST_P(BoxInMesh, TranslationsMoveWhatFollows) {
       if (policy == "nearest" || !is_outside(point)) point += shift;
     }
     EXPECT_LT(distance(points_of("out/deformed.obj"), points), 1e-11);
-    EXPECT_NEAR(report("out/report.json")["deform"][0]["largest_displacement"], shift.norm(),
+    EXPECT_NEAR(json_in("out/report.json")["deform"][0]["largest_displacement"], shift.norm(),
                 1e-11);
   }
 }
@@ -236,7 +236,7 @@ TEST_P(BoxInMesh, FiguresAreThoseOfTheFiles) {
     const auto ended = run_box(policy);
     const auto rest = points_of("mesh.obj"), found = points_of("out/deformed.obj");
     EXPECT_LT(distance(found, expected("out/sparse_weights.mtx", pose)), 1e-12);
-    const auto json = report("out/report.json");
+    const auto json = json_in("out/report.json");
     EXPECT_NEAR(json["deform"][0]["largest_displacement"], distance(found, rest), 1e-12);
     // The order of the corners turns.
     int inverted = 0;
@@ -274,7 +274,7 @@ TEST_P(BoxInMesh, WhatIsKeptStaysAndTheBorderIsNamed) {
                               "vertices 22 and 13 in pose.obj"),
             std::string::npos)
       << ended.errors;
-  const auto border = report("out/report.json")["border"];
+  const auto border = json_in("out/report.json")["border"];
   EXPECT_NEAR(border["jumps"][0]["length"], 0.5, 1e-12);
   const std::vector<int> held = border["control_points"];
   // All but the middle of the top, which no edge of the mesh reaches.
@@ -284,7 +284,7 @@ TEST_P(BoxInMesh, WhatIsKeptStaysAndTheBorderIsNamed) {
   write_box("pose.obj", moved({4}, shift));
   const auto still = run_box("keep");
   EXPECT_EQ(still.errors.find("jump"), std::string::npos) << still.errors;
-  EXPECT_GT(report("out/report.json")["deform"][0]["largest_displacement"], 0.1);
+  EXPECT_GT(json_in("out/report.json")["deform"][0]["largest_displacement"], 0.1);
 }
 
 TEST_P(BoxInMesh, AllCommandsTakeVerticesWithoutWeightsOrAtAnOffset) {
@@ -293,10 +293,10 @@ TEST_P(BoxInMesh, AllCommandsTakeVerticesWithoutWeightsOrAtAnOffset) {
     SCOPED_TRACE(policy);
     expect("solve box.obj --model mesh.obj --vertices 400 -o w.npy --outside " + policy);
     const auto check = expect("check box.obj --model mesh.obj --weights w.npy --json check.json");
-    EXPECT_EQ(report("check.json")["weights"]["without_weights"], policy == "keep" ? 30 : 0);
+    EXPECT_EQ(json_in("check.json")["weights"]["without_weights"], policy == "keep" ? 30 : 0);
     expect("sparsify w.npy --cage box.obj --points mesh.obj -k 4 -q -o few.mtx --report r.json");
-    EXPECT_EQ(report("r.json")["after"]["without_weights"], policy == "keep" ? 30 : 0);
-    EXPECT_LT(report("r.json")["after"]["max_reproduction_error"], 1e-12);
+    EXPECT_EQ(json_in("r.json")["after"]["without_weights"], policy == "keep" ? 30 : 0);
+    EXPECT_LT(json_in("r.json")["after"]["max_reproduction_error"], 1e-12);
     expect("export mesh.obj --cage box.obj --weights w.npy --pose pose.obj -q -o m.glb");
     expect("export mesh.obj --cage box.obj --weights w.npy --pose pose.obj -k 4 -q -o m.usda");
     expect("export mesh.obj --cage box.obj --weights w.npy -q -o m.py");
@@ -318,7 +318,7 @@ TEST_F(OutsideCommand, RefusesBeforeTheMesherStarts) {
   const auto of = model("0.25");
   const auto refused = expect("run " + square() + ' ' + of + " --vertices 900000 -o out", 2,
                               "step mesh: model.obj: 2 of 3 vertices are outside the cage");
-  EXPECT_LT(report("out/report.json").value("/mesh/seconds"_json_pointer, 0.0), 1.0);
+  EXPECT_LT(json_in("out/report.json").value("/mesh/seconds"_json_pointer, 0.0), 1.0);
   EXPECT_FALSE(std::filesystem::exists("out/domain.obj"));
 }
 

@@ -138,9 +138,9 @@ class ModelBuilder {
       const auto numbers = weights.numbers.middleRows(4 * set, 4);
       const auto suffix = std::to_string(set);
       // The joint after the control points is the root.
-      attributes["JOINTS_" + suffix] = scene_.joints.cols() < 256
-                                           ? buffer_.add_attribute<std::uint8_t>(joints)
-                                           : buffer_.add_attribute<std::uint16_t>(joints);
+      const bool is_small = scene_.joints.cols() <= 256 && weights.joints.maxCoeff() < 256;
+      attributes["JOINTS_" + suffix] = is_small ? buffer_.add_attribute<std::uint8_t>(joints)
+                                                : buffer_.add_attribute<std::uint16_t>(joints);
       attributes["WEIGHTS_" + suffix] = add_numbers(numbers);
     }
   }
