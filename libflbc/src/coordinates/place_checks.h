@@ -30,7 +30,7 @@ void check_placement(const Cage<Dim>& cage, const Placement<Dim>& placement) {
   const auto count = static_cast<Eigen::Index>(placement.places.size());
   bool fits = placement.points.cols() == count;
   for (const auto* points : {&placement.on_cage, &placement.outside}) {
-    for (const auto& [point, facet, coordinates, distance] : *points) {
+    for (const auto& [point, facet, coordinates, offset] : *points) {
       fits = fits && point >= 0 && point < count && facet >= 0 && facet < cage.facets.cols();
     }
   }

@@ -305,6 +305,7 @@ PointList<Dim> attached_points(const Cage<Dim>& cage, const PointList<Dim>& poin
     if (!weights.has_weights(p)) continue;
     if ((reproduced.col(p) - points.col(p)).norm() > tolerance) elsewhere.push_back(p);
   }
+  if (elsewhere.empty()) return points;
   const CageLocator<Dim> locator(cage, tolerance);
   PointList<Dim> result = points;
   for (const auto& beside : nearest_on_cage(cage, points, elsewhere)) {
