@@ -14,7 +14,9 @@
 #include "flbc/cage_facts.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
+#include "flbc/io/formats.h"
 #include "flbc/io/mesh_io.h"
+#include "flbc/io/model_file.h"
 #include "flbc/names.h"
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
@@ -116,10 +118,26 @@ SparseWeights weights_of_points(const Cage<Dim>& cage, const DomainMesh<Dim>& do
   return weights_at(cage, domain, of_domain, placement);
 }
 
+// Whether all vertices outside the cage belong to no face, so that nobody sees them.
+template <int Dim>
+bool only_loose_are_outside(const Cage<Dim>& cage, const PointList<Dim>& model,
+                            const std::string& path) {
+  if (!io::holds(path, {io::Content::kModel})) return false;
+  const auto soup = io::read_polygons(path);
+  std::vector<bool> is_used(soup.points.size(), soup.polygons.empty());
+  for (const auto* elements : {&soup.polygons, &soup.polylines}) {
+    for (const auto& element : *elements) {
+      for (const Index vertex : element) is_used[vertex] = true;
+    }
+  }
+  const auto outside = points_outside(cage, model);
+  return std::none_of(outside.begin(), outside.end(), [&](Index p) { return is_used[p]; });
+}
+
 template <int Dim>
 CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
                             const SolveSettings& settings)
-    : cage_(cage), model_(model), settings_(settings) {
+    : cage_(cage), model_(model), settings_(settings), outside_(settings.outside) {
   if (settings.embed && settings.outside != OutsidePoints::kFail) {
     throw OptionError(
         "--outside: --embed needs all vertices inside the cage; leave out --embed or --outside");
@@ -147,17 +165,26 @@ void CageSolver<Dim>::fill_cage(bool quiet) {
 }
 
 template <int Dim>
+void CageSolver<Dim>::require_inside(bool quiet) {
+  const ProgressBar bar(quiet, "locating the model vertices in the cage");
+  try {
+    placing<Dim>(settings_.model, [&] { return place_points(cage_, model_); });
+  } catch (const InputError&) {
+    if (settings_.embed || !only_loose_are_outside(cage_, model_, settings_.model)) throw;
+    outside_ = OutsidePoints::kNearest;
+  }
+}
+
+template <int Dim>
 void CageSolver<Dim>::make_domain(bool quiet) {
+  // Before a mesh is made, which takes long.
+  if (!settings_.model.empty() && outside_ == OutsidePoints::kFail) require_inside(quiet);
   if (is_meshless(settings_)) {
     const ProgressBar bar(quiet, "locating the model vertices in the cage");
-    placement_ = placing<Dim>(settings_.model,
-                              [&] { return place_points(cage_, model_, settings_.outside); });
+    placement_ =
+        placing<Dim>(settings_.model, [&] { return place_points(cage_, model_, outside_); });
     if (!quiet) warn_outside(placement_, bounding_box_diagonal(cage_.points), settings_.model);
     return;
-  }
-  if (!settings_.model.empty() && settings_.outside == OutsidePoints::kFail) {
-    const ProgressBar bar(quiet, "locating the model vertices in the cage");
-    placing<Dim>(settings_.model, [&] { return place_points(cage_, model_); });
   }
   const auto start = std::chrono::steady_clock::now();
   if (settings_.embed) embedded_ = embeddable_points(cage_, model_);
@@ -169,8 +196,8 @@ void CageSolver<Dim>::make_domain(bool quiet) {
   mesh_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (settings_.model.empty()) return;
   const ProgressBar bar(quiet, "locating the model vertices in the mesh");
-  placement_ = placing<Dim>(
-      settings_.model, [&] { return place_points(cage_, domain_, model_, settings_.outside); });
+  placement_ =
+      placing<Dim>(settings_.model, [&] { return place_points(cage_, domain_, model_, outside_); });
   if (!quiet) warn_outside(placement_, bounding_box_diagonal(cage_.points), settings_.model);
 }
 
@@ -250,7 +277,7 @@ nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
   const bool has_objective = !std::isnan(report().objective) || is_meshless(settings_);
   if (!has_objective && report().parts.empty()) json["objective"] = objective();
   if (!settings_.model.empty()) {
-    json["outside"] = {{"policy", name_of(settings_.outside)},
+    json["outside"] = {{"policy", name_of(outside_)},
                        {"on_cage", beside_json(placement_.on_cage)},
                        {"outside", beside_json(placement_.outside)}};
   }

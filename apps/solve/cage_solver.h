@@ -70,6 +70,8 @@ class CageSolver {
   nlohmann::ordered_json json(const Quality& delivered) const;
 
  private:
+  // Vertices of no face may be outside: they follow the nearest point of the cage.
+  void require_inside(bool quiet);
   void fill_cage(bool quiet);
   // Says how long a long solve may take.
   void announce() const;
@@ -80,6 +82,7 @@ class CageSolver {
   const Cage<Dim>& cage_;
   const PointList<Dim>& model_;
   const SolveSettings& settings_;
+  OutsidePoints outside_;  // treatment of vertices there
   DomainMesh<Dim> domain_;
   double mesh_seconds_ = 0;  // for making or reading it
   Mesher mesher_ = Mesher::kGiven;

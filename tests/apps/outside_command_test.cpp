@@ -322,5 +322,24 @@ TEST_F(OutsideCommand, RefusesBeforeTheMesherStarts) {
   EXPECT_FALSE(std::filesystem::exists("out/domain.obj"));
 }
 
+// Many files have vertices that belong to no face, such as those of lamps or of deleted parts.
+TEST_F(OutsideCommand, VerticesOfNoFaceMayBeOutside) {
+  const std::string faces = "f 1 2 3\nf 1 3 4\n";
+  for (const std::string depth : {"0", "0.5"}) {
+    SCOPED_TRACE(depth);
+    const bool is_flat = depth == "0";
+    file("cage.obj", is_flat ? "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nl 1 2 3 4 1\n"
+                             : "v 0 0 0\nv 8 0 0\nv 0 8 0\nv 0 0 8\nf 1 3 2\nf 1 2 4\nf 2 3 4\n"
+                               "f 1 4 3\n");
+    const std::string model =
+        "v 1 1 0\nv 2 1 0\nv 2 2 " + depth + "\nv 1 2 " + depth + "\nv 90 0 0\n";
+    const std::string solve = "solve cage.obj --method meanvalue -o w.npy --model ";
+    expect(solve + file("loose.obj", model + faces), 0, "1 of 5 vertices are outside the cage");
+    expect("deform loose.obj --weights w.npy --rest cage.obj --pose cage.obj -o same.obj");
+    EXPECT_NE(slurp("same.obj").find("v 90 0 0"), std::string::npos);
+    expect(solve + file("used.obj", model + faces + "f 1 2 5\n"), 2, "1 of 5 vertices are outside");
+  }
+}
+
 }  // namespace
 }  // namespace flbc::testing
