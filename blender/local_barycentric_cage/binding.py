@@ -146,8 +146,8 @@ class _Task:
         if count == len(self._model.points):
             raise Refusal(f'All vertices are outside the cage {self._cage_name}')
         if count:
-            note += f'{count} vertices are outside the cage and follow its nearest point '
-                     'at a constant offset. '
+            note += (f'{count} vertices are outside the cage and follow its nearest point '
+                     'at a constant offset. ')
         if not quality.reduction:
             return *files.largest_weights(solved, k), note
         yield self._command(settings, 'sparsify', solved, '--cage', folder / 'cage.ply',

@@ -111,6 +111,10 @@ class ProgramTest(unittest.TestCase):
         with self.assertRaisesRegex(Refusal, '/nowhere/flbc is not a program'):
             program.find('/nowhere/flbc')
 
+    def test_all_files_of_the_addon_are_python(self):
+        for path in Path(program.__file__).parent.glob('*.py'):
+            compile(path.read_text(), str(path), 'exec')
+
 
 if __name__ == '__main__':
     unittest.main()
