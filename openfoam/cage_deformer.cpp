@@ -138,15 +138,19 @@ class CageDeformer::MotionIn : public Motion {
       candidates.col(static_cast<Eigen::Index>(k)) = to_vector<Dim>(points[near[k]]);
     }
     const auto all = evaluator_.place(candidates);
+    placement_.policy = all.policy;
     std::vector<bool> is_outside(near.size(), false);
     for (const auto& point : all.outside) is_outside[point.point] = true;
     std::vector<Index> number(near.size());
+    std::vector<Eigen::Index> kept;
     for (std::size_t k = 0; k < near.size(); ++k) {
       number[k] = static_cast<Index>(inside_.size());
       if (is_outside[k]) continue;
       inside_.push_back(near[k]);
+      kept.push_back(static_cast<Eigen::Index>(k));
       placement_.places.push_back(all.places[k]);
     }
+    placement_.points = all.points(Eigen::all, kept);
     placement_.on_cage = all.on_cage;
     for (auto& point : placement_.on_cage) point.point = number[point.point];
     const auto count = static_cast<Foam::label>(inside_.size());
