@@ -31,19 +31,17 @@ Eigen::Matrix4d transform_of(const GltfJson& node) {
   const auto numbers = [&](const char* name, std::vector<double> otherwise) {
     return node.contains(name) ? node.at(name).get<std::vector<double>>() : otherwise;
   };
-  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
   if (const auto given = numbers("matrix", {}); given.size() == 16) {
     return Eigen::Map<const Eigen::Matrix4d>(given.data());
   }
   const auto turn = numbers("rotation", {0, 0, 0, 1});
   const auto size = numbers("scale", {1, 1, 1});
   const auto shift = numbers("translation", {0, 0, 0});
-  const Eigen::Quaterniond rotation(turn.at(3), turn.at(0), turn.at(1), turn.at(2));
-  for (int d = 0; d < 3; ++d) {
-    matrix.block<3, 1>(0, d) = size.at(d) * rotation.toRotationMatrix().col(d);
-    matrix(d, 3) = shift.at(d);
-  }
-  return matrix;
+  const Eigen::Affine3d transform =
+      Eigen::Translation3d(shift.at(0), shift.at(1), shift.at(2)) *
+      Eigen::Quaterniond(turn.at(3), turn.at(0), turn.at(1), turn.at(2)) *
+      Eigen::Scaling(size.at(0), size.at(1), size.at(2));
+  return transform.matrix();
 }
 
 // The box around all meshes where the nodes of the file put them. Skins are at rest where their

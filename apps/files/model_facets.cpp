@@ -100,15 +100,11 @@ PointList<3> voxel_corners(const PointList<3>& points) {
 // there are only points
 Index drop_unused(io::PolygonSoup& soup) {
   if (soup.polygons.empty() && soup.polylines.empty()) return 0;
+  const auto is_used = used_vertices(soup);
   std::vector<Index> number(soup.points.size(), -1);
-  for (auto* lists : {&soup.polygons, &soup.polylines}) {
-    for (const auto& list : *lists) {
-      for (const Index v : list) number[v] = 0;
-    }
-  }
   std::size_t used = 0;
   for (std::size_t v = 0; v < number.size(); ++v) {
-    if (number[v] < 0) continue;
+    if (!is_used[v]) continue;
     number[v] = static_cast<Index>(used);
     soup.points[used++] = soup.points[v];
   }
@@ -122,6 +118,16 @@ Index drop_unused(io::PolygonSoup& soup) {
 }
 
 }  // namespace
+
+std::vector<bool> used_vertices(const io::PolygonSoup& soup) {
+  std::vector<bool> is_used(soup.points.size(), false);
+  for (const auto* lists : {&soup.polygons, &soup.polylines}) {
+    for (const auto& list : *lists) {
+      for (const Index v : list) is_used[v] = true;
+    }
+  }
+  return is_used;
+}
 
 AnyModelFacets load_model_facets(const std::string& path) {
   if (io::extension_of(path) == "png") return load_silhouette(path);

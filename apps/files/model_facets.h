@@ -4,6 +4,7 @@
 
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "flbc/io/cage_io.h"
 #include "flbc/transfer_weights.h"
@@ -33,6 +34,9 @@ AnyModelFacets load_model_facets(const std::string& path);
 //! \throws IoError; InputError if the file is no such picture, or has no pixel that is transparent
 //! or none that is not
 ModelFacets<2> load_silhouette(const std::string& path);
+
+//! By vertex: whether a polygon or polyline has it.
+std::vector<bool> used_vertices(const io::PolygonSoup& soup);
 
 //! A model as its triangles and segments, and points that belong to none of them.
 //! \throws IoError, InputError

@@ -4,12 +4,11 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include <Eigen/LU>
-
 #include "flbc/bounding_box.h"
 #include "flbc/deform.h"
 #include "flbc/placement.h"
 #include "report/facts.h"
+#include "solve/cage_solver.h"
 #include "solve/weights_of_model.h"
 
 namespace flbc::app {
@@ -41,13 +40,6 @@ double area_of(const PointList<2>& points, const std::vector<Index>& polygon) {
     area += a.x() * b.y() - a.y() * b.x();
   }
   return area;
-}
-
-template <int Dim>
-double volume_of(const PointList<Dim>& points, const Eigen::Matrix<Index, Dim + 1, 1>& cell) {
-  Eigen::Matrix<double, Dim, Dim> sides;
-  for (int k = 0; k < Dim; ++k) sides.col(k) = points.col(cell[k + 1]) - points.col(cell[0]);
-  return sides.determinant();
 }
 
 struct CellCount {
@@ -126,26 +118,25 @@ void warn_outside(const SparseWeights& weights, const Cage<Dim>& rest, const Poi
       displacements<Dim>(points, attached_points(rest, points, weights));
   const auto outside = (offsets.array() > 0).count();
   if (outside == 0) return;
-  Facts facts;
-  facts << file << ": " << outside << " of " << points.cols()
-        << " vertices are outside the cage, by up to "
-        << 100 * offsets.maxCoeff() / bounding_box_diagonal(rest.points)
-        << "% of its size; they follow its nearest point at a constant offset";
-  std::cerr << "flbc: " << facts.text() << '\n';
+  print_outside(file, outside, points.cols(),
+                offsets.maxCoeff() / bounding_box_diagonal(rest.points), OutsidePoints::kNearest);
 }
 
 template <int Dim>
 void warn_inverted(const MovableModel<Dim>& model, const PointList<Dim>& posed,
                    const std::string& file, const std::string& pose) {
   CellCount count;
-  const auto& rest = model.points();
-  for (const auto& cell : model.mesh().cells.colwise()) {
-    count.add(volume_of<Dim>(rest, cell), volume_of<Dim>(posed, cell));
+  const auto& mesh = model.mesh();
+  if (mesh.num_cells() > 0) {
+    const DomainMesh<Dim> moved{posed, mesh.cells};
+    for (Index s = 0; s < mesh.num_cells(); ++s) {
+      count.add(signed_measure(mesh, s), signed_measure(moved, s));
+    }
   }
   if constexpr (Dim == 2) {
     const std::vector<std::vector<Index>> none;
     for (const auto& polygon : model.model() ? model.model()->soup.polygons : none) {
-      count.add(area_of(rest, polygon), area_of(posed, polygon));
+      count.add(area_of(model.points(), polygon), area_of(posed, polygon));
     }
   }
   if (count.inverted == 0) return;

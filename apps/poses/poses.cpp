@@ -128,7 +128,7 @@ RestCage<Dim>::RestCage(const Cage<Dim>& cage, std::string name, bool quiet)
 
 template <int Dim>
 Cage<Dim> RestCage<Dim>::cage() const {
-  if (polygons_.polygons.empty() && polygons_.polylines.empty()) return {points_, {}};
+  if (polygons_.polygons.empty()) return {points_, {}};
   try {
     auto cage = io::to_cage(polygons_, name_);
     if (auto* of_dimension = std::get_if<Cage<Dim>>(&cage)) return std::move(*of_dimension);

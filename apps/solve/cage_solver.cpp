@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "files/load.h"
+#include "files/model_facets.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage_facts.h"
 #include "flbc/domain_mesh.h"
@@ -124,12 +125,8 @@ bool only_loose_are_outside(const Cage<Dim>& cage, const PointList<Dim>& model,
                             const std::string& path) {
   if (!io::holds(path, {io::Content::kModel})) return false;
   const auto soup = io::read_polygons(path);
-  std::vector<bool> is_used(soup.points.size(), soup.polygons.empty());
-  for (const auto* elements : {&soup.polygons, &soup.polylines}) {
-    for (const auto& element : *elements) {
-      for (const Index vertex : element) is_used[vertex] = true;
-    }
-  }
+  if (soup.polygons.empty()) return false;
+  const auto is_used = used_vertices(soup);
   const auto outside = points_outside(cage, model);
   return std::none_of(outside.begin(), outside.end(), [&](Index p) { return is_used[p]; });
 }
@@ -165,24 +162,27 @@ void CageSolver<Dim>::fill_cage(bool quiet) {
 }
 
 template <int Dim>
-void CageSolver<Dim>::require_inside(bool quiet) {
+void CageSolver<Dim>::place_in_cage(bool quiet) {
   const ProgressBar bar(quiet, "locating the model vertices in the cage");
+  const auto place = [&] {
+    placement_ =
+        placing<Dim>(settings_.model, [&] { return place_points(cage_, model_, outside_); });
+  };
   try {
-    placing<Dim>(settings_.model, [&] { return place_points(cage_, model_); });
+    place();
   } catch (const InputError&) {
     if (settings_.embed || !only_loose_are_outside(cage_, model_, settings_.model)) throw;
     outside_ = OutsidePoints::kNearest;
+    place();
   }
 }
 
 template <int Dim>
 void CageSolver<Dim>::make_domain(bool quiet) {
-  // Before a mesh is made, which takes long.
-  if (!settings_.model.empty() && outside_ == OutsidePoints::kFail) require_inside(quiet);
+  // Refusals come before a mesh is made, which takes long.
+  const bool may_refuse = !settings_.model.empty() && outside_ == OutsidePoints::kFail;
+  if (may_refuse || is_meshless(settings_)) place_in_cage(quiet);
   if (is_meshless(settings_)) {
-    const ProgressBar bar(quiet, "locating the model vertices in the cage");
-    placement_ =
-        placing<Dim>(settings_.model, [&] { return place_points(cage_, model_, outside_); });
     if (!quiet) warn_outside(placement_, bounding_box_diagonal(cage_.points), settings_.model);
     return;
   }
@@ -298,18 +298,23 @@ std::string describe(const Placement<Dim>& placement, double size) {
   return text.str();
 }
 
-template <int Dim>
-void warn_outside(const Placement<Dim>& placement, double size, const std::string& file) {
-  if (placement.outside.empty()) return;
-  const char* const what = placement.policy == OutsidePoints::kKeep ? "stay where they are"
-                           : placement.policy == OutsidePoints::kNearest
+void print_outside(const std::string& file, std::size_t count, std::size_t all, double distance,
+                   OutsidePoints policy) {
+  const char* const what = policy == OutsidePoints::kKeep ? "stay where they are"
+                           : policy == OutsidePoints::kNearest
                                ? "follow its nearest point at a constant offset"
                                : "are extrapolated";
   Facts facts;
-  facts << file << ": " << placement.outside.size() << " of " << placement.places.size()
-        << " vertices are outside the cage, by up to "
-        << 100 * farthest(placement.outside).distance() / size << "% of its size; they " << what;
+  facts << file << ": " << count << " of " << all << " vertices are outside the cage, by up to "
+        << 100 * distance << "% of its size; they " << what;
   std::cerr << "flbc: " << facts.text() << '\n';
+}
+
+template <int Dim>
+void warn_outside(const Placement<Dim>& placement, double size, const std::string& file) {
+  if (placement.outside.empty()) return;
+  print_outside(file, placement.outside.size(), placement.places.size(),
+                farthest(placement.outside).distance() / size, placement.policy);
 }
 
 bool report_convergence(const SolveReport& report, const SolveSettings& settings) {

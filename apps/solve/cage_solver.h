@@ -70,8 +70,8 @@ class CageSolver {
   nlohmann::ordered_json json(const Quality& delivered) const;
 
  private:
-  // Vertices of no face may be outside: they follow the nearest point of the cage.
-  void require_inside(bool quiet);
+  // Without a mesh. Vertices of no face may be outside: they follow the nearest point of the cage.
+  void place_in_cage(bool quiet);
   void fill_cage(bool quiet);
   // Says how long a long solve may take.
   void announce() const;
@@ -97,7 +97,12 @@ class CageSolver {
 template <int Dim>
 std::string describe(const Placement<Dim>& placement, double size);
 
-//! Prints how many vertices are outside the cage, how far, and what they do, if there are any.
+//! Prints how many vertices are outside the cage, how far, and what they do.
+//! \param distance  of the farthest, relative to the cage size
+void print_outside(const std::string& file, std::size_t count, std::size_t all, double distance,
+                   OutsidePoints policy);
+
+//! The same of a placement, if there are any.
 //! \param file  of the model
 template <int Dim>
 void warn_outside(const Placement<Dim>& placement, double size, const std::string& file);

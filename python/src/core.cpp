@@ -218,6 +218,22 @@ void require_inside(const Doubles& points, const Indices& facets, const Doubles&
   });
 }
 
+// What weights at points are computed from.
+template <int Dim>
+struct Known {
+  Known(const Doubles& points, const Indices& facets, const Doubles& vertices, const Indices& cells,
+        const py::object& given, const Doubles& at)
+      : cage(cage_of<Dim>(points, facets)),
+        mesh(mesh_of<Dim>(vertices, cells)),
+        places(points_of<Dim>(at)),
+        weights(weights_of(given)) {}
+
+  Cage<Dim> cage;
+  DomainMesh<Dim> mesh;
+  PointList<Dim> places;
+  decltype(weights_of(py::object())) weights;
+};
+
 // Weights at points, the points that they reproduce, and the points outside.
 py::tuple weights_at(const Doubles& points, const Indices& facets, const Doubles& vertices,
                      const Indices& cells, const py::object& weights, const Doubles& places,
@@ -225,14 +241,11 @@ py::tuple weights_at(const Doubles& points, const Indices& facets, const Doubles
   const auto policy = named<OutsidePoints>("outside", policy_name);
   return by_dimension(points, [&](auto dim) {
     constexpr int kDim = decltype(dim)::value;
-    const auto cage = cage_of<kDim>(points, facets);
-    const auto mesh = mesh_of<kDim>(vertices, cells);
-    const auto all = points_of<kDim>(places);
-    const auto known = weights_of(weights);
+    const Known<kDim> known(points, facets, vertices, cells, weights, places);
     Placement<kDim> placement;
     const auto found = as_python(without_gil([&] {
-      placement = place_points(cage, mesh, all, policy);
-      return flbc::weights_at(cage, mesh, known, placement);
+      placement = place_points(known.cage, known.mesh, known.places, policy);
+      return flbc::weights_at(known.cage, known.mesh, known.weights, placement);
     }));
     std::vector<Index> outside;
     for (const auto& point : placement.outside) outside.push_back(point.point);
@@ -246,13 +259,11 @@ py::array gradients(const Doubles& points, const Indices& facets, const Doubles&
                     const Indices& cells, const py::object& weights, const Doubles& places) {
   return by_dimension(points, [&](auto dim) {
     constexpr int kDim = decltype(dim)::value;
-    const auto cage = cage_of<kDim>(points, facets);
-    const auto mesh = mesh_of<kDim>(vertices, cells);
-    const auto all = points_of<kDim>(places);
-    const auto known = weights_of(weights);
+    const Known<kDim> known(points, facets, vertices, cells, weights, places);
     return as_array(without_gil([&] {
-      const auto found = places_in_mesh(cage, mesh, place_points(cage, mesh, all));
-      return gradients_at(mesh, known, found).dense();
+      const auto placement = place_points(known.cage, known.mesh, known.places);
+      const auto found = places_in_mesh(known.cage, known.mesh, placement);
+      return gradients_at(known.mesh, known.weights, found).dense();
     }));
   });
 }

@@ -87,18 +87,13 @@ template <int Dim>
 class Cells {
  public:
   explicit Cells(const CageDraft<Dim>& draft) : draft_(draft), infinity_(2 * count()) {
-    for (const auto& [ridge, facets] : collect_ridges(draft)) {
-      for_each_wedge(draft, ridge, facets, [&](Side a, Side b) { join(a, b); });
-    }
-    for (Index f = 0; f < count(); ++f) {
-      Eigen::Matrix<double, Dim, Dim> corners = corners_of(draft, f);
-      simplices_.push_back({corners, Dim});
-    }
-    // Parts that do not meet are connected by rays.
     UnionFind connected(count());
     for (const auto& [ridge, facets] : collect_ridges(draft)) {
+      for_each_wedge(draft, ridge, facets, [&](Side a, Side b) { join(a, b); });
       for (const Index f : facets) connected.unite(facets[0], f);
     }
+    for (Index f = 0; f < count(); ++f) simplices_.push_back({corners_of(draft, f), Dim});
+    // Parts that do not meet are connected by rays.
     for (Index f = 0; f < count(); ++f) {
       if (connected.find(f) == f) shoot_at(f);
     }

@@ -69,7 +69,7 @@ RepairedCage<Dim> finish(CageDraft<Dim>& draft) {
 // The new surface should not be farther from the old one than this fraction of its size.
 constexpr double kClose = 0.02;
 
-// With as many control points as it takes to stay close to the original.
+// Doubles the number of control points until the surface is within kClose of the original.
 template <int Dim>
 void wrap_closely(const Cage<Dim>& original, const std::string& reason,
                   RepairedCage<Dim>& repaired) {

@@ -110,10 +110,12 @@ PointList<Dim> Evaluator<Dim>::displace(const Placement<Dim>& placement,
     moved.col(p) = sum;
   });
   const Cage<Dim> posed_cage{pose.control_points, parts_->cage.facets};
-  for (const auto& point : placement.on_cage) {
-    moved.col(point.point) = place_on_cage(posed_cage, point);
-  }
-  if (placement.outside.empty()) return moved;
+  const auto follow_nearest = [&](const std::vector<NearestOnCage<Dim>>& points) {
+    for (const auto& point : points) moved.col(point.point) = place_on_cage(posed_cage, point);
+  };
+  follow_nearest(placement.on_cage);
+  if (placement.policy == OutsidePoints::kNearest) follow_nearest(placement.outside);
+  if (placement.policy == OutsidePoints::kNearest || placement.outside.empty()) return moved;
   const auto outside = deform(weights(outside_of(placement)), pose.control_points, parts_->threads);
   for (std::size_t k = 0; k < placement.outside.size(); ++k) {
     moved.col(placement.outside[k].point) = outside.col(static_cast<Eigen::Index>(k));

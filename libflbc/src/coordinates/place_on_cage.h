@@ -7,12 +7,12 @@
 
 namespace flbc {
 
-//! \param beside  as returned by nearest_on_cage()
+//! \param nearest  as returned by nearest_on_cage()
 template <int Dim>
-Vector<Dim> place_on_cage(const Cage<Dim>& cage, const NearestOnCage<Dim>& beside) {
+Vector<Dim> place_on_cage(const Cage<Dim>& cage, const NearestOnCage<Dim>& nearest) {
   Vector<Dim> place = Vector<Dim>::Zero();
   for (int k = 0; k < Dim; ++k) {
-    place += beside.coordinates[k] * cage.points.col(cage.facets(k, beside.facet));
+    place += nearest.coordinates[k] * cage.points.col(cage.facets(k, nearest.facet));
   }
   return place;
 }

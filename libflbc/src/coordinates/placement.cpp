@@ -136,10 +136,10 @@ void refuse_outside(const Placement<Dim>& placement, const PointList<Dim>& point
 
 // Lists the points that are not inside, and moves them onto the cage where that is due.
 template <int Dim>
-void place_beside(const Cage<Dim>& cage, const PointList<Dim>& points,
-                  const std::vector<Index>& beside, Placement<Dim>& placement) {
+void place_not_inside(const Cage<Dim>& cage, const PointList<Dim>& points,
+                      const std::vector<Index>& not_inside, Placement<Dim>& placement) {
   const double size = bounding_box_diagonal(cage.points);
-  for (const auto& point : nearest_on_cage(cage, points, beside)) {
+  for (const auto& point : nearest_on_cage(cage, points, not_inside)) {
     const bool is_near = point.distance() <= kBoundaryTolerance * size;
     (is_near ? placement.on_cage : placement.outside).push_back(point);
     if (is_near || placement.policy == OutsidePoints::kNearest) {
@@ -162,38 +162,38 @@ class WeightsAt {
       : cage_(cage), placement_(placement), inside_(std::move(inside)) {
     check_placement(cage, placement);
     const auto policy = placement.policy;
-    for (const auto& beside : placement.on_cage) {
-      beside_[beside.point] = {&beside, OutsidePoints::kNearest};
+    for (const auto& nearest : placement.on_cage) {
+      attached_[nearest.point] = {&nearest, OutsidePoints::kNearest};
     }
-    for (const auto& beside : placement.outside) beside_[beside.point] = {&beside, policy};
+    for (const auto& nearest : placement.outside) attached_[nearest.point] = {&nearest, policy};
     if (policy == OutsidePoints::kExtend) fit_round_facets();
   }
 
   Eigen::VectorXd operator()(Index point) const {
-    const auto found = beside_.find(point);
-    if (found == beside_.end()) return inside_(point);
-    const auto& [beside, policy] = found->second;
+    const auto found = attached_.find(point);
+    if (found == attached_.end()) return inside_(point);
+    const auto& [nearest, policy] = found->second;
     Eigen::VectorXd result = Eigen::VectorXd::Zero(cage_.size());
     if (policy == OutsidePoints::kKeep) return result;
     for (int k = 0; k < Dim; ++k) {
-      result[cage_.facets(k, beside->facet)] = beside->coordinates[k];
+      result[cage_.facets(k, nearest->facet)] = nearest->coordinates[k];
     }
-    if (policy == OutsidePoints::kExtend) extend(*beside, result);
+    if (policy == OutsidePoints::kExtend) extend(*nearest, result);
     return result;
   }
 
  private:
-  struct Beside {
+  struct Attachment {
     const NearestOnCage<Dim>* place = nullptr;
     OutsidePoints policy = OutsidePoints::kNearest;
   };
 
   void fit_round_facets() {
     const AffineFitter<Dim> fitter(cage_);
-    for (const auto& beside : placement_.outside) {
+    for (const auto& nearest : placement_.outside) {
       for (int k = 0; k < Dim; ++k) {
-        const Index corner = cage_.facets(k, beside.facet);
-        if (beside.coordinates[k] != 0 && !fits_.count(corner)) {
+        const Index corner = cage_.facets(k, nearest.facet);
+        if (nearest.coordinates[k] != 0 && !fits_.count(corner)) {
           fits_.emplace(corner, fitter(corner));
         }
       }
@@ -201,13 +201,13 @@ class WeightsAt {
   }
 
   // Adds sum_k b_k G_k (x - q) with the affine fits G_k at the corners of the facet.
-  void extend(const NearestOnCage<Dim>& beside, Eigen::VectorXd& result) const {
+  void extend(const NearestOnCage<Dim>& nearest, Eigen::VectorXd& result) const {
     for (int k = 0; k < Dim; ++k) {
-      if (beside.coordinates[k] == 0) continue;
-      const auto& fit = fits_.at(cage_.facets(k, beside.facet));
+      if (nearest.coordinates[k] == 0) continue;
+      const auto& fit = fits_.at(cage_.facets(k, nearest.facet));
       for (std::size_t i = 0; i < fit.control_points.size(); ++i) {
         result[fit.control_points[i]] +=
-            beside.coordinates[k] * fit.gradients.row(i).dot(beside.offset);
+            nearest.coordinates[k] * fit.gradients.row(i).dot(nearest.offset);
       }
     }
   }
@@ -215,7 +215,7 @@ class WeightsAt {
   const Cage<Dim>& cage_;
   const Placement<Dim>& placement_;
   Inside inside_;
-  std::unordered_map<Index, Beside> beside_;
+  std::unordered_map<Index, Attachment> attached_;
   std::map<Index, AffineFit<Dim>> fits_;
 };
 
@@ -266,11 +266,11 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
   parallel_for(num_points, [&](Index p) {
     placement.places[p] = locate<Dim>(locator, mesh, points.col(p), size);
   });
-  std::vector<Index> beside;
+  std::vector<Index> not_inside;
   for (Index p = 0; p < num_points; ++p) {
-    if (placement.places[p].cell < 0) beside.push_back(p);
+    if (placement.places[p].cell < 0) not_inside.push_back(p);
   }
-  place_beside(cage, points, beside, placement);
+  place_not_inside(cage, points, not_inside, placement);
   return placement;
 }
 
@@ -280,17 +280,17 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const PointList<Dim>& points,
   check_finite<Dim>(points);
   const CageLocator<Dim> locator(cage, kRounding * bounding_box_diagonal(cage.points));
   const auto num_points = static_cast<Index>(points.cols());
-  std::vector<char> is_beside(static_cast<std::size_t>(num_points));
-  parallel_for(num_points, [&](Index p) { is_beside[p] = locator.is_outside(points.col(p)); });
-  std::vector<Index> beside;
+  std::vector<char> is_outside(static_cast<std::size_t>(num_points));
+  parallel_for(num_points, [&](Index p) { is_outside[p] = locator.is_outside(points.col(p)); });
+  std::vector<Index> not_inside;
   for (Index p = 0; p < num_points; ++p) {
-    if (is_beside[p]) beside.push_back(p);
+    if (is_outside[p]) not_inside.push_back(p);
   }
   Placement<Dim> placement;
   placement.policy = policy;
   placement.points = points;
   placement.places.resize(static_cast<std::size_t>(num_points));
-  place_beside(cage, points, beside, placement);
+  place_not_inside(cage, points, not_inside, placement);
   return placement;
 }
 
@@ -308,11 +308,11 @@ PointList<Dim> attached_points(const Cage<Dim>& cage, const PointList<Dim>& poin
   if (elsewhere.empty()) return points;
   const CageLocator<Dim> locator(cage, tolerance);
   PointList<Dim> result = points;
-  for (const auto& beside : nearest_on_cage(cage, points, elsewhere)) {
-    const Index p = beside.point;
+  for (const auto& nearest : nearest_on_cage(cage, points, elsewhere)) {
+    const Index p = nearest.point;
     // By the distance, because several points of the cage may be equally near.
     const double error = (reproduced.col(p) - points.col(p)).norm();
-    if (std::abs(error - beside.distance()) > tolerance) continue;
+    if (std::abs(error - nearest.distance()) > tolerance) continue;
     if (locator.is_outside(points.col(p))) result.col(p) = reproduced.col(p);
   }
   return result;

@@ -14,22 +14,19 @@
 namespace flbc::io {
 namespace {
 
-// References to a list that may follow in the file, so the range check is at its end. It needs
+// References to vertices, which may follow in the file, so the range check is at its end. It needs
 // only the largest reference and its line.
-class ObjReferences {
+class VertexReferences {
  public:
-  explicit ObjReferences(const char* things) : things_(things) {}
-
-  //! \param number  from 1, or backwards from the latest of `seen` if negative; 0 = none
-  //! \param digits  the number as text, if it may be too large for its type
-  //! \return from 0, -1 = none
+  //! \param number  from 1, or backwards from the latest of `seen` if negative
+  //! \param digits  the number as text, because it may be too large for its type
+  //! \return from 0
   Index resolve(const TextReader& reader, std::int64_t number, std::size_t seen,
-                std::string_view digits = {}) {
+                std::string_view digits) {
     const std::int64_t index = number >= 0 ? number - 1 : static_cast<std::int64_t>(seen) + number;
     if ((number < 0 && index < 0) || index >= std::numeric_limits<Index>::max()) {
-      reader.fail("the index " + (digits.empty() ? std::to_string(number) : in_quotes(digits)) +
-                  " is out of range; there are " + std::to_string(seen) + " " + things_ +
-                  " before this line");
+      reader.fail("the index " + in_quotes(digits) + " is out of range; there are " +
+                  std::to_string(seen) + " vertices before this line");
     }
     if (index > largest_) {
       largest_ = index;
@@ -40,11 +37,10 @@ class ObjReferences {
 
   void check(const TextReader& reader, std::size_t count) const {
     if (largest_ < static_cast<std::int64_t>(count)) return;
-    reader.fail_at(line_, out_of_range_message(largest_ + 1, things_, 1, count));
+    reader.fail_at(line_, out_of_range_message(largest_ + 1, "vertices", 1, count));
   }
 
  private:
-  const char* things_;
   std::int64_t largest_ = -1;
   std::int64_t line_ = 1;
 };
@@ -287,7 +283,7 @@ class ObjReader {
   std::vector<std::string> material_files_;
   std::vector<Index> polygon_materials_;
   Index material_ = -1;  // of the following polygons
-  ObjReferences vertices_{"vertices"};
+  VertexReferences vertices_;
 };
 
 void write_corner(TextWriter& writer, Index vertex, const CornerReferences& references) {

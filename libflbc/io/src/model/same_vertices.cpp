@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/union_find.h"
 #include "flbc/errors.h"
 
 namespace flbc::io {
@@ -35,35 +36,33 @@ void for_edges(const Polygon& polygon, const Use& use) {
   }
 }
 
-std::map<Edge, std::vector<std::size_t>> polygons_at_edges(const Polygons& polygons) {
-  std::map<Edge, std::vector<std::size_t>> at;
+using PolygonsAtEdges = std::map<Edge, std::vector<Index>>;
+
+PolygonsAtEdges polygons_at_edges(const Polygons& polygons) {
+  PolygonsAtEdges at;
   for (std::size_t f = 0; f < polygons.size(); ++f) {
-    for_edges(polygons[f], [&](Index a, Index b) { at[std::minmax(a, b)].push_back(f); });
+    for_edges(polygons[f],
+              [&](Index a, Index b) { at[std::minmax(a, b)].push_back(static_cast<Index>(f)); });
   }
   return at;
 }
 
 // The vertices of the polygons that remain without the edges that are not in `kept`, each sorted;
 // nothing if one of them is not a polygon with all vertices on its border.
-Polygons joined_polygons(const Polygons& polygons,
-                         const std::map<Edge, std::vector<std::size_t>>& kept) {
-  std::vector<std::size_t> group(polygons.size());
-  std::iota(group.begin(), group.end(), 0);
-  const auto group_of = [&](std::size_t f) {
-    while (group[f] != f) f = group[f] = group[group[f]];
-    return f;
-  };
-  for (const auto& [edge, sides] : polygons_at_edges(polygons)) {
+Polygons joined_polygons(const Polygons& polygons, const PolygonsAtEdges& at_edges,
+                         const PolygonsAtEdges& kept) {
+  UnionFind groups(static_cast<Index>(polygons.size()));
+  for (const auto& [edge, sides] : at_edges) {
     if (kept.count(edge) > 0) continue;
-    for (const auto f : sides) group[group_of(f)] = group_of(sides.front());
+    for (const Index f : sides) groups.unite(sides.front(), f);
   }
   struct Joined {
     std::set<Index> vertices;
     std::size_t num_triangles = 0, num_edges = 0;  // edges of the border
   };
-  std::map<std::size_t, Joined> joined;
+  std::map<Index, Joined> joined;
   for (std::size_t f = 0; f < polygons.size(); ++f) {
-    auto& whole = joined[group_of(f)];
+    auto& whole = joined[groups.find(static_cast<Index>(f))];
     whole.vertices.insert(polygons[f].begin(), polygons[f].end());
     whole.num_triangles += polygons[f].size() - 2;
     for_edges(polygons[f],
@@ -81,8 +80,9 @@ Polygons joined_polygons(const Polygons& polygons,
 
 // Whether two files divide the same polygons, each in its way.
 bool divide_same_polygons(const Polygons& a, const Polygons& b) {
-  const auto joined = joined_polygons(a, polygons_at_edges(b));
-  return !joined.empty() && joined == joined_polygons(b, polygons_at_edges(a));
+  const auto at_a = polygons_at_edges(a), at_b = polygons_at_edges(b);
+  const auto joined = joined_polygons(a, at_a, at_b);
+  return !joined.empty() && joined == joined_polygons(b, at_b, at_a);
 }
 
 // The corners of all polygons one after the other; corner h begins the half-edge to corner next[h].

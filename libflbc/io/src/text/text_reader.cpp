@@ -172,14 +172,17 @@ double TextReader::number_out_of_range(std::string_view word) const {
 }
 
 double TextReader::number() {
-  const auto word = peek();
-  const double value = any_number();
-  if (!std::isfinite(value)) fail_expected("a finite number", word);
+  const std::string_view found = word();
+  const double value = number_in(found);
+  if (!std::isfinite(value)) fail_expected("a finite number", found);
   return value;
 }
 
 double TextReader::any_number() {
-  const std::string_view found = word();
+  return number_in(word());
+}
+
+double TextReader::number_in(std::string_view found) const {
   const std::string_view digits = without_plus(found);
   double value = 0;
   const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), value);

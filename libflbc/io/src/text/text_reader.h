@@ -97,6 +97,7 @@ class TextReader {
 
  private:
   bool skip_continuation();
+  double number_in(std::string_view word) const;
   double number_out_of_range(std::string_view word) const;
 
   std::string name_;
