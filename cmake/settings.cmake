@@ -6,6 +6,14 @@ option(FLBC_WITH_CGAL "2D meshing, self-intersection checks and automatic cages 
 option(FLBC_WITH_TETGEN "3D meshing with TetGen (AGPL-3)" ON)
 option(FLBC_WITH_CHOLMOD "Factor with CHOLMOD (LGPL-2.1 / GPL-2) instead of Eigen" ON)
 
+option(FLBC_WITH_OPENMP "Run loops in several threads; OFF for the web" ON)
+if(FLBC_WITH_OPENMP)
+  find_package(OpenMP REQUIRED COMPONENTS CXX)
+elseif(NOT TARGET OpenMP::OpenMP_CXX)
+  add_library(OpenMP::OpenMP_CXX INTERFACE IMPORTED)
+  target_include_directories(OpenMP::OpenMP_CXX INTERFACE ${CMAKE_CURRENT_LIST_DIR}/without_openmp)
+endif()
+
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
 # On if its library is found.
 find_package(Nglib QUIET)

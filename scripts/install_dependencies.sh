@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs missing Debian packages, and the named ones. Returns immediately if all are installed.
-# "openfoam" also brings MPI and the headers of OpenFOAM.
+# "openfoam" also brings MPI and the headers of OpenFOAM; "web" brings what scripts/web.sh needs.
 set -euo pipefail
 
 packages=(
@@ -15,20 +15,28 @@ packages=(
   mkdocs mkdocs-material libjs-katex groff-base  # tests of pages
   clang-format codespell                  # test of sources
 )
-packages+=("$@")
 headers=/usr/src/openfoam
-needs_headers=
-if [[ " $* " == *" openfoam "* ]]; then
-  packages+=(openmpi-bin bzip2)
-  [ -e $headers/src/dynamicMesh/lnInclude ] || needs_headers=yes
-fi
+needs_headers= needs_sources=
+for package in "$@"; do
+  case $package in
+    openfoam)
+      packages+=(openfoam openmpi-bin bzip2)
+      [ -e $headers/src/dynamicMesh/lnInclude ] || needs_headers=yes
+      ;;
+    web)
+      packages+=(emscripten nodejs libboost-dev libfast-float-dev)
+      [ -e /usr/src/tetgen/tetgen.cxx ] && [ -e /usr/src/pugixml/src/pugixml.cpp ] || needs_sources=yes
+      ;;
+    *) packages+=("$package") ;;
+  esac
+done
 
 missing=()
 for package in "${packages[@]}"; do
   status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
   [ "$status" = installed ] || missing+=("$package")
 done
-[ ${#missing[@]} -gt 0 ] || [ "$needs_headers" ] || exit 0
+[ ${#missing[@]} -gt 0 ] || [ "$needs_headers$needs_sources" ] || exit 0
 
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
@@ -45,22 +53,34 @@ if [ ${#missing[@]} -gt 0 ]; then
   "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 fi
 
-# The package has no headers, but the source package of the same version has.
-if [ "$needs_headers" ]; then
-  work=$(mktemp -d)
-  trap 'rm -rf "$work"' EXIT
+# Source packages of the same versions have what the packages lack: headers of OpenFOAM, and sources
+# to compile for the web. A list of our own leaves the lists of the system as they are.
+get_sources() {
   mkdir -p "$work/sources" "$work/lists/partial"
   sed 's/^Types:.*/Types: deb-src/' /etc/apt/sources.list.d/debian.sources >"$work/sources/a.sources"
-  from_sources=(apt-get -qq -o Dir::Etc::sourcelist=/dev/null
+  local from_sources=(apt-get -qq -o Dir::Etc::sourcelist=/dev/null
     -o Dir::Etc::sourceparts="$work/sources" -o Dir::State::lists="$work/lists"
     -o APT::Sandbox::User=root)
-  cd "$work"
   "${from_sources[@]}" update
-  "${from_sources[@]}" source --download-only openfoam
+  "${from_sources[@]}" source --download-only "$@"
+}
+[ "$needs_headers$needs_sources" ] || exit 0
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+if [ "$needs_headers" ]; then
+  get_sources openfoam
   tar -xf openfoam_*.orig.tar.* --wildcards --strip-components=1 '*/src' '*/wmake'
   for part in OpenFOAM OSspecific/POSIX meshTools finiteVolume dynamicMesh fileFormats surfMesh; do
     wmake/wmakeLnInclude -s "src/$part" 2>/dev/null
   done
   "${as_root[@]}" mkdir -p $headers
   "${as_root[@]}" cp -a src wmake $headers
+fi
+if [ "$needs_sources" ]; then
+  get_sources tetgen pugixml
+  for package in tetgen pugixml; do
+    "${as_root[@]}" mkdir -p /usr/src/$package
+    "${as_root[@]}" tar -xf ${package}_*.orig.tar.* --strip-components=1 -C /usr/src/$package
+  done
 fi

@@ -282,8 +282,9 @@ void split_touching_corners(CageDraft<Dim>& draft) {
     return Dim * (side / 2) + k;
   };
   UnionFind fans(static_cast<Index>(Dim * draft.facets.size()));
-  for (const auto& [ridge, facets] : collect_ridges(draft)) {
-    for_each_wedge(draft, ridge, facets, [&](Side a, Side b) {
+  for (const auto& entry : collect_ridges(draft)) {
+    const auto& ridge = entry.first;  // not a structured binding, which clang cannot capture
+    for_each_wedge(draft, ridge, entry.second, [&](Side a, Side b) {
       if (a % 2 == 0 || b % 2 == 0) return;
       for (const Index vertex : ridge) fans.unite(corner(a, vertex), corner(b, vertex));
     });

@@ -4,7 +4,6 @@
 // Other keywords are ignored. Values that cannot be read keep their defaults, because materials are
 // not essential.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -13,12 +12,13 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "model/model_scan.h"
+#include "text/float_chars.h"
 
 namespace flbc::io {
 namespace {
 
 bool to_number(std::string_view word, double& value) {
-  return std::from_chars(word.data(), word.data() + word.size(), value).ec == std::errc() &&
+  return from_chars(word.data(), word.data() + word.size(), value).ec == std::errc() &&
          std::isfinite(value);
 }
 

@@ -2,13 +2,13 @@
 #include "model/ply_reader.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
 #include "flbc/errors.h"
 #include "text/bytes.h"
+#include "text/float_chars.h"
 #include "text/text_reader.h"
 
 namespace flbc::io {
@@ -142,7 +142,7 @@ PlyReader::Number PlyReader::text_number(const PlyType& type) {
   if (end == position_) fail("the file ends where a number was expected");
   const char* const begin = content_.data() + position_;
   double value = 0;
-  const auto parsed = std::from_chars(begin, content_.data() + end, value);
+  const auto parsed = from_chars(begin, content_.data() + end, value);
   if (parsed.ec != std::errc() || parsed.ptr != content_.data() + end) {
     fail("expected a number, found " + in_quotes({begin, end - position_}));
   }

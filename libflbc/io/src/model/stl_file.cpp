@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // STL stores triangles with a normal and three points each; coincident points are one vertex.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <unordered_map>
@@ -9,6 +8,7 @@
 #include "flbc/errors.h"
 #include "model/model_scan.h"
 #include "text/bytes.h"
+#include "text/float_chars.h"
 #include "text/text_reader.h"
 
 namespace flbc::io {
@@ -34,7 +34,7 @@ struct Hash {
 float to_single(std::string_view word) {
   if (word[0] == '+') word.remove_prefix(1);
   float value = 0;
-  const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto parsed = from_chars(word.data(), word.data() + word.size(), value);
   return parsed.ec == std::errc() ? value : 0;
 }
 

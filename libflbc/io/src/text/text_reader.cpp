@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <system_error>
 #include <utility>
 
 #include "flbc/errors.h"
+#include "text/float_chars.h"
 
 namespace flbc::io {
 namespace {
@@ -35,7 +35,7 @@ bool is_underflow(std::string_view word) {
   std::int64_t exponent = 0;
   if (mantissa_end < word.size()) {
     const std::string_view digits = without_plus(word.substr(mantissa_end + 1));
-    const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+    const auto parsed = from_chars(digits.data(), digits.data() + digits.size(), exponent);
     if (parsed.ec == std::errc::result_out_of_range) return digits[0] == '-';
     exponent = std::clamp<std::int64_t>(exponent, -kHuge, kHuge);
   }
@@ -185,7 +185,7 @@ double TextReader::any_number() {
 double TextReader::number_in(std::string_view found) const {
   const std::string_view digits = without_plus(found);
   double value = 0;
-  const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const auto parsed = from_chars(digits.data(), digits.data() + digits.size(), value);
   if (parsed.ec == std::errc::invalid_argument || parsed.ptr != digits.data() + digits.size()) {
     fail_expected("a number", found);
   }
@@ -203,7 +203,7 @@ std::int64_t TextReader::integer() {
   const std::string_view found = word();
   const std::string_view digits = without_plus(found);
   std::int64_t value = 0;
-  const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const auto parsed = from_chars(digits.data(), digits.data() + digits.size(), value);
   if (parsed.ec == std::errc::invalid_argument || parsed.ptr != digits.data() + digits.size()) {
     fail_expected("an integer", found);
   }

@@ -2,7 +2,6 @@
 // Fast text output of numbers.
 #pragma once
 
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <ostream>
@@ -11,6 +10,7 @@
 #include <type_traits>
 
 #include "flbc/errors.h"
+#include "text/float_chars.h"
 
 namespace flbc::io {
 
@@ -77,7 +77,7 @@ class TextWriter {
   template <class Number>
   TextWriter& append(Number value) {
     char digits[32];  // the longest double has 24 characters
-    const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+    const auto end = to_chars(digits, digits + sizeof digits, value).ptr;
     return *this << std::string_view(digits, static_cast<std::size_t>(end - digits));
   }
 

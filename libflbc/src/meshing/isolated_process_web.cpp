@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// WebAssembly has no processes. A second instance of the module takes their place: it gets a copy
+// of the memory, and whatever happens to it, the first one is intact. The functions of the glue
+// code work on the memory of the second instance meanwhile. The program that starts the module
+// keeps it as Module.wasmModule, and its imports as Module.wasmImports. A time limit has no effect,
+// because there is one thread; the page ends the worker instead.
+#include <emscripten.h>
+#include <emscripten/stack.h>
+
+#include <cstdint>
+#include <new>
+
+#include "meshing/isolated_process.h"
+
+extern "C" void stackRestore(std::uintptr_t pointer);
+
+// clang-format off
+EM_JS(int, flbc_run_in_copy, (int entry, std::uintptr_t stack, const void* work), {
+  const parent = wasmMemory;
+  const instance = new WebAssembly.Instance(Module["wasmModule"], Module["wasmImports"]);
+  const exported = (kind) => Object.values(instance.exports).find((item) => item instanceof kind);
+  const copy = exported(WebAssembly.Memory);
+  const kPage = 65536;
+  const missing = parent.buffer.byteLength - copy.buffer.byteLength;
+  if (missing > 0) copy.grow(missing / kPage);
+  new Uint8Array(copy.buffer).set(HEAPU8);
+  const use = (memory) => {
+    wasmMemory = memory;
+    updateGlobalBufferAndViews(memory.buffer);
+  };
+  Module["sentParts"] = [];
+  use(copy);
+  try {
+    return exported(WebAssembly.Table).get(entry)(stack, work);
+  } catch (error) {
+    return error instanceof WebAssembly.Exception ? 1 : -1;
+  } finally {
+    use(parent);
+  }
+});
+
+EM_JS(void, flbc_send, (const void* data, std::size_t size), {
+  Module["sentParts"].push(HEAPU8.slice(data, data + size));
+});
+
+EM_JS(std::size_t, flbc_sent_size, (), {
+  return Module["sentParts"].reduce((sum, part) => sum + part.length, 0);
+});
+
+EM_JS(void, flbc_take_sent, (char* to), {
+  for (const part of Module["sentParts"]) {
+    HEAPU8.set(part, to);
+    to += part.length;
+  }
+  Module["sentParts"] = [];
+});
+// clang-format on
+
+namespace flbc {
+namespace {
+
+enum Outcome { kDone, kThrew, kOutOfMemory };
+using Work = std::function<void(const ByteSink&)>;
+
+[[gnu::noinline]] int run(const Work& work) {
+  try {
+    work(flbc_send);
+    return kDone;
+  } catch (const std::bad_alloc&) {
+    return kOutOfMemory;
+  } catch (...) {
+    return kThrew;
+  }
+}
+
+// In the copy. Its stack pointer is that of a fresh instance, so it is set before anything is
+// stored.
+int enter_copy(std::uintptr_t stack, const Work* work) {
+  stackRestore(stack);
+  return run(*work);
+}
+
+}  // namespace
+
+ProcessOutcome run_isolated(const Work& work, double) {
+  ProcessOutcome outcome;
+  const int end = flbc_run_in_copy(static_cast<int>(reinterpret_cast<std::uintptr_t>(&enter_copy)),
+                                   emscripten_stack_get_current(), &work);
+  if (end == kOutOfMemory) throw std::bad_alloc();
+  if (end != kDone) outcome.end = end == kThrew ? ProcessEnd::kThrew : ProcessEnd::kCrashed;
+  outcome.output.resize(flbc_sent_size());
+  flbc_take_sent(outcome.output.data());
+  return outcome;
+}
+
+std::string describe_signal(int) {
+  return "a trap";
+}
+
+}  // namespace flbc
