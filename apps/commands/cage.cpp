@@ -104,7 +104,8 @@ void add_cage_command(CLI::App& app, int&) {
       "where possible. Otherwise it writes a line \"OLD NEW\" for each control point to a file\n"
       "next to the result.");
   auto* model = command->add_option(
-      "MODEL", a.model, "model to enclose: .obj .off .ply .stl .om, or a .png with a silhouette");
+      "MODEL", a.model,
+      "model to enclose: .obj .off .ply .stl .om .glb .gltf, or a .png with a silhouette");
   command->add_option("-o,--output", a.output, "cage: .obj; in 3D also .off and .ply")->required();
   auto* count = command->add_option(
       "--control-points", a.options.control_points,

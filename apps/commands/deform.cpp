@@ -382,7 +382,7 @@ void add_deform_command(CLI::App& app, int&) {
       "displacement of a control point from rest, in the order of the control points.");
   command
       ->add_option("MODEL", a.file.model,
-                   "model (.obj .off .ply .stl .om), domain mesh (.vtu; 3D: .mesh .node .ele "
+                   "model (.obj .off .ply .stl .om .glb), domain mesh (.vtu; 3D: .mesh .node .ele "
                    ".msh), or points (.npy, with --domain)")
       ->required();
   auto* weights = command->add_option("--weights", a.weights, describe_weight_file());

@@ -262,9 +262,10 @@ void add_export_command(CLI::App& app, int&) {
       "Vertices are split along seams of texture coordinates and normals. The attribute _VERTEX\n"
       "maps them to the vertices of MODEL. Normals do not deform.");
   command
-      ->add_option("MODEL", a.model,
-                   "model (.obj .off .ply .stl .om), or domain mesh (.vtu; 3D: .mesh .node .ele "
-                   ".msh) whose boundary is exported")
+      ->add_option(
+          "MODEL", a.model,
+          "model (.obj .off .ply .stl .om .glb .gltf), or domain mesh (.vtu; 3D: .mesh .node .ele "
+          ".msh) whose boundary is exported")
       ->required();
   command->add_option("--weights", a.weights, describe_weight_file())->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();

@@ -213,9 +213,10 @@ void add_shapes(CLI::App& command, RunArguments& a) {
                   "closed polylines (2D) or surface (3D); with --auto-cage a model, or a .png with "
                   "transparent pixels")
       ->required();
-  command.add_option("MODEL", a.settings.model,
-                     "model inside the cage: .obj .off .ply .stl .om (default: the mesh of the "
-                     "cage interior)");
+  command.add_option(
+      "MODEL", a.settings.model,
+      "model inside the cage: .obj .off .ply .stl .om .glb .gltf (default: the mesh of the "
+      "cage interior)");
   command.option_defaults()->group("Cage and poses");
   auto* makes_cage =
       command.add_flag("--auto-cage", a.makes_cage, "make a cage around the first file");

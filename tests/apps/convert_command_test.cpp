@@ -165,7 +165,7 @@ TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
   expect_refused(file("ply.off", "ply\nformat ascii 1.0\n") + to("b.ply"), 2,
                  "ply.off: not OFF; it looks like PLY");
   expect_refused(file("glb.obj", "glTF\x02") + to("b.ply"), 2,
-                 "glb.obj: not OBJ; it looks like GLB; convert it to .obj or .ply first");
+                 "glb.obj: not OBJ; it looks like GLB; let its name end in .glb");
   expect_refused(file("binary.obj", std::string("\x7f"
                                                 "ELF\0\0\0",
                                                 7)) +

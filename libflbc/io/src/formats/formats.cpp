@@ -25,6 +25,8 @@ constexpr Format kFormats[] = {
     {"ply", {read_ply, write_ply, Attributes::kVertices}},
     {"stl", {read_stl, write_stl}},
     {"om", {read_om, nullptr, Attributes::kVertices}},  // OpenMesh writes it: flbc::openmesh
+    {"glb", {read_gltf, nullptr, Attributes::kCorners}},
+    {"gltf", {read_gltf, nullptr, Attributes::kCorners}},
     {"vtu", {}, kVtu<2>, kVtu<3>},
     {"mesh", {}, {}, {read_medit, write_medit, true}},
     {"node", {}, {}, kTetGen},
@@ -92,8 +94,8 @@ std::string extensions_of(std::initializer_list<Content> contents) {
 }
 
 std::string conversion_hint(const std::string& path) {
-  constexpr const char* kOthers[] = {"fbx", "glb",  "gltf", "blend", "dae", "3ds", "abc",
-                                     "usd", "usda", "usdc", "usdz",  "x3d", "wrl", "max"};
+  constexpr const char* kOthers[] = {"fbx",  "blend", "dae",  "3ds", "abc", "usd",
+                                     "usda", "usdc",  "usdz", "x3d", "wrl", "max"};
   const auto extension = extension_of(path);
   if (std::find(std::begin(kOthers), std::end(kOthers), extension) == std::end(kOthers)) return {};
   return "; convert it to .obj or .ply first, for example in Blender";

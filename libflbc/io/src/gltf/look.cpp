@@ -17,10 +17,11 @@ std::string media_type_of(const std::string& bytes) {
 }
 
 // \return the index of the image; -1 if it is left out
-int add_picture(const std::string& path, Look& look) {
-  std::string bytes;
+int add_picture(const io::Material& material, Look& look) {
+  const auto& path = material.texture;
+  auto bytes = material.picture;
   try {
-    bytes = io::read_file(path);
+    if (bytes.empty()) bytes = io::read_file(path);
   } catch (const IoError& error) {
     look.left_out.push_back(std::string("a picture: ") + error.what());
     return -1;
@@ -53,8 +54,9 @@ Look look_of(const Surface& surface) {
     const auto& texture = next.material.texture;
     if (!texture.empty() && surface.texture_coordinates.cols() > 0) {
       const auto known = picture_of.find(texture);
-      next.picture = known != picture_of.end() ? known->second
-                                               : picture_of[texture] = add_picture(texture, look);
+      next.picture = known != picture_of.end()
+                         ? known->second
+                         : picture_of[texture] = add_picture(next.material, look);
     }
     look.materials.push_back(std::move(next));
   }

@@ -5,7 +5,10 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <ostream>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -163,6 +166,36 @@ PointList<3> in_space(const PolygonSoup& soup, const PointList<Dim>& points) {
   return result;
 }
 
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+// Coordinates and normals in the frames of a file.
+class FramedNumbers {
+ public:
+  FramedNumbers(const ModelScan& file, const PointList<3>& points, const PointList<3>& normals)
+      : file_(file), points_(points), normals_(normals) {
+    for (const auto& frame : file.frames) to_file_.push_back(frame.inverse());
+  }
+
+  //! \return none if the vertex or normal has not changed
+  std::optional<double> value(const Site& site) const {
+    const std::size_t frame = site.frame - 1;
+    if (site.kind == TripleKind::kPoint) {
+      const Vector<3> point = points_.col(site.index);
+      if (point == file_.model.soup.points[site.index]) return {};
+      return (to_file_[frame] * point)[site.axis];
+    }
+    const Vector<3> normal = normals_.col(site.index);
+    if (normal == file_.model.attributes.normals.col(site.index)) return {};
+    return (file_.frames[frame].linear().transpose() * normal).normalized()[site.axis];
+  }
+
+ private:
+  const ModelScan& file_;
+  const PointList<3>& points_;
+  const PointList<3>& normals_;
+  std::vector<Eigen::Affine3d> to_file_;
+};
+
 template <class Matrix>
 bool are_single(const Matrix& numbers) {
   return numbers.template cast<float>().template cast<double>() == numbers;
@@ -274,6 +307,17 @@ template <int Dim>
 void ModelFile::write(std::ostream& out, const PointList<Dim>& points,
                       const Eigen::MatrixXd& jacobians) const {
   const auto& file = content_->file;
+  if (!file.fixed.empty()) throw InputError(file.fixed);
+  if (file.finish == nullptr) return write_numbers(out, points, jacobians);
+  std::ostringstream bytes;
+  write_numbers(bytes, points, jacobians);
+  out << file.finish(bytes.str());
+}
+
+template <int Dim>
+void ModelFile::write_numbers(std::ostream& out, const PointList<Dim>& points,
+                              const Eigen::MatrixXd& jacobians) const {
+  const auto& file = content_->file;
   const auto moved = in_space(file.model.soup, points);
   FollowingNormals::Turned turned;
   if (Dim == 3) turned = content_->turned(moved, jacobians);
@@ -288,10 +332,17 @@ void ModelFile::write(std::ostream& out, const PointList<Dim>& points,
     write_number(writer, place.form, after);
     done = place.begin + place.size;
   };
+  const FramedNumbers framed(file, moved, turned.normals);
   for (const Site& site : file.sites) {
     const int d = site.axis;
     const Index k = site.index;
-    if (site.kind == TripleKind::kPoint && d < Dim) {
+    if (site.frame > 0) {
+      if (Dim == 2 && site.kind != TripleKind::kPoint) continue;
+      if (const auto value = framed.value(site)) {
+        if (site.kind == TripleKind::kPoint) check_coordinate(site.place, k, d, *value);
+        replace(site.place, kUnknown, *value);
+      }
+    } else if (site.kind == TripleKind::kPoint && d < Dim) {
       check_coordinate(site.place, k, d, moved(d, k));
       replace(site.place, file.model.soup.points[k][d], moved(d, k));
     } else if (site.kind == TripleKind::kNormal && Dim == 3) {
@@ -326,7 +377,9 @@ std::vector<std::string> losses(const Model& model, const std::string& path) {
 void write_model(const std::string& path, const Model& model) {
   const auto& format = format_of(path, Content::kModel, "write a model as");
   if (!format.model.write) {
-    throw OptionError(path + ": this format is written by OpenMesh (flbc::openmesh)");
+    throw OptionError(path + (format.extension == "om"
+                                  ? ": this format is written by OpenMesh (flbc::openmesh)"
+                                  : ": only models from .glb files can be written to this format"));
   }
   write_file(path, [&](std::ostream& out) { format.model.write(out, model); });
 }

@@ -42,6 +42,7 @@ struct Material {
   double roughness = 0.8;                      //!< in [0, 1]
   double metallic = 0;                         //!< in [0, 1]
   std::string texture{};                       //!< path of the color texture; empty for none
+  std::string picture{};                       //!< its bytes, if they are in the file of the model
 };
 
 //! A surface with attributes.

@@ -22,9 +22,9 @@ PolygonSoup read_polygons(const std::string& path);
 //! A model file whose vertex coordinates can be replaced.
 class ModelFile {
  public:
-  //! Reads .obj, .off (also COFF, NOFF, STOFF headers), .ply, .stl or .om (OpenMesh, up to version
-  //! 2.2). Coincident corners of .stl files are merged into one vertex; vertices are numbered by
-  //! first occurrence.
+  //! Reads .obj, .off (also COFF, NOFF, STOFF headers), .ply, .stl, .om (OpenMesh, up to version
+  //! 2.2), .glb or .gltf (2.0, uncompressed). Coincident corners of .stl files and vertices of glTF
+  //! are merged into one vertex; vertices are numbered by first occurrence.
   //! \throws IoError; InputError naming file and line, byte or element; OptionError for another
   //! extension
   explicit ModelFile(const std::string& path);
@@ -61,6 +61,10 @@ class ModelFile {
   Model moved(const PointList<Dim>& points, const Eigen::MatrixXd& jacobians = {}) const;
 
  private:
+  template <int Dim>
+  void write_numbers(std::ostream& out, const PointList<Dim>& points,
+                     const Eigen::MatrixXd& jacobians) const;
+
   struct Content;
   std::unique_ptr<const Content> content_;
 };

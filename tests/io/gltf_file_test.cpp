@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// glTF files as models, written here with no more than a JSON parser.
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include <Eigen/Geometry>
+
+#include "flbc/io/cage_io.h"
+#include "flbc/io/model_file.h"
+#include "format_test.h"
+
+namespace flbc::testing {
+namespace {
+
+using io::ModelFile;
+using Json = nlohmann::ordered_json;
+
+// A square of two triangles whose diagonal is a seam, so that its ends are in the file twice.
+struct Square {
+  Eigen::Matrix3Xf points{3, 6}, normals{3, 6};
+  Eigen::Matrix2Xf texture{2, 6};
+  std::vector<std::uint16_t> indices{0, 1, 2, 3, 4, 5};
+  Json json;
+  std::string picture = "\x89PNG\r\n\x1a\nnot really";
+
+  Square() {
+    points << 0, 1, 1, 0, 1, 0,  //
+        0, 0, 1, 0, 1, 1,        //
+        0, 0, 0, 0, 0, 0;
+    normals << Eigen::Vector3f::UnitZ().replicate(1, 6);
+    texture << 0, 0.5, 0.5, 0.5, 1, 0.5,  //
+        0, 0, 1, 0, 1, 1;
+    json = Json::parse(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+      "nodes":[{"children":[1],"translation":[10,0,0]},
+               {"mesh":0,"rotation":[0,0,0.7071067811865476,0.7071067811865476],"scale":[2,2,2]}],
+      "meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"indices":3,
+                                "material":0}]}],
+      "materials":[{"name":"paint","pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,1],
+        "baseColorTexture":{"index":0},"metallicFactor":0,"roughnessFactor":0.5}}],
+      "textures":[{"source":0}],"images":[{"bufferView":4,"mimeType":"image/png"}],
+      "accessors":[
+        {"bufferView":0,"componentType":5126,"count":6,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+        {"bufferView":1,"componentType":5126,"count":6,"type":"VEC3"},
+        {"bufferView":2,"componentType":5126,"count":6,"type":"VEC2"},
+        {"bufferView":3,"componentType":5123,"count":6,"type":"SCALAR"}],
+      "bufferViews":[],"buffers":[{"byteLength":0}]})");
+  }
+
+  std::string binary() {
+    std::string bytes;
+    json["bufferViews"] = Json::array();
+    const auto add = [&](const void* data, std::size_t size) {
+      bytes.resize((bytes.size() + 3) / 4 * 4);
+      json["bufferViews"].push_back(
+          {{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", size}});
+      bytes.append(static_cast<const char*>(data), size);
+    };
+    add(points.data(), sizeof(float) * static_cast<std::size_t>(points.size()));
+    add(normals.data(), sizeof(float) * static_cast<std::size_t>(normals.size()));
+    add(texture.data(), sizeof(float) * static_cast<std::size_t>(texture.size()));
+    add(indices.data(), sizeof(std::uint16_t) * indices.size());
+    add(picture.data(), picture.size());
+    bytes.resize((bytes.size() + 3) / 4 * 4);
+    json["buffers"][0]["byteLength"] = bytes.size();
+    return bytes;
+  }
+
+  std::string glb() {
+    const auto bytes = binary();
+    auto text = json.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const auto word = [](std::size_t number) {
+      const auto value = static_cast<std::uint32_t>(number);
+      std::string result(4, '\0');
+      std::memcpy(result.data(), &value, 4);
+      return result;
+    };
+    return "glTF" + word(2) + word(28 + text.size() + bytes.size()) + word(text.size()) + "JSON" +
+           text + word(bytes.size()) + std::string("BIN\0", 4) + bytes;
+  }
+};
+
+// Where the nodes put the points of the file.
+const PointList<3> kCorners = (PointList<3>(3, 4) << 10, 10, 8, 8,  //
+                               0, 2, 2, 0,                          //
+                               0, 0, 0, 0)
+                                  .finished();
+
+class GltfFileTest : public FormatTest {
+ protected:
+  static std::string rewritten(const ModelFile& file, const PointList<3>& points) {
+    std::ostringstream out;
+    file.write<3>(out, points);
+    return out.str();
+  }
+  void refuse(Square square, const std::string& message) {
+    make("bad.glb", square.glb());
+    expect_error<InputError>([&] { ModelFile(path("bad.glb")); }, {"bad.glb", message});
+  }
+};
+
+TEST_F(GltfFileTest, SeamsAreOneVertexInTheFrameOfTheScene) {
+  make("a.glb", Square().glb());
+  const ModelFile file(path("a.glb"));
+  const auto& model = file.model();
+  EXPECT_LT((io::to_points<3>(model.soup, "") - kCorners).norm(), 1e-12);
+  EXPECT_EQ(model.soup.polygons, (std::vector<std::vector<Index>>{{0, 1, 2}, {0, 2, 3}}));
+  const auto& attributes = model.attributes;
+  ASSERT_EQ(attributes.corners.size(), 2U);
+  EXPECT_NE(attributes.corners[0][0].texture_coordinate,
+            attributes.corners[1][0].texture_coordinate);
+  EXPECT_EQ(attributes.texture_coordinates.col(attributes.corners[0][2].texture_coordinate),
+            Vector<2>(0.5, 0));  // the second axis points up
+  ASSERT_EQ(model.materials.size(), 1U);
+  EXPECT_EQ(model.materials[0].name, "paint");
+  EXPECT_EQ(model.materials[0].color, Vector<3>(0.5, 0.25, 1));
+  EXPECT_EQ(model.materials[0].picture, Square().picture);
+  EXPECT_EQ(model.polygon_materials, (std::vector<Index>{0, 0}));
+}
+
+TEST_F(GltfFileTest, PointsMoveAndAllElseStays) {
+  Square square;
+  make("a.glb", square.glb());
+  const ModelFile file(path("a.glb"));
+  const auto points = io::to_points<3>(file.model().soup, "");
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.5, Vector<3>::UnitX()).toRotationMatrix();
+  const PointList<3> moved = turn * points;
+  make("b.glb", rewritten(file, moved));
+  const ModelFile again(path("b.glb"));
+  EXPECT_LT((io::to_points<3>(again.model().soup, "") - moved).cwiseAbs().maxCoeff(), 1e-5);
+  for (const auto& normal : again.model().attributes.normals.colwise()) {
+    EXPECT_LT((normal.normalized() - turn * Vector<3>::UnitZ()).norm(), 1e-6);
+  }
+  EXPECT_EQ(again.model().materials[0].picture, square.picture);
+  EXPECT_EQ(again.model().attributes.texture_coordinates,
+            file.model().attributes.texture_coordinates);
+
+  // The bounds are those of the points in the file, which node and parent scale, turn, and shift.
+  const auto bytes = content("b.glb");
+  std::uint32_t size = 0;
+  std::memcpy(&size, bytes.data() + 12, 4);
+  const auto accessor = Json::parse(bytes.substr(20, size))["accessors"][0];
+  EXPECT_NEAR(accessor["max"][0], std::cos(0.5), 1e-6);
+  EXPECT_NEAR(accessor["max"][2], std::sin(0.5), 1e-6);
+}
+
+TEST_F(GltfFileTest, TextWithDataIsRead) {
+  Square square;
+  const auto bytes = square.binary();
+  constexpr const char* kLetters =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    unsigned bits = 0;
+    for (std::size_t j = k; j < k + 3; ++j)
+      bits = bits << 8 | (j < bytes.size() ? static_cast<unsigned char>(bytes[j]) : 0);
+    for (const int shift : {18, 12, 6, 0}) text += kLetters[bits >> shift & 63];
+  }
+  square.json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + text;
+  make("a.gltf", square.json.dump());
+  const ModelFile file(path("a.gltf"));
+  EXPECT_LT((io::to_points<3>(file.model().soup, "") - kCorners).norm(), 1e-12);
+  expect_error<InputError>([&] { rewritten(file, kCorners); },
+                           {"a.gltf", "write .glb or another format"});
+
+  square.json["buffers"][0]["uri"] = "a.bin";
+  make("b.gltf", square.json.dump());
+  expect_error<IoError>([&] { ModelFile(path("b.gltf")); }, {"a.bin"});
+  make("a.bin", bytes);
+  EXPECT_LT((io::to_points<3>(ModelFile(path("b.gltf")).model().soup, "") - kCorners).norm(),
+            1e-12);
+}
+
+TEST_F(GltfFileTest, VerticesOfTwoNodesCannotBeRewritten) {
+  Square square;
+  square.json["nodes"].push_back({{"mesh", 0}});
+  square.json["scenes"][0]["nodes"].push_back(2);
+  make("a.glb", square.glb());
+  const ModelFile file(path("a.glb"));
+  EXPECT_EQ(file.model().soup.points.size(), 8U);
+  const auto points = io::to_points<3>(file.model().soup, "");
+  expect_error<InputError>([&] { rewritten(file, points); }, {"two nodes", "another format"});
+}
+
+TEST_F(GltfFileTest, DamageEndsInMessages) {
+  const auto whole = Square().glb();
+  for (std::size_t size = 0; size < whole.size(); size += 7) {
+    make("bad.glb", whole.substr(0, size));
+    EXPECT_THROW(ModelFile(path("bad.glb")), InputError) << size;
+  }
+  const auto with = [&](const char* pointer, Json value) {
+    Square square;
+    square.binary();
+    square.json[Json::json_pointer(pointer)] = std::move(value);
+    return square;
+  };
+  refuse(with("/accessors/0/count", 1000), "accessor 0 ends outside its buffer view");
+  refuse(with("/accessors/3/count", std::uint64_t{1} << 62), "accessor 3 ends outside");
+  refuse(with("/accessors/0/byteOffset", 10000), "ends outside its buffer");
+  refuse(with("/accessors/0/type", "VEC2"), "another type");
+  refuse(with("/accessors/0/sparse", Json::object()), "sparse");
+  refuse(with("/nodes/1/children", Json::array({0})), "");
+  refuse(with("/nodes/1/scale", Json::array({0, 1, 1})), "cannot be inverted");
+  refuse(with("/meshes/0/primitives/0/material", 7), "material");
+  refuse(with("/extensionsRequired", Json::array({"KHR_draco_mesh_compression"})), "uncompressed");
+  Square out_of_range;
+  out_of_range.indices[4] = 6;
+  refuse(out_of_range, "the vertex 6, which is out of range");
+}
+
+}  // namespace
+}  // namespace flbc::testing
