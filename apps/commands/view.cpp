@@ -17,7 +17,6 @@
 #include "flbc/poses.h"
 #include "flbc/sparsify_error.h"
 #include "poses/poses.h"
-#include "serve/serve_page.h"
 #include "solve/weights_of_model.h"
 #include "view/model_page.h"
 #include "view/page.h"
@@ -36,9 +35,6 @@ struct ViewArguments {
   std::string picture;
   UpAxis up = UpAxis::kAuto;
   std::string output;
-  std::vector<std::string> served;  // a cage and perhaps a model
-  Index vertices = 0;
-  int port = 0;
   bool quiet = false;
 };
 
@@ -54,12 +50,6 @@ std::string media_type_of(const std::string& path) {
 }
 
 void check_arguments(const ViewArguments& arguments) {
-  for (const auto& [name, value] : {std::pair("MODEL", &arguments.model),
-                                    {"--weights", &arguments.weights},
-                                    {"--cage", &arguments.cage},
-                                    {"--output", &arguments.output}}) {
-    if (value->empty()) throw OptionError(std::string(name) + " is required without --serve");
-  }
   if (!arguments.picture.empty()) media_type_of(arguments.picture);
   require_mesh_readable(arguments.model);
   require_writable(arguments.output, "html");
@@ -156,27 +146,6 @@ void write_page(const ViewArguments& arguments, const CageFiles& poses) {
   }
 }
 
-void serve(const ViewArguments& arguments) {
-  const auto& served = arguments.served;
-  serve_page({served.front(), served.size() > 1 ? served[1] : "", arguments.vertices,
-              arguments.port, arguments.up, arguments.quiet});
-}
-
-void add_serving(CLI::App& command, ViewArguments& a, CLI::Option* output) {
-  auto* serve = command.add_option(
-      "--serve", a.served,
-      "compute weights, and serve a page on this machine in which you can also reshape the rest "
-      "cage (default for MODEL: the domain mesh)");
-  serve->expected(1, 2)->type_name("CAGE [MODEL]")->excludes(output);
-  command
-      .add_option("--vertices", a.vertices, "number of mesh vertices for --serve (default: 2000)")
-      ->check(refuse_vertex_count)
-      ->needs(serve);
-  command.add_option("--port", a.port, "port for --serve (default: any free port)")
-      ->check(CLI::Range(0, 65535))
-      ->needs(serve);
-}
-
 }  // namespace
 
 void add_view_command(CLI::App& app, int&) {
@@ -187,10 +156,13 @@ void add_view_command(CLI::App& app, int&) {
   command->footer(
       "The page is one file that any browser opens without a network. It deforms the model like\n"
       "flbc deform and saves poses of the cage as OBJ. Press '?' for keyboard shortcuts.");
-  command->add_option("MODEL", a.model,
-                      "model (.obj .off .ply .stl .om), or domain mesh whose boundary is shown");
-  command->add_option("--weights", a.weights, describe_weight_file());
-  command->add_option("--cage", a.cage, "cage of the weights");
+  command
+      ->add_option(
+          "MODEL", a.model,
+          "model (.obj .off .ply .stl .om .glb .gltf), or domain mesh whose boundary is shown")
+      ->required();
+  command->add_option("--weights", a.weights, describe_weight_file())->required();
+  command->add_option("--cage", a.cage, "cage of the weights")->required();
   auto* poses = command->add_option(
       "--pose", a.poses, "deformed cage: one or more files, or a pattern such as pose_%d.obj");
   command
@@ -208,11 +180,9 @@ void add_view_command(CLI::App& app, int&) {
   command->add_option("--texture", a.picture,
                       "texture for a model with texture coordinates: .png, .jpg");
   add_up_option(*command, a.up);
-  auto* output = command->add_option("-o,--output", a.output, "page: .html");
-  add_serving(*command, a, output);
+  command->add_option("-o,--output", a.output, "page: .html")->required();
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
-    if (!arguments->served.empty()) return serve(*arguments);
     check_arguments(*arguments);
     const auto files = find_cages(arguments->poses);
     check_files(*arguments, files);

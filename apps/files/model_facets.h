@@ -29,11 +29,24 @@ using AnyModelFacets = std::variant<ModelFacets<2>, ModelFacets<3>>;
 //! are others. \throws IoError, InputError, OptionError
 AnyModelFacets load_model_facets(const std::string& path);
 
-//! The outline of the pixels of a .png file that are not wholly transparent. A pixel is a unit
-//! square; the lower left corner of the picture is at the origin.
+//! The outline of the pixels of a .png file that are not wholly transparent.
 //! \throws IoError; InputError if the file is no such picture, or has no pixel that is transparent
 //! or none that is not
 ModelFacets<2> load_silhouette(const std::string& path);
+
+//! Whether each pixel of a picture is to be seen, row by row from the bottom.
+struct Mask {
+  Index width = 0, height = 0;
+  std::vector<bool> pixels{};
+
+  bool at(Index x, Index y) const {
+    return x >= 0 && y >= 0 && x < width && y < height && pixels[x + std::size_t(y) * width];
+  }
+};
+
+//! Their outline. A pixel is a unit square; the lower left corner of the picture is at the origin.
+//! \param path  for messages \throws InputError if none of the pixels is to be seen, or all are
+ModelFacets<2> outline_of(const Mask& mask, const std::string& path);
 
 //! By vertex: whether a polygon or polyline has it.
 std::vector<bool> used_vertices(const io::PolygonSoup& soup);

@@ -1,34 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which axis of a model points up in pictures, pages, and exports, and from where pictures show
-// it.
+// Options for the axis of a model that points up, and for where pictures show it from.
 #pragma once
 
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <Eigen/Core>
 
 #include "draw/view.h"
-#include "flbc/types.h"
+#include "files/up_axis.h"
 
 namespace flbc::app {
 
-enum class UpAxis { kX, kY, kZ, kAuto };
-
 //! --up of the commands that show or export models, with the default kAuto.
 CLI::Option* add_up_option(CLI::App& command, UpAxis& up);
-
-//! The axis, 0 to 2. For kAuto the first of y, z, and x along which the model stands: the center of
-//! its vertices is above the bounding box of the lowest vertices (within 3% of the height), and
-//! this box covers at least 10% of the area of the whole one. y if it stands along none.
-//! \param points  3 x P
-int up_axis(UpAxis up, const PointList<3>& points);
-
-//! In the plane y points up. \throws OptionError if another axis is requested
-int up_axis(UpAxis up, const PointList<2>& points);
-
-//! The rotation that takes an axis to y, by 90 degrees or not at all.
-Eigen::Matrix3d turn_upright(int axis);
 
 //! From where a picture shows a model in 3D.
 struct ModelView {

@@ -154,19 +154,11 @@ std::string pack_palette() {
   return draw::numbers_to_base64(bytes);
 }
 
-// Where the weights put the points of the resting cage, seen from the middle: single precision then
-// has digits enough wherever the model is.
-template <int Dim>
-std::string pack_offsets(const SparseWeights& weights, const PointList<Dim>& rest,
-                         const Vector<Dim>& center) {
-  const PointList<Dim> offsets = deform<Dim>(weights, rest).colwise() - center;
-  return pack<float>(offsets.reshaped());
-}
-
 template <int Dim>
 Json pack_points(const PageContent<Dim>& content) {
   const auto& rest = content.cage.points;
-  const Vector<Dim> center = page_center<Dim>(rest);
+  // Seen from the middle, single precision has digits enough wherever the model is.
+  const Vector<Dim> center = (rest.rowwise().minCoeff() + rest.rowwise().maxCoeff()) / 2;
   const PointList<Dim> offsets = content.points.colwise() - center;
   return {{"center", std::vector<double>(center.begin(), center.end())},
           {"offsets", pack<float>(offsets.reshaped())}};
@@ -187,7 +179,6 @@ Json to_json(const PageContent<Dim>& content) {
             {"weights", pack_weights(weights)},
             {"palette", pack_palette()},
             {"picture", content.picture}};
-  if (content.is_served) json["served"] = {{"movesAlong", content.moves_along}};
   json["surface"] = pack_surface(content.surface, content.points.cols());
   json["poses"] = Json::array();
   for (const auto& pose : content.poses) {
@@ -199,8 +190,7 @@ Json to_json(const PageContent<Dim>& content) {
 }
 
 // Text that may stand in an HTML script element: nothing in it can end the element.
-std::string to_script(const Json& json) {
-  const auto text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string to_script(const std::string& text) {
   std::string script;
   script.reserve(text.size());
   for (const char c : text) {
@@ -263,18 +253,14 @@ std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<In
 }
 
 template <int Dim>
-std::string make_update(const PointList<Dim>& rest, const SparseWeights& weights,
-                        const Vector<Dim>& center) {
-  return Json{{"rest", pack<double>(rest.reshaped())},
-              {"offsets", pack_offsets<Dim>(weights, rest, center)},
-              {"weights", pack_weights(weights)}}
-      .dump();
+std::string make_content(const PageContent<Dim>& content) {
+  check(content);
+  return to_json(content).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 template <int Dim>
 std::string make_page(const PageContent<Dim>& content) {
-  check(content);
-  const auto data = to_script(to_json(content));
+  const auto data = to_script(make_content(content));
   const std::string page = kPageTemplate;
   const std::string place = "{{data}}";
   const auto begin = page.find(place);
@@ -284,10 +270,9 @@ std::string make_page(const PageContent<Dim>& content) {
 #define FLBC_INSTANTIATE(Dim)                                                                      \
   template std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<Index>>&, \
                                                            const FacetList<Dim>&);                 \
-  template std::string make_update(const PointList<Dim>&, const SparseWeights&,                    \
-                                   const Vector<Dim>&);                                            \
   template SparseWeights limit_influences(const PointList<Dim>&, const PointList<Dim>&,            \
                                           const SparseWeights&, Index);                            \
+  template std::string make_content(const PageContent<Dim>&);                                      \
   template std::string make_page(const PageContent<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -57,10 +57,8 @@ struct PageContent {
   gltf::Surface surface{};  //!< of these points; without triangles points are shown
   SparseWeights weights{};  //!< of P points, at most kMostInfluences of each
   std::vector<ShownPose<Dim>> poses{};
-  int up = 1;                //!< 3D: axis that points up at first
-  std::string picture{};     //!< data URI of a texture, or empty
-  bool is_served = false;    //!< a program answers with weights for other cages
-  bool moves_along = false;  //!< if so, the points move with the resting cage
+  int up = 1;             //!< 3D: axis that points up at first
+  std::string picture{};  //!< data URI of a texture, or empty
 };
 
 //! The edges of a cage's polygons; of its facets if there are none.
@@ -74,18 +72,9 @@ inline FacetList<2> as_facets(const std::vector<std::array<Index, 2>>& edges) {
   return facets;
 }
 
-//! From where the page sees the model's points.
+//! The content as JSON that decodeContent() of the page reads. Errors as for make_page().
 template <int Dim>
-Vector<Dim> page_center(const PointList<Dim>& rest) {
-  return (rest.rowwise().minCoeff() + rest.rowwise().maxCoeff()) / 2;
-}
-
-//! What a served page takes in place of its weights when the resting cage has changed, as JSON.
-//! \param rest  Dim x n \param weights  of P points, at most kMostInfluences of each
-//! \param center  page_center() of the cage that the page was made with
-template <int Dim>
-std::string make_update(const PointList<Dim>& rest, const SparseWeights& weights,
-                        const Vector<Dim>& center);
+std::string make_content(const PageContent<Dim>& content);
 
 //! The page, which needs no other file and no network.
 //! \throws InputError if sizes do not fit, if a number is not finite, or for more than 65535

@@ -171,10 +171,6 @@ flbc mesh 3d/limb_cage.obj $V -o x.msh && flbc info x.msh
 # save the file in ASCII mode
 2 flbc mesh square.obj $V -o x.vtu && sed s/ascii/binary/ x.vtu >y.vtu; flbc info y.vtu
 flbc info x.vtu
-#  is required without --serve
-1 flbc view
-flbc view model.obj --weights w.npy --cage square.obj -o p.html
-timeout 5 flbc view --serve square.obj model.obj $V; [ $? = 124 ]
 # for a smaller page, reduce influences per vertex, for example -k 4
 0 grid >grid.obj && flbc cage grid.obj --control-points 12 -o c.obj && flbc solve c.obj --model grid.obj --method harmonic $V -o x.npy && flbc view grid.obj --weights x.npy --cage c.obj -k 12 -o p.html
 flbc view grid.obj --weights x.npy --cage c.obj -k 4 -o p.html

@@ -77,4 +77,3 @@ cp "$meshes/3d/limb_model.obj" engine/model.obj
 node "$here/engine_test.mjs" "$browser" engine
 
 node "$here/page_test.mjs" "$browser" "$flbc" "$meshes" "$work"
-node "$here/serve_test.mjs" "$browser" "$flbc" "$meshes"

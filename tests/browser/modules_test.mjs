@@ -16,7 +16,7 @@ const { edgesOf, sumNormals } = await load("surface_normals");
 const { rotate, scale, translate } = await load("transforms");
 const { pick, pointsInRectangle } = await load("picking");
 const { ToolDrag } = await load("actions");
-const { Reshaper } = await load("serving");
+const { Reshaper } = await import(new URL("../../web/page/reshaping.mjs", import.meta.url));
 const { commandOf } = await load("saving");
 const { kWeightedSum } = await load("shaders");
 
@@ -261,11 +261,8 @@ test("indices are read in the width they are written", () => {
 });
 
 test("of a resting cage the last shape is solved, one at a time, and refused shapes go back", async () => {
-  const encode = (numbers) => Buffer.from(numbers.buffer).toString("base64");
-  const weights = { counts: encode(Uint8Array.of(1)), values: encode(Float32Array.of(1)),
-                    controlPoints: { bytes: 1, data: encode(Uint8Array.of(0)) } };
   const editor = new Editor(Float64Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0), 2);
-  const viewer = { editor, content: { dim: 2, rest: editor.rest, served: { movesAlong: false } },
+  const viewer = { editor, content: { dim: 2, rest: editor.rest },
                    deformer: { rest: editor.rest }, changed: () => {} };
   const asked = [];
   let atOnce = 0;
@@ -277,7 +274,7 @@ test("of a resting cage the last shape is solved, one at a time, and refused sha
     if (request.points?.[0] > 5) return { refused: "too far" };
     const rest = Float64Array.from(request.points ?? reshaper.sent.filter((_, k) => k % 3 < 2));
     return { converged: asked.at(-1) === "refine", residual: 1,
-             update: { rest: encode(rest), offsets: encode(Float32Array.from(rest)), weights } };
+             rest, weights: {} };
   });
   editor.onChange = () => reshaper.edited();
   const settled = async () => {

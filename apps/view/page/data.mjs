@@ -26,7 +26,7 @@ export function decodeIndices(packed) {
 }
 
 // From dim coordinates per point to three.
-function inSpace(numbers, dim) {
+export function inSpace(numbers, dim) {
   const count = numbers.length / dim;
   const result = new numbers.constructor(3 * count);
   for (let i = 0; i < count; ++i) {
@@ -66,12 +66,6 @@ function decodePoses(packed, dim, rest) {
   return poses;
 }
 
-// What takes the place of rest, base and weights when the resting cage has changed.
-export function decodeUpdate(json, dim) {
-  return { rest: inSpace(decodeDoubles(json.rest), dim),
-           base: inSpace(decodeFloats(json.offsets), dim), weights: decodeWeights(json.weights) };
-}
-
 export function decodeContent(json) {
   const { dim } = json;
   const center = [0, 0, 0];
@@ -86,6 +80,5 @@ export function decodeContent(json) {
     weights: decodeWeights(json.weights), palette: decodeBytes(json.palette),
     surface: decodeSurface(json.surface, base.length / 3),
     poses: decodePoses(json.poses, dim, rest),
-    served: json.served ?? null,
   };
 }

@@ -39,7 +39,7 @@ function nudge(viewer, [dx, dy], isLarge) {
 }
 
 // \param commands  functions by name, as the panel has them \param interaction  may be cancelled
-export function bindKeys(viewer, commands, interaction) {
+export function bindKeys(viewer, commands, interaction, signal) {
   const plain = {
     g: "move", r: "rotate", s: "scale", x: "axisX", y: "axisY", z: "axisZ", m: "nextMirror",
     a: "selectAll", b: "box", f: "frame", t: "turn", 1: "front", 2: "side", 3: "top", c: "cage", w: "edges",
@@ -65,5 +65,5 @@ export function bindKeys(viewer, commands, interaction) {
       return;
     }
     event.preventDefault();
-  });
+  }, { signal });
 }

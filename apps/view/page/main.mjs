@@ -3,9 +3,8 @@
 import { decodeContent } from "./data.mjs";
 import { Interaction } from "./interaction.mjs";
 import { bindKeys } from "./keyboard.mjs";
-import { bindPanel, bindReshaping, tell } from "./panel.mjs";
+import { bindPanel } from "./panel.mjs";
 import { pointsOf, poseOf } from "./saving.mjs";
-import { connect } from "./serving.mjs";
 import { pointAt } from "./vectors.mjs";
 import { Viewer } from "./viewer.mjs";
 
@@ -35,9 +34,7 @@ function hookOf(viewer) {
       return { x: box.left + x, y: box.top + y };
     },
     milliseconds: () => viewer.milliseconds,
-    reshapes: () => ({ isBusy: viewer.reshaper.isBusy, isOn: viewer.reshaper.isOn,
-                       milliseconds: viewer.reshaper.milliseconds,
-                       solveMilliseconds: viewer.reshaper.solveMilliseconds }),
+    viewer,
   };
 }
 
@@ -63,12 +60,11 @@ function answerPageAround(viewer) {
   around.postMessage({ ask: "state" }, "*");
 }
 
-function start() {
-  const json = JSON.parse(document.getElementById("content").textContent);
+// Shows a model and its cage. \param signal  ends listening to keys
+export function show(content, signal) {
   const canvas = document.getElementById("canvas");
   let viewer;
   try {
-    const content = decodeContent(json);
     // For tests, and for cards that are slower than the processor: page.html#card or #processor.
     if (["#card", "#processor"].includes(location.hash)) {
       content.movesOnCard = location.hash === "#card";
@@ -78,9 +74,8 @@ function start() {
     return apologize(error);
   }
   const commands = bindPanel(viewer);
-  if (viewer.content.served) bindReshaping(connect(viewer, tell));
   const interaction = new Interaction(viewer);
-  bindKeys(viewer, commands, interaction);
+  bindKeys(viewer, commands, interaction, signal);
   canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
   canvas.addEventListener("webglcontextrestored", () => {
     viewer.renderer.prepare();
@@ -90,6 +85,8 @@ function start() {
   window.flbc = hookOf(viewer);
   viewer.changed();
   answerPageAround(viewer);
+  return viewer;
 }
 
-start();
+const kContent = JSON.parse(document.getElementById("content").textContent);
+if (kContent) show(decodeContent(kContent));

@@ -7,7 +7,7 @@ import { commandOf, saveModel, savePicture, savePose } from "./saving.mjs";
 
 const kAxisNames = ["x", "y", "z"];
 
-function element(id) {
+export function element(id) {
   return document.getElementById(id);
 }
 
@@ -41,7 +41,7 @@ function mirror(viewer, axis) {
   if (axis >= 0) tell(`Mirror ${kAxisNames[axis]}: ${count} of ${total} control points have an image`);
 }
 
-function setTheme(viewer, theme) {
+export function setTheme(viewer, theme) {
   document.documentElement.dataset.theme = theme;
   viewer.set("theme", theme);
 }
@@ -80,8 +80,6 @@ export function makeCommands(viewer) {
     help: () => (help.open ? help.close() : help.showModal()),
     closeHelp: () => help.close(),
     picture: () => element("file").click(),
-    reshape: () => viewer.reshaper?.toggle(),
-    stop: () => viewer.reshaper?.cancel(),
     fold: () => document.body.classList.toggle("folded"),
   };
 }
@@ -195,24 +193,6 @@ function showState(viewer) {
   if (content.poses.length < 2) return;
   element("time").value = viewer.time;
   element("pose").textContent = nearestPose(content.poses, viewer.time).name;
-}
-
-// How a solve stands, as a bar of the residual's logarithm.
-function showReshaping(reshaper) {
-  element("reshape").setAttribute("aria-pressed", String(reshaper.isOn));
-  element("reshape").disabled = reshaper.isBusy;
-  element("stop").disabled = !reshaper.isBusy;
-  const excess = Math.log10(Math.max(1, reshaper.residual));
-  element("progress").value = reshaper.isBusy ? Math.max(0, 1 - excess / 6) : 1;
-  element("solving").textContent =
-    reshaper.isBusy ? "solving…" : reshaper.isOn ? "drag the cage at rest" : "weights are up to date";
-}
-
-// The part of the panel for a page that a program serves.
-export function bindReshaping(reshaper) {
-  element("serving").hidden = false;
-  reshaper.onState = () => showReshaping(reshaper);
-  showReshaping(reshaper);
 }
 
 // Fills the panel and connects it. \return the commands

@@ -2,7 +2,7 @@
 // Downloads of poses, models and pictures, and a command to copy.
 import { modelText, poseText } from "./obj.mjs";
 
-function download(name, blob) {
+export function download(name, blob) {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(blob);
   link.download = name;

@@ -85,7 +85,9 @@ export const kSurfaceShader = {
           base *= mix(0.6, 1.0, smoothstep(0.4, 1.2, distance));
         }
       } else if (coloring == 2) {
-        base = texture(picture, texturePlace).rgb;
+        vec4 seen = texture(picture, texturePlace);
+        if (seen.a < 0.5) discard;
+        base = seen.rgb;
       }
       if (isLit) {
     #ifdef ON_CARD

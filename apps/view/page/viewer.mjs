@@ -25,7 +25,7 @@ export class Viewer {
     this.content = content;
     this.deformer = new Deformer(content.weights, content.base, content.rest);
     const movesOnCard = content.movesOnCard ?? content.surface.numVertices > kManyVertices;
-    const weights = movesOnCard && !content.served ? this.deformer.weightsForCard() : null;
+    const weights = movesOnCard ? this.deformer.weightsForCard() : null;
     this.renderer = new Renderer(canvas, content, weights);
     this.camera = new Camera(content.dim, content.up);
     this.editor = new Editor(content.rest, content.dim);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reshaping the resting cage, where a program computes the weights anew (flbc view --serve). The
-// cage follows the pointer at once; what is solved is always the latest shape, one at a time.
-import { decodeUpdate } from "./data.mjs";
+// Reshaping the rest cage, for which weights are computed anew. The cage follows the pointer at once;
+// what is solved is always the latest shape, one at a time.
+import { inSpace } from "../../apps/view/page/data.mjs";
+import { element } from "../../apps/view/page/panel.mjs";
 
 function areSame(a, b) {
   return a.every((value, k) => value === b[k]);
@@ -42,7 +43,7 @@ export class Reshaper {
 
   // Whether points are to stay where they rest while the cage is moved.
   get holdsModel() {
-    return this.isOn && !this.viewer.content.served.movesAlong;
+    return this.isOn;
   }
 
   // To be called whenever the cage may have been moved.
@@ -82,10 +83,10 @@ export class Reshaper {
       return false;
     }
     const { viewer } = this;
-    const { rest, base, weights } = decodeUpdate(reply.update, viewer.content.dim);
+    const rest = inSpace(reply.rest, viewer.content.dim);
     viewer.content.rest = rest;
     viewer.editor.rest = rest;
-    Object.assign(viewer.deformer, { rest, base, weights });
+    Object.assign(viewer.deformer, { rest, weights: reply.weights });
     this.solved = rest;
     if (reply.converged) this.converged = rest;
     this.residual = reply.residual;
@@ -108,40 +109,27 @@ export class Reshaper {
   }
 }
 
-async function post(request) {
-  try {
-    const reply = await fetch("reshape", { method: "POST", body: JSON.stringify(request) });
-    return await reply.json();
-  } catch {
-    return { refused: "The program that computes weights has ended" };
-  }
+// How a solve stands, as a bar of the residual's logarithm.
+function showReshaping(reshaper) {
+  element("reshape").setAttribute("aria-pressed", String(reshaper.isOn));
+  element("reshape").disabled = reshaper.isBusy;
+  element("stop").disabled = !reshaper.isBusy;
+  const excess = Math.log10(Math.max(1, reshaper.residual));
+  element("progress").value = reshaper.isBusy ? Math.max(0, 1 - excess / 6) : 1;
+  element("solving").textContent =
+    reshaper.isBusy ? "solving…" : reshaper.isOn ? "drag the cage at rest" : "weights are up to date";
 }
 
-async function hold(onEnd) {
-  try {
-    const reader = (await fetch("alive")).body.getReader();
-    while (!(await reader.read()).done);
-  } finally {
-    onEnd();
-  }
-}
-
-// Tells the program that a page is there; it ends when no page is any more. Browsers open six
-// connections to an address at most, so one page of a browser holds one for all of them.
-async function stayInTouch(onEnd) {
-  if (!navigator.locks) return hold(onEnd);
-  return navigator.locks.request("alive", () => hold(onEnd));
-}
-
-// \param tell  shows a line to the user
-export function connect(viewer, tell) {
-  const reshaper = new Reshaper(viewer, post);
-  reshaper.onRefusal = tell;
-  viewer.reshaper = reshaper;
-  viewer.editor.onChange = () => {
-    viewer.changed();
+// Connects the part of the panel for the rest cage.
+export function bindReshaping(reshaper) {
+  element("reshape").addEventListener("click", () => reshaper.toggle());
+  element("stop").addEventListener("click", () => reshaper.cancel());
+  reshaper.viewer.reshaper = reshaper;
+  reshaper.viewer.editor.onChange = () => {
+    reshaper.viewer.changed();
     reshaper.edited();
   };
-  stayInTouch(() => tell("The program that computes weights has ended"));
-  return reshaper;
+  reshaper.onState = () => showReshaping(reshaper);
+  showReshaping(reshaper);
 }
+

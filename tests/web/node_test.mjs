@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The module in Node.js against the program: node node_test.mjs MODULE PROGRAM MESHES WORK
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const [modulePath, program, meshes, work] = process.argv.slice(2);
+const { Flbc } = await import(pathToFileURL(modulePath));
+const flbc = await Flbc.start();
+const run = (...args) => execFileSync(program, [...args, "-q"], { cwd: work });
+const put = (name, bytes) => writeFileSync(join(work, name), bytes);
+
+// The numbers of a .npy file.
+function numbersIn(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const begin = 10 + view.getUint16(8, true);
+  return Float64Array.from({ length: (bytes.length - begin) / 8 }, (_, k) => view.getFloat64(begin + 8 * k, true));
+}
+
+function largestDifference(a, b) {
+  assert.equal(a.length, b.length);
+  return a.reduce((most, value, k) => Math.max(most, Math.abs(value - b[k])), 0);
+}
+
+// Lines of a file that begin with a word, as numbers.
+function linesOf(bytes, word) {
+  return new TextDecoder().decode(bytes).split("\n").filter((line) => line.startsWith(`${word} `))
+    .map((line) => line.split(/\s+/).slice(1).map(Number));
+}
+
+const kSame = ["--distances", "exact", "--precision", "single", "--smoothness", "0.003"];
+
+for (const [name, dim] of [["2d/figure_model.obj", 2], ["3d/limb_model.obj", 3]]) {
+  const model = readFileSync(join(meshes, name));
+  put("model.obj", model);
+  const facts = await flbc.readModel("model.obj", model);
+  assert.equal(facts.dim, dim);
+  const stages = new Set();
+  const note = (stage) => stages.add(stage);
+  const made = await flbc.makeCage({ controlPoints: 40 }, note);
+  put("cage.obj", await flbc.cageFile());
+  run("cage", "model.obj", "--control-points", "40", "-o", "native.obj");
+  const [own, native] = ["cage.obj", "native.obj"].map((file) => readFileSync(join(work, file)));
+  assert.deepEqual(linesOf(own, "f"), linesOf(native, "f"));
+  assert.ok(largestDifference(linesOf(own, "v").flat(), linesOf(native, "v").flat()) < 1e-12);
+  assert.equal(linesOf(own, "v").length, made.controlPoints);
+
+  const domain = dim === 2 ? "domain.obj" : "domain.mesh";
+  await flbc.makeMesh({ vertices: 3000 }, note);
+  put(domain, await flbc.meshFile());
+  const { converged } = await flbc.solve({ distances: "exact", precision: "single", smoothness: 0.003 }, note);
+  assert.ok(converged);
+  assert.ok(stages.has("filling the cage") && stages.has("solving"), [...stages].join());
+  run("solve", "cage.obj", "--domain", domain, ...kSame, "-o", "native.npy");
+  const weights = numbersIn(await flbc.weightFile({ of: "mesh" }));
+  const difference = largestDifference(weights, numbersIn(readFileSync(join(work, "native.npy"))));
+  console.log(`${name}: weights of the mesh within ${difference}`);
+  assert.ok(difference < 2e-6);
+
+  // Control points moved as a whole take the model along; any others as flbc deform does.
+  const points = await flbc.points();
+  const { points: rest } = await flbc.cage();
+  const shifted = await flbc.deform(rest.map((place) => place + 1));
+  assert.ok(largestDifference(shifted, points.map((place) => place + 1)) < 1e-9);
+  const pose = rest.map((place, k) => place * (1 + 0.1 * Math.sin(k)));
+  put("pose.obj", new TextEncoder().encode(Array.from({ length: pose.length / dim }, (_, i) =>
+    `v ${[...pose.slice(dim * i, dim * i + dim)].join(" ")}${dim === 2 ? " 0" : ""}`).join("\n") + "\n"));
+  put("weights.npy", await flbc.weightFile());
+  put("posed.obj", await flbc.modelFile(pose, "obj"));
+  run("deform", "model.obj", "--weights", "weights.npy", "--pose", "pose.obj", "-o", "moved.obj");
+  const [posed, moved] = ["posed.obj", "moved.obj"].map((file) => linesOf(readFileSync(join(work, file)), "v").flat());
+  assert.ok(largestDifference(posed, moved) < 1e-9);
+
+  const { rest: reshaped } = await flbc.move({ points: [...rest.map((place, k) => (k === 0 ? 1.001 * place : place))] });
+  assert.equal(reshaped[0], 1.001 * rest[0]);
+  put("rig.glb", await flbc.glb({ influences: 8, poses: [[...pose]] }));
+  assert.match(String(execFileSync(program, ["info", "rig.glb"], { cwd: work })), /skin of 4\d joints/);
+  assert.match(new TextDecoder().decode(await flbc.page()), /<html/);
+}
+
+// Errors are those of the program, and the next call works.
+await assert.rejects(flbc.readModel("bad.obj", new TextEncoder().encode("v 0 0 zero\n")),
+                     { name: "InputError", message: /^bad.obj:1: expected a number/ });
+await assert.rejects(flbc.readModel("bad.xyz", new Uint8Array(3)), { name: "OptionError" });
+const limb = readFileSync(join(meshes, "3d/limb_model.obj"));
+await flbc.readModel("limb.obj", limb);
+const pyramid = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
+await assert.rejects(flbc.readCage("open.obj", new TextEncoder().encode(pyramid)),
+                     (error) => error.name === "DefectiveCage" && error.controlPoints.length > 0);
+
+// A long call is cancelled at once; then everything works as before.
+const pending = flbc.makeCage({ controlPoints: 300 });
+await new Promise((done) => setTimeout(done, 100));
+const begin = performance.now();
+await Promise.all([assert.rejects(pending, { name: "Cancelled" }), flbc.cancel()]);
+assert.ok(performance.now() - begin < 500);
+await flbc.readModel("limb.obj", limb);
+await flbc.readCage("cage.obj", readFileSync(join(meshes, "3d/limb_cage.obj")));
+await flbc.makeMesh({ vertices: 1000 });
+await flbc.solve();
+
+// Arrays instead of files.
+const cage = await flbc.cage();
+const mesh = { points: [0.1, 0.1, 0.1, 0.2, 0.1, 0.1, 0.1, 0.2, 0.1], triangles: [0, 1, 2] };
+await flbc.setModel(mesh.points, mesh.triangles);
+await flbc.setCage([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2]);
+await flbc.setMesh([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], [0, 1, 2, 3]);
+await flbc.solve();
+assert.deepEqual([...(await flbc.weights()).starts], [0, 4, 8, 12]);
+assert.ok(largestDifference([...(await flbc.weights()).values],
+                            [0.7, 0.1, 0.1, 0.1, 0.6, 0.2, 0.1, 0.1, 0.6, 0.1, 0.2, 0.1]) < 1e-6);
+assert.ok(cage.points.length > 0);
+flbc.end();

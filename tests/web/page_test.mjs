@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc.html from its file, by real events: page_test.mjs BROWSER PAGE PROGRAM MESHES WORK
+// With files of models as further arguments it measures how long they take instead.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { basename, join } from "node:path";
+import { setTimeout as sleep } from "node:timers/promises";
+import { pathToFileURL } from "node:url";
+import { largestDifference, launch, Page, vertices } from "../browser/page.mjs";
+
+const [executablePath, pagePath, program, meshes, work, ...measured] = process.argv.slice(2);
+const browser = await launch(executablePath);
+const url = pathToFileURL(pagePath).href;
+const downloads = join(work, "downloads");
+rmSync(downloads, { recursive: true, force: true });
+mkdirSync(downloads, { recursive: true });
+
+class App extends Page {
+  async loaded() {
+    await this.tab.waitForSelector("#drop");
+    const session = await this.tab.createCDPSession();
+    await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: downloads });
+    await sleep(this.warmUp ?? 0);
+  }
+
+  shown() {
+    return this.tab.waitForFunction(() => document.getElementById("app").hidden && window.flbc.milliseconds() >= 0,
+                                    { timeout: 120000 });
+  }
+
+  // Drops files as a person does, which browsers let no script do for them but by its own files.
+  drop(files) {
+    const given = files.map((file) => ({ name: basename(file), data: readFileSync(file).toString("base64") }));
+    return this.tab.evaluate((list) => {
+      const transfer = new DataTransfer();
+      for (const { name, data } of list) {
+        transfer.items.add(new File([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))], name));
+      }
+      document.getElementById("drop").dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+    }, given);
+  }
+
+  text(id) {
+    return this.tab.$eval(`#${id}`, (element) => element.textContent);
+  }
+
+  // The stage is seen, as long as the model is.
+  shot(name) {
+    return this.tab.screenshot({ path: join(work, `${name}.png`) });
+  }
+
+  async saved(selector, name) {
+    const path = join(downloads, name);
+    await this.tab.$eval(selector, (button) => button.click());
+    for (let k = 0; k < 100 && !existsSync(path); ++k) await sleep(100);
+    await sleep(200);
+    return path;
+  }
+
+  // A drag of a control point, by the mouse.
+  async moveOne(dx, dy) {
+    const i = await this.grabbable();
+    await this.drag(await this.ask("spot", i), dx, dy);
+    return i;
+  }
+}
+
+async function measure() {
+  for (const file of measured) {
+    const app = new App();
+    app.warmUp = 3000;
+    await app.open(browser, url);
+    const begin = performance.now();
+    await app.drop([file]);
+    await app.shown();
+    console.log(`${basename(file)}: ${((performance.now() - begin) / 1000).toFixed(1)} s from dropping to dragging`);
+    const bytes = await app.tab.evaluate(() => globalThis.flbcApp.flbc.memory());
+    console.log(`  memory of the module: ${Math.round(bytes / 1e6)} MB`);
+    await app.tab.close();
+  }
+}
+
+// The pose that the page saves moves the model as flbc deform does.
+async function testModel(sample, file, dim) {
+  const app = await new App().open(browser, url);
+  const label = await app.text("samples");
+  assert.ok(label.includes(sample), label);
+  await app.shot(`${dim}d_start`);
+  await app.drop([file]);
+  await app.shown();
+  const rest = vertices(file, dim);
+  const size = Math.max(...rest) - Math.min(...rest);
+  assert.ok(largestDifference(await app.points(), rest) < 1e-5 * size);
+  await app.moveOne(40, -30);
+  await app.shot(`${dim}d_moved`);
+  const title = basename(file, ".obj");
+  const posed = await app.saved("[data-save=posed]", `${title}_posed.obj`);
+  const pose = await app.saved("#savePose", `${title}_pose.obj`);
+  const weights = await app.saved("[data-save=npy]", `${title}_weights.npy`);
+  const cage = await app.saved("[data-save=cage]", `${title}_cage.obj`);
+  const out = join(work, `${dim}d.obj`);
+  execFileSync(program, ["deform", file, "--weights", weights, "--pose", pose, "--rest", cage, "-q", "-o", out]);
+  const moved = vertices(out, dim);
+  assert.ok(largestDifference(moved, rest) > 1e-3 * size, "nothing moved");
+  assert.ok(largestDifference(vertices(posed, dim), moved) < 1e-9 * size);
+  // The page keeps 16 influences per vertex.
+  assert.ok(largestDifference(await app.points(), moved) < 5e-3 * size);
+  const rig = await app.saved("[data-save=glb4]", `${title}.glb`);
+  assert.match(String(execFileSync(program, ["info", rig])), /animation of 1 s/);
+  const page = await app.saved("[data-save=page]", `${title}.html`);
+  assert.match(readFileSync(page, "utf8"), /<html/);
+
+  // Harmonic coordinates move more vertices.
+  await app.press("harmonic");
+  await app.tab.waitForFunction(() => /harmonic/.test(document.getElementById("share").textContent));
+  const [local, harmonic] = (await app.text("share")).match(/\d+/g).map(Number);
+  assert.ok(harmonic >= local, `${local}% and ${harmonic}%`);
+  await app.press("local");
+  await app.shot(`${dim}d_compared`);
+
+  // The rest cage is reshaped; the model stays.
+  await app.press("resetAll");
+  await app.press("reshape");
+  await app.moveOne(12, -8);
+  await app.tab.waitForFunction(() => !window.flbc.viewer.reshaper.isBusy, { timeout: 60000 });
+  assert.ok(largestDifference(await app.points(), rest) < 1e-5 * size);
+  await app.press("reshape");
+
+  // Another cage.
+  await app.tab.type("#count", "60");
+  await app.tab.$eval("[data-do=makeCage]", (button) => button.click());
+  await sleep(300);
+  await app.shot(`${dim}d_busy`);
+  await app.shown();
+  const count = await app.tab.evaluate(() => window.flbc.viewer.editor.size);
+  assert.ok(count > 50 && count <= 60, `${count} control points`);
+  await app.close();
+}
+
+async function testErrors() {
+  const app = await new App().open(browser, url, { theme: "dark" });
+  const bad = join(work, "bad.obj");
+  writeFileSync(bad, "v 0 0 zero\n");
+  await app.drop([bad]);
+  await app.tab.waitForSelector("#problem:not([hidden])");
+  assert.match(await app.text("problem"), /bad.obj:1: expected a number, found "zero"/);
+  await app.shot("dark_problem");
+
+  // Cancelled, and what comes next works.
+  await app.drop([join(meshes, "3d/limb_model.obj")]);
+  await app.tab.waitForFunction(() => document.getElementById("stages").children.length > 1);
+  await app.shot("dark_busy");
+  const begin = performance.now();
+  await app.tab.$eval("[data-do=cancel]", (button) => button.click());
+  await app.tab.waitForFunction(() => !document.getElementById("start").hidden);
+  const taken = performance.now() - begin;
+  assert.ok(taken < 500, `${taken} ms to cancel`);
+  await app.drop([join(meshes, "3d/limb_model.obj")]);
+  await app.shown();
+
+  // A cage with a hole is shown with its defects, and repaired.
+  const cage = readFileSync(join(meshes, "3d/limb_cage.obj"), "utf8").split("\n");
+  const hole = join(work, "my_cage.obj");
+  writeFileSync(hole, cage.filter((line, k) => k !== cage.findIndex((other) => other.startsWith("f "))).join("\n"));
+  await app.drop([hole]);
+  await app.tab.waitForSelector("#cageProblem:not([hidden])");
+  assert.match(await app.text("cageProblem"), /my_cage.obj: /);
+  assert.ok((await app.ask("selection")).length > 0);
+  await app.shot("dark_defect");
+  await app.tab.$eval("#repair", (button) => button.click());
+  await app.shown();
+  await app.tab.waitForFunction(() => document.getElementById("cageProblem").hidden);
+  await app.shot("dark_repaired");
+  await app.close();
+}
+
+// What people have in 2D.
+async function testShapes() {
+  const app = await new App().open(browser, url, { viewport: { width: 420, height: 800 } });
+  await app.shot("narrow_start");
+  const svg = join(work, "shape.svg");
+  writeFileSync(svg, '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0 H90 V30 Q60 40 30 30 V80 H0 Z"/></svg>');
+  await app.drop([svg]);
+  await app.shown();
+  await app.shot("narrow_svg");
+  await app.tab.$eval("[data-do=home]", (button) => button.click());
+  await app.tab.$eval("[data-do=draw]", (button) => button.click());
+  const board = await (await app.tab.$("#sketch")).boundingBox();
+  for (const [x, y] of [[0.1, 0.1], [0.9, 0.1], [0.9, 0.4], [0.4, 0.5], [0.4, 0.9], [0.1, 0.9]]) {
+    await app.tab.mouse.click(board.x + x * board.width, board.y + y * board.height);
+  }
+  await app.shot("narrow_drawing");
+  await app.tab.$eval("[data-do=finishDrawing]", (button) => button.click());
+  await app.shown();
+  await app.shot("narrow_drawn");
+
+  // A picture of a disc, which the page itself paints.
+  const data = await app.tab.evaluate(() => {
+    const canvas = document.createElement("canvas");
+    canvas.width = canvas.height = 120;
+    const context = canvas.getContext("2d");
+    for (const [color, radius] of [["#d33", 55], ["#fc3", 35], ["#36c", 15]]) {
+      context.fillStyle = color;
+      context.beginPath();
+      context.arc(60, 60, radius, 0, 7);
+      context.fill();
+    }
+    return canvas.toDataURL("image/png").split(",")[1];
+  });
+  const picture = join(work, "disc.png");
+  writeFileSync(picture, Buffer.from(data, "base64"));
+  await app.drop([picture]);
+  await app.tab.waitForFunction(() => document.title.startsWith("disc"), { timeout: 60000 });
+  await app.shown();
+  await app.moveOne(30, 20);
+  await app.shot("narrow_picture");
+  await app.close();
+}
+
+// A model of a .glb keeps its picture when it is saved in a pose.
+async function testGltf() {
+  const app = await new App().open(browser, url);
+  const rig = join(downloads, "limb_model.glb");
+  await app.drop([rig]);
+  await app.shown();
+  await app.moveOne(40, -30);
+  const posed = await app.saved("[data-save=posed]", "limb_model_posed.glb");
+  assert.match(String(execFileSync(program, ["info", posed])), /glTF model of 3352 vertices/);
+  await app.close();
+}
+
+if (measured.length > 0) {
+  await measure();
+} else {
+  await testModel("Figure", join(meshes, "2d/figure_model.obj"), 2);
+  await testModel("Limb", join(meshes, "3d/limb_model.obj"), 3);
+  await testErrors();
+  await testShapes();
+  await testGltf();
+}
+await browser.close();

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Whether the module for the web does what the program does, in Node.js and in a browser:
+#   web_test.sh PROGRAM MESHES WORK node|browser
+# WORK: a folder for results, made anew; pictures of the page are left there.
+# Ends with 77, which CTest counts as skipped, if the module has not been built, or a program is missing.
+set -euo pipefail
+
+readonly flbc=$1 meshes=$2 work=$3 kind=$4
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+readonly here root=$here/../..
+readonly dist=$root/web/dist
+
+skip() {
+  echo "skipped: $1"
+  exit 77
+}
+command -v node >/dev/null || skip "Node.js is missing (Debian: nodejs)"
+[ -e "$dist/flbc.html" ] || skip "the module for the web is missing; run scripts/web.sh"
+rm -rf "$work"
+mkdir -p "$work"
+if [ "$kind" = node ]; then
+  node "$here/isolation.mjs" "$root/build/web"
+  node "$here/node_test.mjs" "$dist/flbc.mjs" "$flbc" "$meshes" "$work"
+  node "$here/core_test.mjs" "$dist/core.mjs"
+  # The package as others install it, without anything else.
+  command -v npm >/dev/null || exit 0
+  (cd "$work" && npm pack --silent "$root/web" >/dev/null && npm init --yes >/dev/null &&
+    npm install --silent --offline --no-audit --no-fund ./flbc-*.tgz &&
+    node --input-type=module -e 'import { Flbc } from "flbc"; const flbc = await Flbc.start();
+      console.log(await flbc.version()); flbc.end();')
+else
+  browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) ||
+    skip "there is no browser (Debian: chromium)"
+  [ -d "$here/../browser/node_modules/puppeteer-core" ] ||
+    skip "the module puppeteer-core is missing; run npm ci in tests/browser"
+  node "$here/page_test.mjs" "$browser" "$dist/flbc.html" "$flbc" "$meshes" "$work"
+fi

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Joins the page and the npm package from what CMake has built:
+//   node build.mjs BUILD_FOLDER VERSION [ADDRESS_OF_SOURCES]
+import { copyFileSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { gzipSync } from "node:zlib";
+
+const [built, version, address] = process.argv.slice(2);
+const at = (path) => new URL(path, import.meta.url);
+const read = (path) => readFileSync(at(path), "utf8");
+const view = "../apps/view/page/";
+const dist = at("dist/");
+mkdirSync(dist, { recursive: true });
+
+const kLicense = `libflbc ${version}. SPDX-License-Identifier: AGPL-3.0-only. Contains TetGen (AGPL-3), `
+  + `CGAL (GPL-3), Eigen (MPL-2.0), pugixml, TinyGLTF, nlohmann/json (MIT), fast_float, Boost; libflbc itself is BSD-3.`;
+
+// The modules in one scope, without import and export.
+function joined(paths) {
+  return paths.map(read).join("").replace(/(^|\n)import [^\n]*/g, "$1").replace(/(^|\n)export /g, "$1");
+}
+
+const packed = (bytes) => gzipSync(bytes, { level: 9 }).toString("base64");
+
+function assetsOf(name) {
+  return {
+    worker: `${readFileSync(`${built}/${name}.js`, "utf8")}\n${read("js/worker.js")}`,
+    wasm: packed(readFileSync(`${built}/${name}.wasm`)),
+  };
+}
+
+// JSON that may be part of a script element.
+const toScript = (value) => JSON.stringify(value).replaceAll("<", "\\u003c");
+
+function module(assets, license) {
+  const text = `// ${license}\n${read("js/flbc.mjs")}`;
+  return text.replace("/*{{assets}}*/ globalThis.flbcAssets", () => JSON.stringify(assets));
+}
+
+function page(assets) {
+  const names = /set\(page_modules\s+([^)]*)\)/.exec(read("../apps/view/CMakeLists.txt"))[1].trim().split(/\s+/);
+  const script = joined([...names.map((name) => `${view}${name}.mjs`), "js/flbc.mjs", "page/reshaping.mjs",
+                         "page/shapes.mjs", "page/app.mjs"]);
+  const samples = Object.fromEntries(["2d/figure", "3d/limb", "3d/star"].map((name) => [
+    `${name.slice(3)}.obj`, packed(readFileSync(at(`../meshes/${name}_model.obj`)))]));
+  const source = address ? `<a href="${address}">source code</a>` : "whoever gave you this page offers its source code";
+  const app = read("page/app.html").replace("{{version}}", version).replace("{{source}}", source);
+  const data = `<script>\nglobalThis.flbcAssets = ${toScript(assets)};\nglobalThis.flbcSamples = ${toScript(samples)};\n</script>\n`;
+  const parts = { style: read(`${view}page.css`) + read("page/app.css"), data: "null", script };
+  return read(`${view}page.html`)
+    .replace("<!-- SPDX-License-Identifier: BSD-3-Clause -->", `<!-- ${kLicense} -->`)
+    .replace('<script type="application/json"', () => `${app}${data}<script type="application/json"`)
+    .replace(/\{\{(style|data|script)\}\}/g, (_, part) => parts[part]);
+}
+
+const all = assetsOf("flbc_web");
+const { worker } = all;
+copyFileSync(`${built}/flbc_web.wasm`, new URL("flbc.wasm", dist));
+const kCoreLicense = `libflbc ${version}. SPDX-License-Identifier: BSD-3-Clause. Contains Eigen (MPL-2.0), pugixml, `
+  + "TinyGLTF, nlohmann/json (MIT), fast_float.";
+const files = { "core.mjs": module(assetsOf("flbc_core"), kCoreLicense), "core.d.ts": 'export * from "./flbc.js";\n',
+                "flbc.html": page(all), "index.html": page({ worker }), "flbc.mjs": module(all, kLicense),
+                "slim.mjs": module({ worker }, kLicense), "flbc.d.ts": read("js/flbc.d.ts"),
+                "slim.d.ts": 'export * from "./flbc.js";\n' };
+for (const [name, text] of Object.entries(files)) writeFileSync(new URL(name, dist), text);

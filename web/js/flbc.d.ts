@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/** Receives the name of a stage and its progress in [0, 1]. */
+export type OnProgress = (stage: string, done: number) => void;
+/** Coordinates one after the other: 3 for each point, in 2D 2. */
+export type Numbers = Float64Array | Float32Array | number[];
+export type Indices = Int32Array | Uint32Array | Uint16Array | number[];
+
+/** `name` is InputError, OptionError, DefectiveCage, OutOfMemory, Crash, Cancelled or Ended. */
+export class FlbcError extends Error {
+  /** Of a DefectiveCage: control points of its defects. */
+  controlPoints: Int32Array;
+}
+
+/** Weights of the model's vertices: those of vertex v are entries starts[v] .. starts[v + 1] - 1. */
+export interface Weights {
+  starts: Uint32Array;
+  controlPoints: Uint32Array;
+  values: Float32Array;
+}
+
+export interface CageFacts {
+  controlPoints: number;
+  facets: number;
+  /** Distance from the model, relative to its size. */
+  offset?: number;
+  symmetry?: "none" | "x" | "y" | "z";
+  /** What a repair changed, one sentence each. */
+  changes?: string[];
+}
+
+/**
+ * One worker with one model. Take the steps in this order: a model, a cage, a mesh of its interior,
+ * solve(); then deform() and the files. Calls are answered in the order in which they are made.
+ */
+export class Flbc {
+  /** @param options.wasm where the module is, if it is not inside this file */
+  static start(options?: { wasm?: string | URL | Response | ArrayBuffer | Uint8Array }): Promise<Flbc>;
+  /** Ends what is being computed; the next call starts without a model. */
+  cancel(): Promise<void>;
+  /** Ends the worker. */
+  end(): void;
+
+  /** .obj, .ply, .stl, .off, .glb, .gltf. @param files others that it names, such as .mtl */
+  readModel(name: string, bytes: ArrayBuffer | Uint8Array,
+            files?: Record<string, ArrayBuffer | Uint8Array>): Promise<{ dim: 2 | 3; vertices: number }>;
+  setModel(points: Numbers, triangles: Indices): Promise<{ dim: 3; vertices: number }>;
+
+  /** `offset` is relative to the size of the model. By default, all are chosen. */
+  makeCage(options?: { controlPoints?: number; offset?: number; symmetry?: "auto" | "none" | "x" | "y" | "z" },
+           onProgress?: OnProgress): Promise<CageFacts>;
+  readCage(name: string, bytes: ArrayBuffer | Uint8Array): Promise<CageFacts>;
+  setCage(points: Numbers, facets: Indices): Promise<void>;
+  /** Of the cage that readCage() refused as a DefectiveCage. */
+  repairCage(): Promise<CageFacts>;
+
+  /** `seconds` is about how long solve() takes. */
+  makeMesh(options?: { vertices?: number }, onProgress?: OnProgress):
+    Promise<{ vertices: number; cells: number; note: string; seconds: number }>;
+  setMesh(points: Numbers, cells: Indices): Promise<void>;
+
+  solve(options?: { smoothness?: number; tolerance?: number; distances?: "auto" | "exact" | "interpolated";
+                    precision?: "auto" | "single" | "double" }, onProgress?: OnProgress):
+    Promise<{ iterations: number; objective: number; converged: boolean }>;
+  /** Fewer influences per vertex in all that follows. */
+  reduce(options: { influences: number }, onProgress?: OnProgress): Promise<{ influences: number }>;
+  /** Another shape of the rest cage; the model stays. Ends after 0.25 s, if need be before it has
+   *  converged; { refine: true } resumes. */
+  move(request: { points: number[] } | { refine: true }):
+    Promise<{ converged: boolean; iterations: number; residual: number; milliseconds: number;
+               rest: Float64Array; weights: Weights }
+            | { refused: string }>;
+
+  /** The vertices of the model at rest. */
+  points(): Promise<Float64Array>;
+  cage(): Promise<{ points: Float64Array; facets: Int32Array }>;
+  weights(): Promise<Weights>;
+  /** Harmonic coordinates in the same mesh. */
+  harmonicWeights(): Promise<Weights>;
+  /** The vertices of the model where these control points take it. */
+  deform(points: Numbers): Promise<Float64Array>;
+
+  /** JSON for the page of flbc view. */
+  content(options?: { picture?: string }): Promise<Uint8Array>;
+  /** A page to deform the model in that needs no other file. */
+  page(options?: { picture?: string }): Promise<Uint8Array>;
+  /** A skin of 4 or 8 influences per vertex. @param options.poses control points, one second each */
+  glb(options?: { influences?: 4 | 8; poses?: number[][] }): Promise<Uint8Array>;
+  weightFile(options?: { format?: "npy" | "mtx" | "dmat" | "lbw"; of?: "model" | "mesh" }): Promise<Uint8Array>;
+  cageFile(): Promise<Uint8Array>;
+  meshFile(): Promise<Uint8Array>;
+  /** The model where these control points take it. */
+  modelFile(points: Numbers, extension?: string): Promise<Uint8Array>;
+  /** Bytes that the module takes. */
+  memory(): Promise<number>;
+  version(): Promise<string>;
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A model, its cage and its weights, computed in a worker. See flbc.d.ts.
+
+// The module and the worker, which the build puts into this file or into the page.
+const assets = /*{{assets}}*/ globalThis.flbcAssets;
+
+export class FlbcError extends Error {
+  constructor({ kind, message, controlPoints }) {
+    super(message);
+    this.name = kind;
+    this.controlPoints = controlPoints ?? [];
+  }
+}
+
+export async function unpacked(base64) {
+  const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+async function makeWorker(script) {
+  if (typeof Worker === "function") {
+    return new Worker(URL.createObjectURL(new Blob([script], { type: "text/javascript" })));
+  }
+  const { Worker: NodeWorker } = await import("node:worker_threads");
+  return new NodeWorker(script, { eval: true, execArgv: [] });
+}
+
+export class Flbc {
+  // \param wasm  bytes, a Response or an address of the module, where it is not inside this file
+  static async start({ wasm } = {}) {
+    const flbc = new Flbc();
+    const given = typeof wasm === "string" || wasm instanceof URL ? await fetch(wasm) : await wasm;
+    const bytes = given?.arrayBuffer ? await given.arrayBuffer() : given ?? await unpacked(assets.wasm);
+    flbc.compiled = await WebAssembly.compile(bytes);
+    await flbc.restart();
+    return flbc;
+  }
+
+  async restart() {
+    this.waiting = new Map();
+    this.next = 0;
+    this.worker = await makeWorker(assets.worker);
+    const take = (event) => this.take(event.data ?? event);
+    if (this.worker.on) {
+      this.worker.on("message", take);
+      this.worker.on("error", (error) => this.end(error));
+    } else {
+      this.worker.addEventListener("message", take);
+      this.worker.addEventListener("error", (event) => this.end(event));
+    }
+    this.worker.postMessage({ compiled: this.compiled });
+  }
+
+  take({ id, stage, done, result, error }) {
+    const call = this.waiting.get(id);
+    if (!call) return;
+    if (stage !== undefined) return call.onProgress?.(stage, done);
+    this.waiting.delete(id);
+    if (error) call.fail(new FlbcError(error));
+    else call.done(result);
+  }
+
+  // Ends the worker. \param error  what the calls that wait are told
+  end(error = new FlbcError({ kind: "Ended", message: "the worker has been ended" })) {
+    this.worker?.terminate();
+    for (const { fail } of this.waiting.values()) fail(error);
+    this.waiting.clear();
+  }
+
+  // Ends what is being computed; the next call starts with nothing.
+  async cancel() {
+    this.end(new FlbcError({ kind: "Cancelled", message: "cancelled" }));
+    await this.restart();
+  }
+
+  call(name, given = {}, onProgress = undefined) {
+    return new Promise((done, fail) => {
+      const id = this.next++;
+      this.waiting.set(id, { done, fail, onProgress });
+      this.worker.postMessage({ id, name, given });
+    });
+  }
+
+  async addFile(name, bytes) {
+    await this.call("addFile", { name, bytes: new Uint8Array(bytes) });
+  }
+
+  async readModel(name, bytes, files = {}) {
+    for (const [other, content] of Object.entries(files)) await this.addFile(other, content);
+    await this.addFile(name, bytes);
+    return this.call("readModel", { name });
+  }
+
+  async readCage(name, bytes) {
+    await this.addFile(name, bytes);
+    return this.call("readCage", { name });
+  }
+
+  // Lets the engine compile what it will need, with a small model that is forgotten.
+  warmUp(name, bytes) { return this.call("warmUp", { name, bytes }); }
+  setModel(points, triangles) { return this.call("setModel", { points, triangles }); }
+  setCage(points, facets) { return this.call("setCage", { points, facets }); }
+  setMesh(points, cells) { return this.call("setMesh", { points, cells }); }
+  makeCage(options, onProgress) { return this.call("makeCage", options, onProgress); }
+  repairCage() { return this.call("repairCage"); }
+  makeMesh(options, onProgress) { return this.call("makeMesh", options, onProgress); }
+  solve(options, onProgress) { return this.call("solve", options, onProgress); }
+  reduce(options, onProgress) { return this.call("reduce", options, onProgress); }
+  move(request) { return this.call("move", request); }
+  points() { return this.call("points"); }
+  cage() { return this.call("cage"); }
+  weights() { return this.call("weights"); }
+  harmonicWeights() { return this.call("harmonicWeights"); }
+  deform(points) { return this.call("deform", { points }); }
+  content(options) { return this.call("content", options); }
+  page(options) { return this.call("page", options); }
+  glb(options) { return this.call("glb", options); }
+  weightFile(options) { return this.call("weightFile", options); }
+  cageFile() { return this.call("cageFile"); }
+  meshFile() { return this.call("meshFile"); }
+  modelFile(points, extension) { return this.call("modelFile", { points, extension }); }
+  memory() { return this.call("memory"); }
+  version() { return this.call("version"); }
+}

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The page: from a dropped file to a model that is dragged by its cage.
+import { decodeContent } from "../../apps/view/page/data.mjs";
+import { show } from "../../apps/view/page/main.mjs";
+import { element, setTheme, tell } from "../../apps/view/page/panel.mjs";
+import { download } from "../../apps/view/page/saving.mjs";
+import { Flbc, unpacked } from "../js/flbc.mjs";
+import { bindReshaping, Reshaper } from "./reshaping.mjs";
+import { decodePicture, Sketch, svgToObj } from "./shapes.mjs";
+
+const kSamples = { "Figure (2D)": "figure.obj", Limb: "limb.obj", Star: "star.obj" };
+const kVertices = 6000;   // of the mesh of the interior
+const kMoves = 1e-4;      // of the cage size: less is no movement
+const kScreens = ["start", "busy", "drawing"];
+const kParts = ["stage", "timeline", "panel", "keyHelp"];
+
+const text = (bytes) => new TextDecoder().decode(bytes);
+
+// The share of vertices that move by at least so much.
+function shareOfMoved({ starts, controlPoints, values }, steps, least) {
+  let moved = 0;
+  for (let p = 0; p + 1 < starts.length; ++p) {
+    let x = 0, y = 0, z = 0;
+    for (let k = starts[p]; k < starts[p + 1]; ++k) {
+      const owner = 3 * controlPoints[k];
+      x += values[k] * steps[owner];
+      y += values[k] * steps[owner + 1];
+      z += values[k] * steps[owner + 2];
+    }
+    moved += Math.hypot(x, y, z) > least ? 1 : 0;
+  }
+  return moved / (starts.length - 1);
+}
+
+class App {
+  constructor() {
+    this.fresh = kParts.map((id) => element(id).cloneNode(true));
+    this.model = null;   // the one that is shown: name, bytes, files, picture
+    this.cage = null;    // its cage, as a file
+    this.sketch = new Sketch(element("sketch"), (obj) => this.open([new File([obj], "drawing.obj")]));
+    this.started = Flbc.start(globalThis.flbcAssets.wasm ? {} : { wasm: "flbc.wasm" }).then((flbc) => {
+      this.flbc = flbc;
+      this.warmUp();
+    });
+    this.started.catch((error) => this.fail(`This browser cannot run WebAssembly as this page needs it: ${error.message}`));
+    this.bind();
+    this.goTo("start");
+  }
+
+  // While the visitor looks for a file, the browser compiles what it will need.
+  async warmUp() {
+    try {
+      await this.flbc.warmUp("limb.obj", await unpacked(globalThis.flbcSamples["limb.obj"]));
+    } catch { /* a visitor was faster */ }
+  }
+
+  goTo(screen) {
+    element("app").hidden = !screen;
+    for (const id of kScreens) element(id).hidden = id !== screen;
+    element("license").hidden = screen === "busy";
+    if (screen === "start") element("model").value = "";
+  }
+
+  // ---------------------------------------------------------------------------------------- steps
+
+  // Runs steps that take long, with their progress. \return whether they were done
+  async work(title, steps) {
+    element("busyTitle").textContent = title;
+    element("stages").replaceChildren();
+    element("remaining").textContent = "";
+    this.goTo("busy");
+    this.isCancelled = false;
+    let stage = "";
+    const onProgress = (name, done) => {
+      if (name !== stage) {
+        stage = name;
+        const line = document.createElement("li");
+        line.textContent = name;
+        element("stages").append(line);
+      }
+      element("done").value = done;
+    };
+    try {
+      await this.started;
+      await steps(onProgress);
+      return true;
+    } catch (error) {
+      if (this.isCancelled || error.name === "Cancelled") return false;
+      throw error;
+    }
+  }
+
+  // From a cage to the view.
+  async solve(onProgress) {
+    const mesh = await this.flbc.makeMesh({ vertices: kVertices }, onProgress);
+    if (mesh.seconds > 4) element("remaining").textContent = `solving takes about ${Math.round(mesh.seconds)} s`;
+    await this.flbc.solve({}, onProgress);
+    onProgress("showing the model", 0);
+    await this.display();
+  }
+
+  async open(files) {
+    element("problem").hidden = true;
+    const { model: oldModel, cage, view } = this;
+    const restore = () => Object.assign(this, { model: oldModel, cage, view });
+    try {
+      const model = await this.modelOf([...files]);
+      const isDone = await this.work(model.name, async (onProgress) => {
+        onProgress("reading the model", 0);
+        await this.flbc.readModel(model.name, model.bytes, model.files);
+        await this.flbc.makeCage({}, onProgress);
+        Object.assign(this, { model, cage: await this.flbc.cageFile(), view: null });
+        await this.solve(onProgress);
+      });
+      if (isDone) return;
+      restore();
+      this.back();
+    } catch (error) {
+      restore();
+      if (oldModel) this.prepare();
+      this.fail(error.message);
+    }
+  }
+
+  async openSample(name) {
+    await this.open([new File([await unpacked(globalThis.flbcSamples[name])], name)]);
+  }
+
+  // What the module reads, of files that were dropped together.
+  async modelOf(files) {
+    const isMain = (file) => /\.(obj|ply|stl|off|glb|gltf|svg|png|jpe?g)$/i.test(file.name);
+    const main = files.find((file) => /\.(obj|ply|stl|off|glb|gltf)$/i.test(file.name)) ?? files.find(isMain);
+    if (!main) throw new Error(`${files[0].name}: unknown file format; drop a .glb, .gltf, .obj, .ply, .stl, .off, .svg, .png, or .jpg`);
+    const stem = main.name.replace(/\.[^.]*$/, "");
+    if (/\.svg$/i.test(main.name)) {
+      return { name: `${stem}.obj`, bytes: new TextEncoder().encode(svgToObj(await main.text())), files: {} };
+    }
+    if (/\.(png|jpe?g)$/i.test(main.name)) {
+      const { bytes, address } = await decodePicture(main);
+      return { name: `${stem}.png`, bytes, files: {}, picture: address };
+    }
+    const others = {};
+    for (const file of files) if (file !== main) others[file.name] = await file.arrayBuffer();
+    return { name: main.name, bytes: await main.arrayBuffer(), files: others };
+  }
+
+  // Another cage for the model. \param make  makes it
+  async remake(title, make) {
+    const before = this.cage;
+    element("cageProblem").hidden = true;
+    element("repair").hidden = true;
+    try {
+      const isDone = await this.work(title, async (onProgress) => {
+        await this.prepared;
+        await make(onProgress);
+        this.cage = await this.flbc.cageFile();
+        await this.solve(onProgress);
+      });
+      if (isDone) return;
+      this.cage = before;
+      this.prepare();
+      this.goTo(null);
+    } catch (error) {
+      await this.refuse(error, before);
+    }
+  }
+
+  // A cage that does not do. Its defects are shown at their places; dragging goes on with the old one.
+  async refuse(error, before) {
+    if (error.name === "DefectiveCage") {
+      await this.display();
+      this.view.editor.select(error.controlPoints);
+      element("repair").hidden = false;
+    } else {
+      this.cage = before;
+      this.prepare();
+    }
+    this.goTo(null);
+    element("cageProblem").textContent = error.message;
+    element("cageProblem").hidden = false;
+  }
+
+  // Brings a new worker to where the last one was.
+  prepare() {
+    const { model, cage, flbc } = this;
+    this.prepared = (async () => {
+      await flbc.readModel(model.name, model.bytes, model.files);
+      await flbc.readCage("cage.obj", cage);
+      await flbc.makeMesh({ vertices: kVertices });
+      await flbc.solve();
+    })();
+    this.prepared.catch(() => {});
+  }
+
+  back() {
+    if (!this.model) return this.goTo("start");
+    this.prepare();
+    this.goTo(null);
+  }
+
+  fail(message) {
+    element("problem").textContent = message;
+    element("problem").hidden = false;
+    this.goTo("start");
+  }
+
+  // ----------------------------------------------------------------------------------------- view
+
+  async display() {
+    const picture = this.model.picture ?? "";
+    const json = JSON.parse(text(await this.flbc.content({ picture })));
+    this.listening?.abort();
+    this.listening = new AbortController();
+    const old = this.view;
+    kParts.forEach((id, k) => element(id).replaceWith(this.fresh[k].cloneNode(true)));
+    this.goTo(null);
+    const content = decodeContent(json);
+    content.movesOnCard = false;
+    this.view = show(content, this.listening.signal);
+    if (!this.view) return;
+    if (old) {
+      const { yaw, pitch, basis } = old.camera;
+      Object.assign(this.view.camera, { yaw, pitch, basis });
+      setTheme(this.view, old.theme);
+    }
+    this.addSections(content.weights.values.length > 0);
+  }
+
+  addSections(isSolved) {
+    element("panel").querySelector("header").after(element("sections").content.cloneNode(true));
+    element("savePose").closest("section").append(element("files").content.cloneNode(true));
+    element("copyCommand").closest(".row").remove();
+    for (const section of document.querySelectorAll(".solved")) section.hidden = !isSolved;
+    element("cageFile").addEventListener("change", ({ target }) => this.takeCage(target.files[0]));
+    const reshaper = new Reshaper(this.view, async (request) => {
+      await this.prepared;
+      return this.flbc.move(request);
+    });
+    reshaper.onRefusal = tell;
+    bindReshaping(reshaper);
+    this.weights = { local: this.view.deformer.weights };
+    this.showsHarmonic = false;
+    const { onState } = this.view;
+    // Later, because it takes as long as some frames.
+    this.view.onState = () => {
+      onState();
+      this.timer ??= setTimeout(() => {
+        this.timer = null;
+        this.showShare();
+      }, 150);
+    };
+    this.showShare();
+  }
+
+  async compare(isHarmonic) {
+    if (this.showsHarmonic === isHarmonic) return;
+    const { deformer, reshaper } = this.view;
+    if (reshaper.isOn) reshaper.toggle();
+    if (isHarmonic) {
+      this.weights.local = deformer.weights;
+      await this.prepared;
+      this.weights.harmonic = await this.flbc.harmonicWeights();
+    }
+    this.showsHarmonic = isHarmonic;
+    deformer.weights = this.weights[isHarmonic ? "harmonic" : "local"];
+    this.view.changed();
+  }
+
+  // How many vertices the drag moves: with harmonic coordinates too, once they are known.
+  showShare() {
+    const { editor, deformer } = this.view;
+    element("local").setAttribute("aria-pressed", String(!this.showsHarmonic));
+    element("harmonic").setAttribute("aria-pressed", String(this.showsHarmonic));
+    const steps = editor.points.map((place, k) => place - deformer.rest[k]);
+    if (steps.every((step) => step === 0)) {
+      element("share").textContent = "drag a control point, then switch";
+      return;
+    }
+    if (!this.showsHarmonic) this.weights.local = deformer.weights;
+    const least = kMoves * 2 * editor.sphere.radius;
+    element("share").textContent = Object.entries(this.weights)
+      .map(([name, weights]) => `${name}: ${Math.round(100 * shareOfMoved(weights, steps, least))}%`)
+      .join(", ") + " of the vertices move";
+  }
+
+  // ---------------------------------------------------------------------------------------- saving
+
+  async save(kind) {
+    const { content, editor } = this.view;
+    const points = [...editor.points].filter((_, k) => k % 3 < content.dim);
+    const { title } = content;
+    const picture = this.model.picture ?? "";
+    const extension = /\.png$/.test(this.model.name) ? "obj" : /[^.]*$/.exec(this.model.name)[0].toLowerCase();
+    const isPosed = editor.points.some((place, k) => place !== editor.rest[k]);
+    const kinds = {
+      posed: async () => [`${title}_posed.${extension}`, await this.flbc.modelFile(points, extension)],
+      cage: async () => [`${title}_cage.obj`, await this.flbc.cageFile()],
+      npy: async () => [`${title}_weights.npy`, await this.flbc.weightFile({ format: "npy" })],
+      mtx: async () => [`${title}_weights.mtx`, await this.flbc.weightFile({ format: "mtx" })],
+      page: async () => [`${title}.html`, await this.flbc.page({ picture })],
+      glb4: async () => [`${title}.glb`, await this.flbc.glb({ influences: 4, poses: isPosed ? [points] : [] })],
+      glb8: async () => [`${title}_8.glb`, await this.flbc.glb({ influences: 8, poses: isPosed ? [points] : [] })],
+    };
+    try {
+      await this.prepared;
+      const [name, bytes] = await kinds[kind]();
+      download(name, new Blob([bytes]));
+      tell(`Saved ${name}`);
+    } catch (error) {
+      tell(error.message);
+    }
+  }
+
+  // ---------------------------------------------------------------------------------------- events
+
+  async takeCage(file) {
+    if (!file) return;
+    const bytes = await file.arrayBuffer();
+    await this.remake(`The cage ${file.name}`, () => this.flbc.readCage(file.name, bytes));
+  }
+
+  makeCage() {
+    const number = (id) => (element(id).value === "" ? undefined : Number(element(id).value));
+    const options = { symmetry: element("symmetry").value };
+    if (number("count")) options.controlPoints = number("count");
+    if (number("offset")) options.offset = number("offset") / 100;
+    const kept = { count: element("count").value, offset: element("offset").value, symmetry: options.symmetry };
+    return this.remake("Making a cage", (onProgress) => this.flbc.makeCage(options, onProgress))
+      .then(() => Object.entries(kept).forEach(([id, value]) => { element(id).value = value; }));
+  }
+
+  async cancel() {
+    this.isCancelled = true;
+    await this.flbc?.cancel();
+  }
+
+  bind() {
+    const actions = {
+      home: () => this.goTo("start"), cancel: () => this.cancel(), makeCage: () => this.makeCage(),
+      chooseCage: () => element("cageFile").click(),
+      repairCage: () => this.remake("Repairing the cage", () => this.flbc.repairCage()),
+      showLocal: () => this.compare(false), showHarmonic: () => this.compare(true),
+      draw: () => { this.sketch.clear(); this.goTo("drawing"); },
+      finishDrawing: () => this.sketch.close(),
+    };
+    document.addEventListener("click", ({ target }) => {
+      const button = target.closest?.("button");
+      if (button?.dataset.do) actions[button.dataset.do]();
+      if (button?.dataset.save) this.save(button.dataset.save);
+    });
+    for (const [label, name] of Object.entries(kSamples)) {
+      const button = document.createElement("button");
+      button.textContent = label;
+      button.addEventListener("click", () => this.openSample(name));
+      element("samples").append(button);
+    }
+    element("model").addEventListener("change", ({ target }) => { if (target.files.length) this.open(target.files); });
+    window.addEventListener("keydown", (event) => this.key(event), true);
+    for (const name of ["dragover", "dragleave", "drop"]) window.addEventListener(name, (event) => this.dragged(event));
+    document.documentElement.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  }
+
+  // Keys of the view do nothing while another screen is there.
+  key(event) {
+    if (element("app").hidden) return;
+    event.stopPropagation();
+    if (event.key === "Escape" && !element("busy").hidden) this.cancel();
+    else if (event.key === "Escape" && this.view) this.goTo(null);
+    if (event.key === "Enter" && !element("drawing").hidden) this.sketch.close();
+  }
+
+  dragged(event) {
+    event.preventDefault();
+    const isOver = event.type === "dragover" && element("busy").hidden;
+    element("drop").classList.toggle("over", isOver);
+    document.body.classList.toggle("over-page", isOver && element("app").hidden);
+    if (event.type !== "drop" || !element("busy").hidden) return;
+    const files = [...event.dataTransfer.files];
+    if (files.length === 0) return;
+    if (this.view && element("app").hidden && /cage/i.test(files[0].name)) this.takeCage(files[0]);
+    else this.open(files);
+  }
+}
+
+globalThis.flbcApp = new App();

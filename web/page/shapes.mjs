@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Models in 2D from what is not a model's file: paths of .svg, pictures, and shapes that are drawn.
+
+// Closed polygons as OBJ. \param polygons  lists of [x, y], y down
+export function polygonsToObj(polygons) {
+  const lines = [];
+  let first = 1;
+  for (const polygon of polygons) {
+    for (const [x, y] of polygon) lines.push(`v ${x} ${-y} 0`);
+    lines.push(`l ${polygon.map((_, k) => first + k).join(" ")} ${first}`);
+    first += polygon.length;
+  }
+  return `${lines.join("\n")}\n`;
+}
+
+// The corners of a closed polygon that matter by more than a distance.
+function simplified(polygon, distance) {
+  const kept = new Set([0]);
+  const keepBetween = (from, to) => {
+    const [a, b] = [polygon[from], polygon[to % polygon.length]];
+    const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+    const length = Math.hypot(dx, dy);
+    let farthest = -1, most = distance;
+    for (let k = from + 1; k < to; ++k) {
+      const [x, y] = [polygon[k][0] - a[0], polygon[k][1] - a[1]];
+      const away = length > distance ? Math.abs(x * dy - y * dx) / length : Math.hypot(x, y);
+      if (away > most) [farthest, most] = [k, away];
+    }
+    if (farthest < 0) return;
+    kept.add(farthest);
+    keepBetween(from, farthest);
+    keepBetween(farthest, to);
+  };
+  keepBetween(0, polygon.length);
+  return polygon.filter((_, k) => kept.has(k));
+}
+
+// The outlines of all shapes in a drawing. \throws Error
+export function svgToObj(text) {
+  const drawing = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
+  const host = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  host.style.cssText = "position: absolute; visibility: hidden";
+  document.body.append(host);
+  const polygons = [];
+  for (const shape of drawing.querySelectorAll("path, polygon, polyline, rect, circle, ellipse")) {
+    host.append(document.importNode(shape));
+    const outline = host.lastElementChild;
+    // The parts of a path, each of which begins with an M.
+    const parts = (outline.getAttribute("d") ?? "").split(/(?=M)/).filter((part) => part.trim());
+    for (const part of parts.length > 1 ? parts : [null]) {
+      if (part) outline.setAttribute("d", part);
+      const length = outline.getTotalLength();
+      const count = 2000;
+      const points = Array.from({ length: count }, (_, k) => outline.getPointAtLength(length * k / count));
+      const polygon = simplified(points.map(({ x, y }) => [x, y]), 5e-4 * length);
+      if (polygon.length > 2) polygons.push(polygon);
+    }
+  }
+  host.remove();
+  if (polygons.length === 0) throw new Error("there is no path, polygon, rectangle, or circle in this drawing");
+  return polygonsToObj(polygons);
+}
+
+// A picture as the module takes it: width, height, and which pixels are to be seen. Larger ones are
+// shrunk. \return the bytes, and the picture as an address
+export async function decodePicture(file) {
+  const kLargest = 1024;
+  const image = await createImageBitmap(file);
+  const shrink = Math.min(1, kLargest / Math.max(image.width, image.height));
+  const width = Math.max(1, Math.round(shrink * image.width));
+  const height = Math.max(1, Math.round(shrink * image.height));
+  const canvas = document.createElement("canvas");
+  Object.assign(canvas, { width, height });
+  const context = canvas.getContext("2d");
+  context.drawImage(image, 0, 0, width, height);
+  const pixels = context.getImageData(0, 0, width, height).data;
+  const bytes = new Uint8Array(8 + width * height);
+  new DataView(bytes.buffer).setUint32(0, width, true);
+  new DataView(bytes.buffer).setUint32(4, height, true);
+  for (let k = 0; k < width * height; ++k) bytes[8 + k] = pixels[4 * k + 3] > 16 ? 1 : 0;
+  return { bytes, address: canvas.toDataURL("image/png") };
+}
+
+// A board on which a polygon is drawn.
+export class Sketch {
+  constructor(board, onClosed) {
+    this.board = board;
+    this.line = board.querySelector("polyline");
+    this.onClosed = onClosed;
+    board.addEventListener("click", (event) => this.click(event));
+    this.clear();
+  }
+
+  clear() {
+    this.corners = [];
+    this.draw();
+  }
+
+  draw() {
+    this.line.setAttribute("points", this.corners.map((corner) => corner.join(",")).join(" "));
+  }
+
+  click(event) {
+    const box = this.board.getBoundingClientRect();
+    const corner = [600 * (event.clientX - box.left) / box.width, 400 * (event.clientY - box.top) / box.height];
+    const [first] = this.corners;
+    if (first && this.corners.length > 2 && Math.hypot(corner[0] - first[0], corner[1] - first[1]) < 14) {
+      return this.close();
+    }
+    this.corners.push(corner.map((place) => Math.round(place)));
+    this.draw();
+  }
+
+  close() {
+    if (this.corners.length > 2) this.onClosed(polygonsToObj([this.corners]));
+  }
+}
