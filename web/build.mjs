@@ -23,7 +23,7 @@ const packed = (bytes) => gzipSync(bytes, { level: 9 }).toString("base64");
 
 function assetsOf(name) {
   return {
-    worker: `${readFileSync(`${built}/${name}.js`, "utf8")}\n${read("js/worker.js")}`,
+    worker: packed(`${readFileSync(`${built}/${name}.js`, "utf8")}\n${read("js/worker.js")}`),
     wasm: packed(readFileSync(`${built}/${name}.wasm`)),
   };
 }
@@ -39,7 +39,7 @@ function module(assets, license) {
 function page(assets) {
   const names = /set\(page_modules\s+([^)]*)\)/.exec(read("../apps/view/CMakeLists.txt"))[1].trim().split(/\s+/);
   const script = joined([...names.map((name) => `${view}${name}.mjs`), "js/flbc.mjs", "page/reshaping.mjs",
-                         "page/shapes.mjs", "page/app.mjs"]);
+                         "page/shapes.mjs", "page/cage_edits.mjs", "page/app.mjs"]);
   const samples = Object.fromEntries(["2d/figure", "3d/limb", "3d/star"].map((name) => [
     `${name.slice(3)}.obj`, packed(readFileSync(at(`../meshes/${name}_model.obj`)))]));
   const source = address ? `<a href="${address}">source code</a>` : "whoever gave you this page offers its source code";

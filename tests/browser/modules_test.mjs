@@ -17,6 +17,7 @@ const { rotate, scale, translate } = await load("transforms");
 const { pick, pointsInRectangle } = await load("picking");
 const { ToolDrag } = await load("actions");
 const { Reshaper } = await import(new URL("../../web/page/reshaping.mjs", import.meta.url));
+const { cageToObj, mergePoints, splitEdge } = await import(new URL("../../web/page/cage_edits.mjs", import.meta.url));
 const { commandOf } = await load("saving");
 const { kWeightedSum } = await load("shaders");
 
@@ -295,6 +296,32 @@ test("of a resting cage the last shape is solved, one at a time, and refused sha
   assert.equal(editor.points[0], 3);
   reshaper.toggle();
   near(editor.points, [3, 0, 0, 1, 0, 0, 0, 1, 0]);
+});
+
+test("an edge of a cage is split, and control points are merged", () => {
+  const cube = { dim: 3, points: [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], facets: [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2] };
+  const volume = ({ points, facets }) => {
+    const at = (i) => points.slice(3 * i, 3 * i + 3);
+    let sum = 0;
+    for (let f = 0; f < facets.length; f += 3) {
+      const [a, b, c] = [0, 1, 2].map((k) => at(facets[f + k]));
+      sum += a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    }
+    return sum / 6;
+  };
+  const split = splitEdge(cube, [0, 1]);
+  assert.equal(split.points.length, 15);
+  assert.equal(split.facets.length, 18);
+  assert.ok(Math.abs(volume(split) - 1 / 6) < 1e-15);
+  assert.equal(splitEdge(split, [0, 1]), null, "that edge is gone");
+  const merged = mergePoints(split, [0, 4]);
+  assert.equal(merged.points.length, 12);
+  assert.equal(merged.facets.length, 12);
+  near(merged.points.slice(0, 3), [0.25, 0, 0]);
+  assert.ok(Math.abs(volume(merged) - 0.75 / 6) < 1e-15);
+  const square = { dim: 2, points: [0, 0, 1, 0, 1, 1, 0, 1], facets: [0, 1, 1, 2, 2, 3, 3, 0] };
+  assert.deepEqual(splitEdge(square, [2, 1]).facets, [0, 1, 4, 2, 1, 4, 2, 3, 3, 0]);
+  assert.equal(cageToObj(mergePoints(square, [0, 1])), "v 0.5 0 0\nv 1 1 0\nv 0 1 0\nl 1 2\nl 2 3\nl 3 1\n");
 });
 
 test("the copied command names files where they are", () => {

@@ -169,6 +169,7 @@ std::vector<Reader> model_readers() {
        "input.ply",
        read_model,
        {tent_as("a.ply", true), tent_as("a.ply", false), kPlyOfScanner}},
+      {"glb", "input.glb", read_model, {tent_as("a.glb", false)}},
       {"stl",
        "input.stl",
        read_model,

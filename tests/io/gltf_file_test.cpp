@@ -125,6 +125,7 @@ TEST_F(GltfFileTest, PointsMoveAndAllElseStays) {
   make("a.glb", square.glb());
   const ModelFile file(path("a.glb"));
   const auto points = io::to_points<3>(file.model().soup, "");
+  EXPECT_EQ(rewritten(file, points), square.glb());
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.5, Vector<3>::UnitX()).toRotationMatrix();
   const PointList<3> moved = turn * points;
   make("b.glb", rewritten(file, moved));
@@ -182,6 +183,31 @@ TEST_F(GltfFileTest, VerticesOfTwoNodesCannotBeRewritten) {
   EXPECT_EQ(file.model().soup.points.size(), 8U);
   const auto points = io::to_points<3>(file.model().soup, "");
   expect_error<InputError>([&] { rewritten(file, points); }, {"two nodes", "another format"});
+}
+
+TEST_F(GltfFileTest, ModelsAreWrittenWithTheirMaterials) {
+  make("a.png", Square().picture);
+  make("a.mtl", "newmtl paint\nKd 0.5 0.25 1\nd 0.5\nmap_Kd a.png\nnewmtl other\nKd 0 0 1\n");
+  const auto obj =
+      make("a.obj",
+           "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0.5\nvt 0 0\nvt 1 0\nvt 1 1\n"
+           "vt 0 1\nvt 0.5 0.25\nvn 0 0 1\nusemtl paint\nf 1/1/1 2/2/1 3/3/1 4/4/1\n"
+           "usemtl other\nf 2/5/1 5/2/1 3/3/1\n");
+  const ModelFile before(obj);
+  write_model(path("b.glb"), before.model());
+  const ModelFile after(path("b.glb"));
+  const auto& [a, b] = std::tie(before.model(), after.model());
+  EXPECT_EQ(b.soup.points, a.soup.points);
+  EXPECT_EQ(b.soup.polygons.size(), 3U);
+  ASSERT_EQ(b.materials.size(), 2U);
+  EXPECT_EQ(b.materials[0].name, "paint");
+  EXPECT_EQ(b.materials[0].opacity, 0.5);
+  EXPECT_EQ(b.materials[0].picture, Square().picture);
+  EXPECT_LT((b.materials[1].color - a.materials[1].color).norm(), 1e-7);
+  EXPECT_EQ(b.polygon_materials, (std::vector<Index>{0, 0, 1}));
+  EXPECT_EQ(b.attributes.texture_coordinates.col(b.attributes.corners[2][0].texture_coordinate),
+            Vector<2>(0.5, 0.25));
+  EXPECT_EQ(io::losses(a, path("b.glb")), a.others);
 }
 
 TEST_F(GltfFileTest, DamageEndsInMessages) {

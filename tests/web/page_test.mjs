@@ -135,6 +135,13 @@ async function testModel(sample, file, dim) {
   await app.shown();
   const count = await app.tab.evaluate(() => window.flbc.viewer.editor.size);
   assert.ok(count > 50 && count <= 60, `${count} control points`);
+  const [a, b] = await app.tab.evaluate(() => [...window.flbc.viewer.content.edges.slice(0, 2)]);
+  for (const [button, expected] of [["split", count + 1], ["merge", count]]) {
+    await app.ask("select", button === "split" ? [a, b] : [a, count]);
+    await app.tab.$eval(`[data-do=${button}]`, (element) => element.click());
+    await app.tab.waitForFunction((size) => window.flbc.viewer.editor.size === size, { timeout: 60000 }, expected);
+    await app.shown();
+  }
   await app.close();
 }
 

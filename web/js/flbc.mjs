@@ -33,6 +33,7 @@ export class Flbc {
     const given = typeof wasm === "string" || wasm instanceof URL ? await fetch(wasm) : await wasm;
     const bytes = given?.arrayBuffer ? await given.arrayBuffer() : given ?? await unpacked(assets.wasm);
     flbc.compiled = await WebAssembly.compile(bytes);
+    flbc.script = new TextDecoder().decode(await unpacked(assets.worker));
     await flbc.restart();
     return flbc;
   }
@@ -40,7 +41,7 @@ export class Flbc {
   async restart() {
     this.waiting = new Map();
     this.next = 0;
-    this.worker = await makeWorker(assets.worker);
+    this.worker = await makeWorker(this.script);
     const take = (event) => this.take(event.data ?? event);
     if (this.worker.on) {
       this.worker.on("message", take);

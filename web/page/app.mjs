@@ -5,6 +5,7 @@ import { show } from "../../apps/view/page/main.mjs";
 import { element, setTheme, tell } from "../../apps/view/page/panel.mjs";
 import { download } from "../../apps/view/page/saving.mjs";
 import { Flbc, unpacked } from "../js/flbc.mjs";
+import { cageToObj, mergePoints, splitEdge } from "./cage_edits.mjs";
 import { bindReshaping, Reshaper } from "./reshaping.mjs";
 import { decodePicture, Sketch, svgToObj } from "./shapes.mjs";
 
@@ -319,6 +320,18 @@ class App {
     await this.remake(`The cage ${file.name}`, () => this.flbc.readCage(file.name, bytes));
   }
 
+  // More or fewer control points, of those that are selected.
+  edit(change, wanted = null) {
+    const { editor, content, deformer } = this.view;
+    const selected = [...editor.selection];
+    const points = [...deformer.rest].filter((_, k) => k % 3 < content.dim);
+    const isRight = wanted ? selected.length === wanted : selected.length > 1;
+    const cage = isRight ? change({ points, facets: content.facets, dim: content.dim }, selected) : null;
+    if (!cage) return tell(wanted ? "Select two control points with an edge between them" : "Select at least two control points");
+    const bytes = new TextEncoder().encode(cageToObj(cage));
+    return this.remake("Another cage", () => this.flbc.readCage("cage.obj", bytes));
+  }
+
   makeCage() {
     const number = (id) => (element(id).value === "" ? undefined : Number(element(id).value));
     const options = { symmetry: element("symmetry").value };
@@ -339,6 +352,7 @@ class App {
       home: () => this.goTo("start"), cancel: () => this.cancel(), makeCage: () => this.makeCage(),
       chooseCage: () => element("cageFile").click(),
       repairCage: () => this.remake("Repairing the cage", () => this.flbc.repairCage()),
+      split: () => this.edit(splitEdge, 2), merge: () => this.edit(mergePoints),
       showLocal: () => this.compare(false), showHarmonic: () => this.compare(true),
       draw: () => { this.sketch.clear(); this.goTo("drawing"); },
       finishDrawing: () => this.sketch.close(),

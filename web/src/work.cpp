@@ -255,7 +255,9 @@ void Work<Dim>::place_in_cage() {
                                    : std::vector<bool>(points_.cols(), true);
     const auto outside = points_outside(cage_, points_);
     if (std::any_of(outside.begin(), outside.end(), [&](Index p) { return is_used[p]; })) {
-      throw InputError(name_ + ": " + error.what());
+      const std::string message = error.what();  // with advice for users of the library
+      throw InputError(name_ + ": " + message.substr(0, message.find("; choose")) +
+                       "; enlarge the cage, or make one around the model");
     }
     outside_ = OutsidePoints::kNearest;
   }

@@ -25,7 +25,7 @@ constexpr Format kFormats[] = {
     {"ply", {read_ply, write_ply, Attributes::kVertices}},
     {"stl", {read_stl, write_stl}},
     {"om", {read_om, nullptr, Attributes::kVertices}},  // OpenMesh writes it: flbc::openmesh
-    {"glb", {read_gltf, nullptr, Attributes::kCorners}},
+    {"glb", {read_gltf, write_glb, Attributes::kCorners}},
     {"gltf", {read_gltf, nullptr, Attributes::kCorners}},
     {"vtu", {}, kVtu<2>, kVtu<3>},
     {"mesh", {}, {}, {read_medit, write_medit, true}},

@@ -226,7 +226,10 @@ class Losses {
 
   std::vector<std::string> find() {
     const auto kept = format_.model.attributes;
-    add_if(kept != Attributes::kCorners && !model_.soup.polylines.empty(), "polylines");
+    const bool is_gltf = format_.extension == "glb";
+    add_if((kept != Attributes::kCorners || is_gltf) && !model_.soup.polylines.empty(),
+           "polylines");
+    add_if(is_gltf && !are_single(model_.soup.points), "coordinates beyond single precision");
     if (format_.extension == "stl") add_losses_of_stl();
     if (kept == Attributes::kNone) add_all_attributes();
     if (kept == Attributes::kVertices) add_losses_of_vertices();
@@ -311,7 +314,8 @@ void ModelFile::write(std::ostream& out, const PointList<Dim>& points,
   if (file.finish == nullptr) return write_numbers(out, points, jacobians);
   std::ostringstream bytes;
   write_numbers(bytes, points, jacobians);
-  out << file.finish(bytes.str());
+  const auto result = bytes.str();
+  out << (result == file.text ? result : file.finish(result));
 }
 
 template <int Dim>
@@ -379,7 +383,7 @@ void write_model(const std::string& path, const Model& model) {
   if (!format.model.write) {
     throw OptionError(path + (format.extension == "om"
                                   ? ": this format is written by OpenMesh (flbc::openmesh)"
-                                  : ": only models from .glb files can be written to this format"));
+                                  : ": this format is only read; write .glb"));
   }
   write_file(path, [&](std::ostream& out) { format.model.write(out, model); });
 }

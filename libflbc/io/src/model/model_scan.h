@@ -120,5 +120,6 @@ void write_obj(std::ostream& out, const Model& model);
 void write_off(std::ostream& out, const Model& model);
 void write_ply(std::ostream& out, const Model& model);
 void write_stl(std::ostream& out, const Model& model);
+void write_glb(std::ostream& out, const Model& model);
 
 }  // namespace flbc::io

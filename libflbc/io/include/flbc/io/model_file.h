@@ -72,9 +72,9 @@ class ModelFile {
 //! Lists the attributes of a model that the format of `path` would lose, one phrase each.
 std::vector<std::string> losses(const Model& model, const std::string& path);
 
-//! Writes .obj, .off, .ply, or .stl, by extension. The last two are text if Model::is_text,
-//! otherwise binary. Coordinates have full double precision, in .stl single precision. Attributes
-//! listed by losses() are not written.
+//! Writes .obj, .off, .ply, .stl, or .glb, by extension. .ply and .stl are text if Model::is_text,
+//! otherwise binary. Coordinates have full double precision, in .stl and .glb single precision.
+//! Attributes listed by losses() are not written.
 //! \throws IoError; InputError if a number is not finite; OptionError for another extension
 void write_model(const std::string& path, const Model& model);
 

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// More and fewer control points: cages as points, `dim` numbers each, and facets, `dim` indices each.
+
+function facetsOf(facets, dim) {
+  return Array.from({ length: facets.length / dim }, (_, f) => [...facets.slice(dim * f, dim * f + dim)]);
+}
+
+// A control point in the middle of the edge between two. \return null if there is no such edge
+export function splitEdge({ points, facets, dim }, [a, b]) {
+  const middle = points.length / dim;
+  const isOn = (facet) => facet.includes(a) && facet.includes(b);
+  const all = facetsOf(facets, dim);
+  if (!all.some(isOn)) return null;
+  const replaced = (facet, old) => facet.map((i) => (i === old ? middle : i));
+  const place = Array.from({ length: dim }, (_, k) => (points[dim * a + k] + points[dim * b + k]) / 2);
+  return { dim, points: [...points, ...place],
+           facets: all.flatMap((facet) => (isOn(facet) ? [replaced(facet, b), replaced(facet, a)] : [facet])).flat() };
+}
+
+// One control point in the middle of several.
+export function mergePoints({ points, facets, dim }, merged) {
+  const count = points.length / dim;
+  const middle = Array.from({ length: dim }, (_, k) =>
+    merged.reduce((sum, i) => sum + points[dim * i + k], 0) / merged.length);
+  const target = Array.from({ length: count }, (_, i) => (merged.includes(i) ? merged[0] : i));
+  const left = facetsOf(facets, dim).map((facet) => facet.map((i) => target[i]))
+    .filter((facet) => new Set(facet).size === dim);
+  const kept = [...Array(count).keys()].filter((i) => target[i] === i && left.some((facet) => facet.includes(i)));
+  const number = new Map(kept.map((i, k) => [i, k]));
+  return { dim, facets: left.flat().map((i) => number.get(i)),
+           points: kept.flatMap((i) => (i === merged[0] ? middle : [...points.slice(dim * i, dim * i + dim)])) };
+}
+
+export function cageToObj({ points, facets, dim }) {
+  const places = Array.from({ length: points.length / dim }, (_, i) =>
+    `v ${[...points.slice(dim * i, dim * i + dim)].join(" ")}${dim === 2 ? " 0" : ""}`);
+  return `${[...places, ...facetsOf(facets, dim).map((facet) =>
+    `${dim === 2 ? "l" : "f"} ${facet.map((i) => i + 1).join(" ")}`)].join("\n")}\n`;
+}
