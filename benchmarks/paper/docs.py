@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keeps the tables of README.md and docs/, and numbers in their sentences (claims.py), equal to stored results.
+"""Keeps the tables of README.md and docs/ equal to stored results.
 
     docs.py OUT_FOLDER    takes over OUT_FOLDER's results (a full run of all models) and writes the tables;
                           scripts/pictures.sh charts draws the charts anew
-    docs.py --check       fails if a table or a number differs from the stored results it is made of
+    docs.py --check       fails if a table differs from the stored results it is made of
 
 A table is on a page between <!-- results: NAME --> and <!-- end of results -->. Its results are in
 docs/results/NAME.csv, as flbc_bench_paper wrote them, or in the file that tables.SOURCES names. Its
@@ -16,7 +16,6 @@ import re
 import shutil
 import sys
 
-import claims
 import results
 import tables
 
@@ -46,7 +45,6 @@ def check():
             print(f"{match[2]}: nothing stored yet, so not checked")
         elif match[3] != tables.markdown(STORED, match[2]):
             problems.append(f"the table {match[2]} differs from docs/results/{tables.source_of(match[2])}.csv")
-    problems += claims.check(STORED)
     for problem in problems:
         print(problem, file=sys.stderr)
     return 1 if problems else 0
@@ -62,7 +60,6 @@ def take_over(out):
             shutil.copy(out / f"{name}.csv", STORED)
     for page in PAGES:
         page.write_text(with_tables(page.read_text()))
-    claims.rewrite(STORED)
     return check()
 
 

@@ -7,9 +7,9 @@
 
 #include <Eigen/Geometry>
 
-#include "caging/cgal/exact_predicates.h"
 #include "caging/mirror_plane.h"
 #include "flbc/cage.h"
+#include "meshing/cgal/exact_predicates.h"
 
 namespace flbc {
 

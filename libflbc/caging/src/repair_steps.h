@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "caging/cgal/exact_predicates.h"
 #include "flbc/cage.h"
+#include "meshing/cgal/exact_predicates.h"
 
 namespace flbc {
 

@@ -7,8 +7,8 @@
 
 #include <Eigen/Geometry>
 
-#include "caging/cgal/exact_predicates.h"
 #include "flbc/cage.h"
+#include "meshing/cgal/exact_predicates.h"
 
 namespace flbc {
 

@@ -149,18 +149,21 @@ inline void backward_piece(const Scalar* entries, const std::int32_t* below, std
   }
 }
 
-// Applies a step to the columns begin .. end - 1 in pieces of two registers, one, or half a
-// register if it holds more than 8 values. Two registers are used only in single precision: double
-// is used only in setup, and its copies would double the compile time of this file.
+// Applies a step to the columns begin .. end - 1, multiples of 8, in pieces of two registers, one,
+// or half a register. Two registers are used only in single precision: double is used only in
+// setup, and its copies would double the compile time of this file.
 template <class Scalar, class Step>
 [[gnu::always_inline]] inline void for_pieces(std::size_t begin, std::size_t end, Step step) {
   using Single = Chunk<Scalar, kRegisterBytes, 1>;
+  using Pair = Chunk<Scalar, kRegisterBytes, 2>;
+  constexpr bool kPairs = sizeof(Scalar) == sizeof(float);
   std::size_t i = begin;
-  if constexpr (sizeof(Scalar) == sizeof(float)) {
-    using Pair = Chunk<Scalar, kRegisterBytes, 2>;
+  if constexpr (kPairs) {
     for (; i + Pair::kWidth <= end; i += Pair::kWidth) step(Pair{}, i);
   }
-  for (; i + Single::kWidth <= end; i += Single::kWidth) step(Single{}, i);
+  if constexpr (!kPairs || Pair::kWidth > 8) {
+    for (; i + Single::kWidth <= end; i += Single::kWidth) step(Single{}, i);
+  }
   if constexpr (Single::kWidth > 8) {
     if (i < end) step(Chunk<Scalar, kRegisterBytes / 2, 1>{}, i);
   }

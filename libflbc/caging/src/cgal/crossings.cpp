@@ -10,12 +10,13 @@
 #include <vector>
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Gmpq.h>
+#include <CGAL/Simple_cartesian.h>
 
 #include "base/messages.h"
 #include "base/union_find.h"
+#include "cage/overlap_tree.h"
 #include "caging/cells.h"
-#include "caging/enclosure.h"
 #include "caging/surface_tools.h"
 #include "flbc/bounding_box.h"
 
@@ -23,7 +24,9 @@ namespace flbc {
 
 namespace {
 
-using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
+// Fractions alone compile in half the time of the kernel that also keeps intervals, which is faster
+// only for tens of thousands of facets.
+using ExactKernel = CGAL::Simple_cartesian<CGAL::Gmpq>;
 template <int Dim>
 using ExactPoint = std::conditional_t<Dim == 2, ExactKernel::Point_2, ExactKernel::Point_3>;
 using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<ExactKernel, CGAL::Default,
@@ -77,17 +80,7 @@ std::vector<std::pair<Index, Index>> close_pairs(const CageDraft<Dim>& draft, do
   for (std::size_t f = 0; f < boxes.size(); ++f) {
     for (const Index v : draft.facets[f].corners) boxes[f].extend(Vector<Dim>(draft.points.col(v)));
   }
-  const OverlapTree<Dim> tree(boxes);
-  const Vector<Dim> margin = Vector<Dim>::Constant(distance);
-  std::vector<std::pair<Index, Index>> pairs;
-  for (Index f = 0; f < static_cast<Index>(boxes.size()); ++f) {
-    tree.any_of({boxes[f].min() - margin, boxes[f].max() + margin}, [&](Index g) {
-      if (g < f) pairs.emplace_back(g, f);
-      return false;
-    });
-  }
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
+  return flbc::close_pairs(boxes, distance);
 }
 
 template <int Dim>

@@ -293,10 +293,6 @@ const PointList<3>& SplatFile::points() const {
   return content_->points;
 }
 
-int SplatFile::degree() const {
-  return content_->degree;
-}
-
 void SplatFile::write(std::ostream& out, const PointList<3>& points,
                       const Eigen::MatrixXd& jacobians) const {
   const auto count = content_->points.cols();

@@ -1,73 +1,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <CGAL/Bbox_3.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
-#include <CGAL/box_intersection_d.h>
+#include <CGAL/Gmpq.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/intersections.h>
 
 #include "base/messages.h"
+#include "cage/overlap_tree.h"
 #include "flbc/errors.h"
 #include "flbc/meshing.h"
+#include "meshing/cgal/exact_predicates.h"
 
 namespace flbc {
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
+// Compiles faster than the kernel that computes exactly only when it must. Few pairs are described.
+using ExactKernel = CGAL::Simple_cartesian<CGAL::Gmpq>;
 using FacetPair = std::pair<Index, Index>;
 
-// ---------------------------------------------------------------------------------------------- 2D
-
-Kernel::Point_2 point(const Cage<2>& cage, Index vertex) {
-  return {cage.points(0, vertex), cage.points(1, vertex)};
-}
-
-Kernel::Segment_2 segment(const Cage<2>& cage, Index edge) {
-  return {point(cage, cage.facets(0, edge)), point(cage, cage.facets(1, edge))};
+template <int Dim>
+std::vector<FacetPair> find_pairs(const Cage<Dim>& cage) {
+  std::vector<typename OverlapTree<Dim>::Box> boxes(cage.facets.cols());
+  for (Index f = 0; f < cage.facets.cols(); ++f) {
+    for (const Index v : cage.facets.col(f)) boxes[f].extend(Vector<Dim>(cage.points.col(v)));
+  }
+  std::vector<FacetPair> pairs;
+  for (const auto& [f, g] : close_pairs(boxes, 0)) {
+    if (intersect_improperly<Dim>(cage.points, cage.facets.col(f), cage.facets.col(g))) {
+      pairs.emplace_back(f, g);
+    }
+  }
+  return pairs;
 }
 
 // A control point of one edge that lies on the other edge and is not shared; -1: none.
 Index vertex_on_other_edge(const Cage<2>& cage, Index e, Index f) {
   for (const auto& [own, other] : {FacetPair{e, f}, FacetPair{f, e}}) {
-    for (int k = 0; k < 2; ++k) {
-      const Index vertex = cage.facets(k, own);
+    const Simplex<2> edge{cage.points(Eigen::all, cage.facets.col(other))};
+    for (const Index vertex : cage.facets.col(own)) {
       if (vertex == cage.facets(0, other) || vertex == cage.facets(1, other)) continue;
-      if (segment(cage, other).has_on(point(cage, vertex))) return vertex;
+      if (intersect<2>({cage.points.col(vertex).replicate(1, 2), 1}, edge)) return vertex;
     }
   }
   return -1;
-}
-
-// Edges with a common vertex intersect elsewhere only if one folds back along the other.
-bool intersect(const Cage<2>& cage, Index e, Index f) {
-  const auto a = cage.facets.col(e), b = cage.facets.col(f);
-  const bool share_a_vertex =
-      (a.array() == b.array()).any() || (a.array() == b.reverse().array()).any();
-  if (share_a_vertex) return vertex_on_other_edge(cage, e, f) >= 0;
-  return CGAL::do_intersect(segment(cage, e), segment(cage, f));
-}
-
-std::vector<FacetPair> find_pairs(const Cage<2>& cage) {
-  using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 2, Index>;
-  std::vector<Box> boxes;
-  boxes.reserve(static_cast<std::size_t>(cage.facets.cols()));
-  for (Index edge = 0; edge < cage.facets.cols(); ++edge) {
-    boxes.emplace_back(segment(cage, edge).bbox(), edge);
-  }
-  std::vector<FacetPair> pairs;
-  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-    const FacetPair pair = std::minmax(a.info(), b.info());
-    if (intersect(cage, pair.first, pair.second)) pairs.push_back(pair);
-  });
-  return pairs;
 }
 
 // The intersection of two crossing edges without a vertex on each other, accurate to rounding.
@@ -102,36 +82,6 @@ Defect describe_pair(const Cage<2>& cage, const FacetPair& pair) {
           {vertex},
           {e, f},
           DefectKind::kSelfIntersection};
-}
-
-// ---------------------------------------------------------------------------------------------- 3D
-
-std::vector<FacetPair> find_pairs(const Cage<3>& cage) {
-  using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
-  Surface surface;
-  std::vector<Surface::Vertex_index> vertices;
-  for (Index i = 0; i < cage.size(); ++i) {
-    const auto p = cage.points.col(i);
-    vertices.push_back(surface.add_vertex(Kernel::Point_3(p.x(), p.y(), p.z())));
-  }
-  for (Index triangle = 0; triangle < cage.facets.cols(); ++triangle) {
-    const auto corners = cage.facets.col(triangle);
-    const auto face =
-        surface.add_face(vertices[corners(0)], vertices[corners(1)], vertices[corners(2)]);
-    if (face == Surface::null_face()) {
-      throw InputError("triangle " + std::to_string(triangle) +
-                       " of the cage does not fit its neighbors: the surface is not manifold");
-    }
-  }
-  std::vector<std::pair<Surface::Face_index, Surface::Face_index>> faces;
-  CGAL::Polygon_mesh_processing::self_intersections(surface, std::back_inserter(faces));
-  std::vector<FacetPair> pairs;
-  pairs.reserve(faces.size());
-  for (const auto& [a, b] : faces) {
-    pairs.push_back(
-        std::minmax(static_cast<Index>(std::size_t(a)), static_cast<Index>(std::size_t(b))));
-  }
-  return pairs;
 }
 
 ExactKernel::Triangle_3 exact_triangle(const Cage<3>& cage, Index triangle) {
@@ -174,7 +124,6 @@ Defect describe_pair(const Cage<3>& cage, const FacetPair& pair) {
 template <int Dim>
 std::vector<Defect> find_self_intersections(const Cage<Dim>& cage, std::size_t limit) {
   std::vector<FacetPair> pairs = find_pairs(cage);
-  std::sort(pairs.begin(), pairs.end());
   if (pairs.size() > limit) pairs.resize(limit);
   std::vector<Defect> defects;
   defects.reserve(pairs.size());

@@ -35,9 +35,6 @@ class SplatFile {
   //! 3 x P centers.
   const PointList<3>& points() const;
 
-  //! 0, 1, 2, or 3.
-  int degree() const;
-
   //! Writes the file with moved splats. A covariance S becomes J S J^T, stored as scales and
   //! quaternion. Harmonics rotate by the rotation of the polar decomposition of J, so that a splat
   //! looks the same from a camera that rotates with it. Normals nx, ny, nz, if not 0, are

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "caging/cgal/exact_predicates.h"
+#include "meshing/cgal/exact_predicates.h"
 
 #include <algorithm>
 #include <array>
