@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "cage/overlap_tree.h"
+#include "cage/box_tree.h"
 #include "flbc/cage.h"
 #include "flbc/types.h"
 #include "meshing/cgal/exact_predicates.h"
@@ -39,7 +39,7 @@ class Enclosure {
 
  private:
   std::vector<Simplex<Dim>> simplices_;
-  OverlapTree<Dim> tree_;
+  BoxTree<Dim> tree_;
   PointList<Dim> representatives_;
   Box box_;
 };

@@ -78,8 +78,8 @@ class PointsOnEdges {
   Index first_between(Index from, Index to, Index excluded) const {
     const Vector<Dim> a = draft_.points.col(from), b = draft_.points.col(to);
     const double tolerance = tolerance_of(draft_);
-    typename OverlapTree<Dim>::Box around(a.cwiseMin(b).array() - tolerance,
-                                          a.cwiseMax(b).array() + tolerance);
+    typename BoxTree<Dim>::Box around(a.cwiseMin(b).array() - tolerance,
+                                      a.cwiseMax(b).array() + tolerance);
     Index first = -1;
     tree_.any_of(around, [&](Index k) {
       const Index v = used_[k];
@@ -96,16 +96,16 @@ class PointsOnEdges {
     for (const auto& facet : draft.facets) used.insert(facet.corners.begin(), facet.corners.end());
     return {used.begin(), used.end()};
   }
-  static std::vector<typename OverlapTree<Dim>::Box> boxes(const CageDraft<Dim>& draft,
-                                                           const std::vector<Index>& used) {
-    std::vector<typename OverlapTree<Dim>::Box> result;
+  static std::vector<typename BoxTree<Dim>::Box> boxes(const CageDraft<Dim>& draft,
+                                                       const std::vector<Index>& used) {
+    std::vector<typename BoxTree<Dim>::Box> result;
     for (const Index v : used) result.emplace_back(Vector<Dim>(draft.points.col(v)));
     return result;
   }
 
   const CageDraft<Dim>& draft_;
   std::vector<Index> used_;
-  OverlapTree<Dim> tree_;
+  BoxTree<Dim> tree_;
 };
 
 // Parts of the draft connected by ridges with two facets.

@@ -15,7 +15,7 @@
 
 #include "base/messages.h"
 #include "base/union_find.h"
-#include "cage/overlap_tree.h"
+#include "cage/box_tree.h"
 #include "caging/cells.h"
 #include "caging/surface_tools.h"
 #include "flbc/bounding_box.h"
@@ -76,7 +76,7 @@ class PointNumbers {
 // Pairs of facets whose boxes are within the distance of each other.
 template <int Dim>
 std::vector<std::pair<Index, Index>> close_pairs(const CageDraft<Dim>& draft, double distance) {
-  std::vector<typename OverlapTree<Dim>::Box> boxes(draft.facets.size());
+  std::vector<typename BoxTree<Dim>::Box> boxes(draft.facets.size());
   for (std::size_t f = 0; f < boxes.size(); ++f) {
     for (const Index v : draft.facets[f].corners) boxes[f].extend(Vector<Dim>(draft.points.col(v)));
   }

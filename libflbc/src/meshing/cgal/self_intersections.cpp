@@ -10,7 +10,7 @@
 #include <CGAL/intersections.h>
 
 #include "base/messages.h"
-#include "cage/overlap_tree.h"
+#include "cage/box_tree.h"
 #include "flbc/errors.h"
 #include "flbc/meshing.h"
 #include "meshing/cgal/exact_predicates.h"
@@ -25,12 +25,8 @@ using FacetPair = std::pair<Index, Index>;
 
 template <int Dim>
 std::vector<FacetPair> find_pairs(const Cage<Dim>& cage) {
-  std::vector<typename OverlapTree<Dim>::Box> boxes(cage.facets.cols());
-  for (Index f = 0; f < cage.facets.cols(); ++f) {
-    for (const Index v : cage.facets.col(f)) boxes[f].extend(Vector<Dim>(cage.points.col(v)));
-  }
   std::vector<FacetPair> pairs;
-  for (const auto& [f, g] : close_pairs(boxes, 0)) {
+  for (const auto& [f, g] : close_pairs(boxes_of<Dim, Dim>(cage.points, cage.facets), 0)) {
     if (intersect_improperly<Dim>(cage.points, cage.facets.col(f), cage.facets.col(g))) {
       pairs.emplace_back(f, g);
     }

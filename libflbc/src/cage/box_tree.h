@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes that intersect.
+// Finds boxes that intersect, and the nearest of many elements to a point.
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -13,12 +14,13 @@
 
 namespace flbc {
 
+//! A binary tree of boxes around elements, split at the median of their centers.
 template <int Dim>
-class OverlapTree {
+class BoxTree {
  public:
   using Box = Eigen::AlignedBox<double, Dim>;
 
-  explicit OverlapTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
+  explicit BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
     std::iota(order_.begin(), order_.end(), 0);
     nodes_.reserve(boxes_.size());
     if (!boxes_.empty()) build(0, static_cast<Index>(boxes_.size()));
@@ -31,6 +33,15 @@ class OverlapTree {
     return !nodes_.empty() && search(0, query, visit);
   }
 
+  //! \param distance_to  of an element from the point: distance_to(element) -> double
+  //! \return the nearest element; ties go to the smallest index; -1 if there is none
+  template <class DistanceTo>
+  Index nearest(const Vector<Dim>& point, const DistanceTo& distance_to) const {
+    Nearest<DistanceTo> search{*this, point, distance_to};
+    if (!nodes_.empty()) search.visit(0);
+    return search.element;
+  }
+
  private:
   static constexpr Index kLeafSize = 4;
 
@@ -38,6 +49,45 @@ class OverlapTree {
   struct Node {
     Box box;
     Index begin, end, second;
+  };
+
+  template <class DistanceTo>
+  struct Nearest {
+    const BoxTree& tree;
+    const Vector<Dim>& point;
+    const DistanceTo& distance_to;
+    Index element = -1;
+    double distance = std::numeric_limits<double>::infinity();
+
+    double distance_to_box(Index number) const {
+      const Box& box = tree.nodes_[number].box;
+      return (point.cwiseMax(box.min()).cwiseMin(box.max()) - point).norm();
+    }
+
+    void visit(Index number) {
+      const Node& node = tree.nodes_[number];
+      if (node.second < 0) {
+        for (Index k = node.begin; k < node.end; ++k) consider(tree.order_[k]);
+        return;
+      }
+      Index near = number + 1, far = node.second;
+      double to_near = distance_to_box(near), to_far = distance_to_box(far);
+      if (to_far < to_near) {
+        std::swap(near, far);
+        std::swap(to_near, to_far);
+      }
+      if (to_near <= distance) visit(near);
+      if (to_far <= distance) visit(far);
+    }
+
+    void consider(Index candidate) {
+      const double found = distance_to(candidate);
+      const bool is_nearer = found < distance || (found == distance && candidate < element);
+      // A distance that overflows is infinite.
+      if (element >= 0 && !is_nearer) return;
+      distance = found;
+      element = candidate;
+    }
   };
 
   Index build(Index begin, Index end) {
@@ -78,11 +128,22 @@ class OverlapTree {
   std::vector<Node> nodes_;
 };
 
+//! The boxes of facets or other lists of corners. \param corners  K x E
+template <int Dim, int K>
+std::vector<Eigen::AlignedBox<double, Dim>> boxes_of(const PointList<Dim>& points,
+                                                     const FacetList<K>& corners) {
+  std::vector<Eigen::AlignedBox<double, Dim>> boxes(corners.cols());
+  for (Index e = 0; e < corners.cols(); ++e) {
+    for (int k = 0; k < K; ++k) boxes[e].extend(Vector<Dim>(points.col(corners(k, e))));
+  }
+  return boxes;
+}
+
 //! Pairs f < g of boxes within the distance of each other, in ascending order.
 template <int Dim>
 std::vector<std::pair<Index, Index>> close_pairs(
     const std::vector<Eigen::AlignedBox<double, Dim>>& boxes, double distance) {
-  const OverlapTree<Dim> tree(boxes);
+  const BoxTree<Dim> tree(boxes);
   const Vector<Dim> margin = Vector<Dim>::Constant(distance);
   std::vector<std::pair<Index, Index>> pairs;
   for (Index f = 0; f < static_cast<Index>(boxes.size()); ++f) {
