@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Gmpq.h>
+#include <CGAL/Exact_rational.h>
 #include <CGAL/Simple_cartesian.h>
 
 #include "base/messages.h"
@@ -26,7 +26,7 @@ namespace {
 
 // Fractions alone compile in half the time of the kernel that also keeps intervals, which is faster
 // only for tens of thousands of facets.
-using ExactKernel = CGAL::Simple_cartesian<CGAL::Gmpq>;
+using ExactKernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
 template <int Dim>
 using ExactPoint = std::conditional_t<Dim == 2, ExactKernel::Point_2, ExactKernel::Point_3>;
 using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<ExactKernel, CGAL::Default,

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <CGAL/Bbox_3.h>
-#include <CGAL/Gmpq.h>
+#include <CGAL/Exact_rational.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/intersections.h>
 
@@ -20,7 +20,7 @@ namespace flbc {
 namespace {
 
 // Compiles faster than the kernel that computes exactly only when it must. Few pairs are described.
-using ExactKernel = CGAL::Simple_cartesian<CGAL::Gmpq>;
+using ExactKernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
 using FacetPair = std::pair<Index, Index>;
 
 template <int Dim>
