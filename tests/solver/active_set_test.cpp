@@ -176,7 +176,7 @@ Solution run_on_tight(const LbcProblem<Dim>& problem, double tolerance, bool hal
   };
   active_set::Parameters parameters;
   parameters.penalty = start.penalty;
-  parameters.relaxation = settings.relaxation;
+  parameters.relaxation = *settings.relaxation;
   parameters.half = half;
   active_set::ActiveSplitting<Scalar, Dim> iteration(problem,
                                                      splitting::measure_metric(problem, true),
@@ -187,7 +187,7 @@ Solution run_on_tight(const LbcProblem<Dim>& problem, double tolerance, bool hal
   const Observer nobody;
   const Reporter reporter(nobody);
   SolveReport report;
-  run<Dim>(iteration, state, {problem, settings, {}, reporter}, report);
+  run<Dim>(iteration, state, {problem, settings, reporter}, report);
   iteration.describe(report);
   return {iteration.weights().sparse, std::move(report)};
 }

@@ -110,7 +110,7 @@ TEST(GapCriterion, TheDefaultOneWaitsForWeightsThatStillMoveFar) {
     iteration.gap = gap;
     SolverOptions options;
     options.gap = wanted;
-    return GapCriterion().is_met(plan::settings_of(options).gap, iteration, 500, false, error);
+    return GapCriterion().is_met(plan::settings_of(options), iteration, 500, false, error);
   };
   EXPECT_TRUE(ends({}, 9e-4, 5));
   EXPECT_FALSE(ends({}, 9e-4, 50));

@@ -53,9 +53,9 @@ void require_valid_setup(const SolverOptions& options, bool has_mesher) {
 template <int Dim>
 void require_objective(const LbcProblem<Dim>& problem, const plan::Settings& settings) {
   check_phi(problem.phi, problem.num_control_points(), problem.mesh.num_cells());
-  if (problem.smoothness != settings.smoothness) {
+  if (problem.smoothness != *settings.smoothness) {
     throw OptionError("the problem was made with smoothness " + format_number(problem.smoothness) +
-                      ", and the options say " + format_number(settings.smoothness));
+                      ", and the options say " + format_number(*settings.smoothness));
   }
 }
 
@@ -186,10 +186,10 @@ void require_points_for(const Cage<Dim>& cage, const PointList<Dim>& control_poi
 
 // Options that stay the same during a run. All others take effect when it resumes, except phi and
 // distances, which cannot change. Names all options, so that a new one cannot be forgotten.
-auto fixed_in_a_run(const plan::Settings& settings) {
+auto fixed_in_a_run(const SolverOptions& options) {
   const auto& [method, phi, smoothness, distances, precision, non_negative, linear_solver,
                coarse_to_fine, coarse_levels, tolerance, gap, active_set, max_iterations, penalty,
-               relaxation, certify, threads] = settings;
+               relaxation, certify, threads] = resolve(options);
   return std::tuple(method, smoothness, precision, non_negative, linear_solver, coarse_to_fine,
                     coarse_levels.coarsest, active_set, penalty, relaxation);
 }
@@ -266,7 +266,7 @@ struct Solver<Dim>::State {
     auto& problem = other->problem;
     problem =
         make_geometry(other->cage, other->mesh, shape->problem.topology, shape->problem.boundary);
-    problem.smoothness = settings.smoothness;
+    problem.smoothness = *settings.smoothness;
     other->run.emplace(problem);
     other->distances = shape->distances;
     auto distances = moving_distances ? (*moving_distances)(problem, settings, other->distances)
@@ -389,8 +389,7 @@ void Solver<Dim>::set_options(const SolverOptions& options) {
     throw OptionError(
         "phi and distances cannot be changed once the problem is set up; make another Solver");
   }
-  if (fixed_in_a_run(plan::settings_of(options)) != fixed_in_a_run(plan::settings_of(present)))
-    restart();
+  if (fixed_in_a_run(options) != fixed_in_a_run(present)) restart();
   state_->coarse.clear();  // made for the previous options
   present = options;
   state_->shape->problem.smoothness = options.smoothness.value_or(0);

@@ -65,7 +65,7 @@ splitting::Parameters common_parameters(const LbcProblem<Dim>& problem,
                                         const plan::Settings& settings, double penalty) {
   splitting::Parameters parameters;
   parameters.penalty = settings.penalty.value_or(penalty);
-  parameters.relaxation = settings.relaxation;
+  parameters.relaxation = *settings.relaxation;
   parameters.linear_solver = plan::linear_solver(plan::sizes_of(problem), settings);
   return parameters;
 }
@@ -123,7 +123,7 @@ std::unique_ptr<Iteration<Dim>> make_gradient(const LbcProblem<Dim>& problem,
                                               const plan::Settings& settings) {
   gradient::Parameters parameters;
   parameters.penalty = gradient_penalty(problem, settings);
-  parameters.relaxation = settings.relaxation;
+  parameters.relaxation = *settings.relaxation;
   parameters.harmonic =
       settings.method == Method::kGradient && settings.linear_solver != LinearSolver::kNone;
   parameters.breadth_first =
@@ -166,7 +166,7 @@ bool MethodRun<Dim>::begin_on_active_set(const plan::Settings& settings,
   }
   auto active = cold ? std::move(harmonic.active)
                      : active_set::active_from(*problem_, *start.from,
-                                               active_set::threshold_for(settings.tolerance));
+                                               active_set::threshold_for(*settings.tolerance));
   if (!plan::active_set_pays(active_set::density(*problem_, active), settings)) return false;
   const auto from = cold ? harmonic.start : start.from->start();
   auto parameters = value_parameters(*problem_, settings, start.from);
@@ -220,8 +220,8 @@ Weights MethodRun<Dim>::solve(const plan::Settings& given, const Reporter& repor
     }
   }
   if (start.started) start.started();
-  run(*iteration_, state_,
-      {*problem_, settings, is_active_ ? plan::GapTarget{} : settings.gap, reporter}, report);
+  if (is_active_) settings.gap = 0;
+  run(*iteration_, state_, {*problem_, settings, reporter}, report);
   iteration_->describe(report);
   report.seconds.solve = watch.lap();
   auto weights = iteration_->weights();

@@ -21,7 +21,7 @@ bool solve_level(CoarseProblem<Dim>& level, const CoarseProblem<Dim>* below, int
                  const plan::Settings& given, const Reporter& reporter, Duals<Dim>& duals) {
   Stopwatch watch;
   auto settings = given;
-  settings.tolerance *= plan::kLooseness;
+  *settings.tolerance *= plan::kLooseness;
   std::optional<Transfer<Dim>> transfer;
   if (below != nullptr) transfer.emplace(below->problem, duals, level.problem);
   SolveReport report;
@@ -31,7 +31,7 @@ bool solve_level(CoarseProblem<Dim>& level, const CoarseProblem<Dim>* below, int
             {transfer ? &*transfer : nullptr, level.cold ? &*level.cold : nullptr, started, true});
   // An active set on the finer mesh reads duals only near nonzero weights.
   const bool on_active_set = plan::active_set(plan::sizes_of(level.problem), given);
-  duals = run.duals(on_active_set ? active_set::threshold_for(given.tolerance) : 0);
+  duals = run.duals(on_active_set ? active_set::threshold_for(*given.tolerance) : 0);
   level.problem.phi = {};  // finer levels have their own
   level.report.iterations = report.iterations;
   level.report.solve_seconds = watch.lap();

@@ -85,7 +85,7 @@ DistanceMatrix choose_distances(const CoarseProblem<Dim>& coarse, const LbcProbl
   const double error = check_on_sample(problem, settings.phi, coarse.reach, distances);
   const double change = plan::kWeightsOfPhi * error * error;
   if (settings.distances == Distances::kAuto &&
-      change > plan::kPartOfTolerance * settings.tolerance) {
+      change > plan::kPartOfTolerance * *settings.tolerance) {
     report = {};
     return distances_for(settings.phi, problem);
   }

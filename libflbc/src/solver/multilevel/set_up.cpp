@@ -53,7 +53,7 @@ bool is_convex(const Cage<Dim>& cage) {
 // check of interpolated distances does not predict this.
 template <int Dim>
 bool needs_exact_distances(const Cage<Dim>& cage, const plan::Settings& settings) {
-  return settings.distances == Distances::kAuto && settings.tolerance < plan::kConvexTolerance &&
+  return settings.distances == Distances::kAuto && *settings.tolerance < plan::kConvexTolerance &&
          is_convex(cage);
 }
 
@@ -67,7 +67,7 @@ CoarsePlan plan_coarse(const Cage<Dim>& cage, Index vertices, const plan::Settin
   const bool interpolates = plan::interpolates_distances(sizes, settings, starts) &&
                             !needs_exact_distances(cage, settings);
   if (interpolates && !starts) {
-    coarse = {plan::distances_mesh_size(sizes.vertices, settings.tolerance)};
+    coarse = {plan::distances_mesh_size(sizes.vertices, *settings.tolerance)};
   }
   return {std::move(coarse), {starts, interpolates}};
 }
@@ -114,7 +114,7 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const plan::Settings& se
                         ? make_geometry(std::move(cage), std::move(mesh))
                         : make_geometry(std::move(cage), std::move(mesh), *topology)};
   auto& [problem, coarse, report, seconds] = result;
-  problem.smoothness = settings.smoothness;
+  problem.smoothness = *settings.smoothness;
   coarse = make_coarse_problems(problem, begun_mesher, sizes, settings, use);
   {
     const StageScope scope(reporter.stage(Stage::kDistances));

@@ -19,7 +19,7 @@ constexpr Index kMostActiveControlPoints = 65000;
 bool gains_by_coarse_start(const Sizes& sizes, const Settings& settings) {
   const bool is_open =
       settings.coarse_to_fine == CoarseToFine::kAuto && !settings.coarse_levels.coarsest;
-  return sizes.dim == 2 || !is_open || settings.tolerance >= kCoarseStartTolerance ||
+  return sizes.dim == 2 || !is_open || *settings.tolerance >= kCoarseStartTolerance ||
          active_set(sizes, settings);
 }
 
@@ -42,8 +42,8 @@ LinearSolver linear_solver(const Sizes& sizes, const Settings& settings) {
 
 bool half_precision(Index cells, const Settings& settings) {
   return settings.method == Method::kValue && settings.precision == Precision::kAuto &&
-         settings.tolerance >= kHalfIsEnough && cells >= kHalfCells &&
-         settings.smoothness <= kHalfSmoothness;
+         *settings.tolerance >= kHalfIsEnough && cells >= kHalfCells &&
+         *settings.smoothness <= kHalfSmoothness;
 }
 
 bool active_set(const Sizes& sizes, const Settings& settings) {
@@ -55,7 +55,7 @@ bool active_set(const Sizes& sizes, const Settings& settings) {
 }
 
 bool proves(const Settings& settings) {
-  return settings.certify || (settings.gap.gap > 0 && !settings.gap.settles);
+  return settings.certify || (*settings.gap > 0 && !settings.gap_settles);
 }
 
 bool active_set_pays(double density, const Settings& settings) {
@@ -92,7 +92,7 @@ std::vector<Index> coarse_sizes(const Sizes& sizes, const Settings& settings) {
 bool interpolates_distances(const Sizes& sizes, const Settings& settings, bool has_coarse_mesh) {
   if (settings.phi == DistanceScheme::kConstant) return false;
   if (settings.distances != Distances::kAuto) return settings.distances == Distances::kInterpolated;
-  if (settings.method != Method::kValue || settings.tolerance < kInterpolatedTolerance)
+  if (settings.method != Method::kValue || *settings.tolerance < kInterpolatedTolerance)
     return false;
   return has_coarse_mesh || (sizes.dim == 3 && sizes.vertices >= kInterpolatedVertices);
 }
@@ -113,7 +113,7 @@ double published_penalty(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, Met
   validate(options);
   check_elements(cage.points, cage.facets, kCageNames);
   check_elements(mesh.points, mesh.cells, kMeshNames);
-  if (method == Method::kAuto) method = plan::settings_of({}).method;
+  if (method == Method::kAuto) method = resolve({}).method;
   const double size = plan::published_scale(mesh) * bounding_box_diagonal(cage.points);
   return penalty / plan::penalty_unit(method, Dim, size);
 }

@@ -20,13 +20,9 @@ NonNegative choose_non_negative(Method method, NonNegative given) {
   }
 }
 
-// The default gap waits for settled weights. A gap that is asked for means what it says.
-plan::GapTarget choose_gap(const SolverOptions& options, Method method, NonNegative non_negative) {
-  if (options.gap) return {*options.gap, false};
+bool has_default_gap(const SolverOptions& options, Method method, NonNegative non_negative) {
   const bool by_default = method == Method::kValue || method == Method::kGradient;
-  const bool proves = non_negative != NonNegative::kOff;
-  if (!by_default || !proves || options.tolerance) return {};
-  return {plan::kGap, true};
+  return by_default && non_negative != NonNegative::kOff && !options.gap && !options.tolerance;
 }
 
 double choose_relaxation(Method method, bool has_penalty) {
@@ -45,29 +41,22 @@ double choose_relaxation(Method method, bool has_penalty) {
 }  // namespace
 
 plan::Settings plan::settings_of(const SolverOptions& options) {
+  Settings settings{options};
   const auto method = options.method == Method::kAuto ? Method::kValue : options.method;
-  const auto non_negative = choose_non_negative(method, options.non_negative);
-  auto coarse_levels = options.coarse_levels;
-  if (options.coarse_to_fine == CoarseToFine::kOn && !coarse_levels.coarsest) {
-    coarse_levels.coarsest = kCoarsest;
+  settings.method = method;
+  settings.smoothness = options.smoothness.value_or(0);
+  settings.non_negative = choose_non_negative(method, options.non_negative);
+  if (options.coarse_to_fine == CoarseToFine::kOn && !options.coarse_levels.coarsest) {
+    settings.coarse_levels.coarsest = kCoarsest;
   }
-  return {method,
-          options.phi,
-          options.smoothness.value_or(0),
-          options.distances,
-          options.precision,
-          non_negative,
-          options.linear_solver,
-          options.coarse_to_fine,
-          coarse_levels,
-          options.tolerance.value_or(method == Method::kGradient ? kGradientTolerance : kTolerance),
-          choose_gap(options, method, non_negative),
-          options.active_set,
-          options.max_iterations,
-          options.penalty,
-          options.relaxation.value_or(choose_relaxation(method, options.penalty.has_value())),
-          options.certify,
-          options.threads};
+  settings.tolerance =
+      options.tolerance.value_or(method == Method::kGradient ? kGradientTolerance : kTolerance);
+  // The default gap waits for settled weights. A gap that is asked for means what it says.
+  settings.gap_settles = has_default_gap(options, method, settings.non_negative);
+  settings.gap = options.gap.value_or(settings.gap_settles ? kGap : 0);
+  settings.relaxation =
+      options.relaxation.value_or(choose_relaxation(method, options.penalty.has_value()));
+  return settings;
 }
 
 void make_smooth(SolverOptions& options) {
@@ -77,15 +66,7 @@ void make_smooth(SolverOptions& options) {
 }
 
 SolverOptions resolve(SolverOptions options) {
-  const auto settings = plan::settings_of(options);
-  options.method = settings.method;
-  options.non_negative = settings.non_negative;
-  options.coarse_levels = settings.coarse_levels;
-  options.gap = settings.gap.gap;
-  options.tolerance = settings.tolerance;
-  options.relaxation = settings.relaxation;
-  options.smoothness = settings.smoothness;
-  return options;
+  return plan::settings_of(options);
 }
 
 }  // namespace flbc

@@ -7,32 +7,11 @@
 
 namespace flbc::plan {
 
-//! The gap that ends a run.
-struct GapTarget {
-  double gap = 0;        //!< relative; 0 = none
-  bool settles = false;  //!< whether it also waits until the weights hardly move (kSettled), unless
-                         //!< the gap is very small (kSmallGap)
-};
-
-//! SolverOptions without automatic values. The fields have the meaning they have there.
-struct Settings {
-  Method method;
-  DistanceScheme phi;
-  double smoothness;
-  Distances distances;
-  Precision precision;
-  NonNegative non_negative;
-  LinearSolver linear_solver;
-  CoarseToFine coarse_to_fine;
-  CoarseLevels coarse_levels;
-  double tolerance;
-  GapTarget gap;
-  ActiveSet active_set;
-  int max_iterations;
-  std::optional<double> penalty;
-  double relaxation;
-  bool certify;
-  int threads;
+//! Options in which every field has a value, except for a penalty that is chosen from the mesh.
+struct Settings : SolverOptions {
+  //! Whether the gap waits until the weights hardly move (kSettled), unless it is very small
+  //! (kSmallGap).
+  bool gap_settles = false;
 };
 
 //! \param options  valid

@@ -40,7 +40,7 @@ bool is_finished(const Iteration<Dim>& iteration, RunState<Dim>& state,
   report.criterion = Criterion::kTolerance;
   if (converged) return true;
   report.criterion = Criterion::kGap;
-  if (state.gap.is_met(context.gap, iteration, state.made, last, report.primal_residual)) {
+  if (state.gap.is_met(context.settings, iteration, state.made, last, report.primal_residual)) {
     return true;
   }
   report.criterion = Criterion::kNone;
@@ -68,7 +68,7 @@ double unscaled(const LbcProblem<Dim>& problem, double objective) {
 template <int Dim>
 void run(Iteration<Dim>& iteration, RunState<Dim>& state, const RunContext<Dim>& context,
          SolveReport& report) {
-  const double tolerance = context.settings.tolerance;
+  const double tolerance = *context.settings.tolerance;
   const int before = state.made;
   const int limit =
       before + std::min(context.settings.max_iterations, std::numeric_limits<int>::max() - before);

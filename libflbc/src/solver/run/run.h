@@ -21,14 +21,14 @@ class GapCriterion {
   //! tolerance
   //! \return whether the target is met
   template <int Dim>
-  bool is_met(const plan::GapTarget& target, const Iteration<Dim>& iteration, int made, bool last,
+  bool is_met(const plan::Settings& settings, const Iteration<Dim>& iteration, int made, bool last,
               double error) {
     const bool due = made >= next_;
-    if (target.gap == 0 || !(due || (last && made >= plan::kFirstCertified))) return false;
+    if (*settings.gap == 0 || !(due || (last && made >= plan::kFirstCertified))) return false;
     if (due) next_ = static_cast<int>(plan::kCertifiedGrowth * made);
     const double gap = iteration.certify(iteration.weights().to_dense()).relative_gap;
-    const bool waits = target.settles && error > plan::kSettled;
-    return gap <= (waits ? plan::kSmallGap : target.gap);
+    const bool waits = settings.gap_settles && error > plan::kSettled;
+    return gap <= (waits ? plan::kSmallGap : *settings.gap);
   }
 
  private:
@@ -50,7 +50,6 @@ template <int Dim>
 struct RunContext {
   const LbcProblem<Dim>& problem;
   const plan::Settings& settings;  //!< resolved
-  const plan::GapTarget gap;       //!< instead of that of the settings
   const Reporter& reporter;
 };
 
