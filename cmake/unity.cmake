@@ -4,10 +4,9 @@
 include_guard(DIRECTORY)
 option(FLBC_UNITY_BUILD "Compile the files of a folder together" ON)
 
-# For files that run once per command, not once per iteration: -O1 compiles a fifth faster. For the
-# web, small code counts.
+# For files that run once per command, not once per iteration: -O1 compiles a fifth faster.
 function(flbc_optimise_lightly target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:$<IF:$<BOOL:${EMSCRIPTEN}>,-Os,-O1>>)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # \param most  maximum number of files in one unit

@@ -90,6 +90,10 @@ const pyramid = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 5\nf 2 3 5\n
 await assert.rejects(flbc.readCage("open.obj", new TextEncoder().encode(pyramid)),
                      (error) => error.name === "DefectiveCage" && error.controlPoints.length > 0);
 
+const small = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+await flbc.readCage("small.obj", new TextEncoder().encode(small));
+await assert.rejects(flbc.makeMesh(), { name: "InputError", message: /limb.obj: \d+ of 3352 vertices are outside the cage.*; enlarge the cage/ });
+
 // A long call is cancelled at once; then everything works as before.
 const pending = flbc.makeCage({ controlPoints: 300 });
 await new Promise((done) => setTimeout(done, 100));

@@ -222,6 +222,13 @@ async function testShapes() {
   await app.shown();
   await app.moveOne(30, 20);
   await app.shot("narrow_picture");
+
+  // A drawing that a picture fills.
+  await app.drop([svg, picture]);
+  await app.tab.waitForFunction(() => document.title.startsWith("shape"), { timeout: 60000 });
+  await app.shown();
+  assert.equal(await app.tab.$eval("#coloring", (select) => select.value), "texture");
+  await app.shot("narrow_filled");
   await app.close();
 }
 

@@ -132,9 +132,11 @@ class App {
     const isMain = (file) => /\.(obj|ply|stl|off|glb|gltf|svg|png|jpe?g)$/i.test(file.name);
     const main = files.find((file) => /\.(obj|ply|stl|off|glb|gltf)$/i.test(file.name)) ?? files.find(isMain);
     if (!main) throw new Error(`${files[0].name}: unknown file format; drop a .glb, .gltf, .obj, .ply, .stl, .off, .svg, .png, or .jpg`);
+    const pictures = files.filter((file) => file !== main && /\.(png|jpe?g)$/i.test(file.name));
+    const picture = pictures.length === 1 ? (await decodePicture(pictures[0])).address : "";
     const stem = main.name.replace(/\.[^.]*$/, "");
     if (/\.svg$/i.test(main.name)) {
-      return { name: `${stem}.obj`, bytes: new TextEncoder().encode(svgToObj(await main.text())), files: {} };
+      return { name: `${stem}.obj`, bytes: new TextEncoder().encode(svgToObj(await main.text())), files: {}, picture };
     }
     if (/\.(png|jpe?g)$/i.test(main.name)) {
       const { bytes, address } = await decodePicture(main);
@@ -142,7 +144,7 @@ class App {
     }
     const others = {};
     for (const file of files) if (file !== main) others[file.name] = await file.arrayBuffer();
-    return { name: main.name, bytes: await main.arrayBuffer(), files: others };
+    return { name: main.name, bytes: await main.arrayBuffer(), files: others, picture };
   }
 
   // Another cage for the model. \param make  makes it

@@ -33,6 +33,19 @@ app::Mask read_mask(const std::string& file) {
   return mask;
 }
 
+void spread_picture(io::Model& model, const Vector<2>& low, const Vector<2>& high) {
+  auto& attributes = model.attributes;
+  attributes.texture_coordinates.resize(2, static_cast<Eigen::Index>(model.soup.points.size()));
+  for (std::size_t p = 0; p < model.soup.points.size(); ++p) {
+    attributes.texture_coordinates.col(static_cast<Eigen::Index>(p)) =
+        (model.soup.points[p].head<2>() - low).cwiseQuotient(high - low);
+  }
+  for (const auto& polygon : model.soup.polygons) {
+    auto& corners = attributes.corners.emplace_back();
+    for (const Index p : polygon) corners.push_back({p, -1});
+  }
+}
+
 io::Model grid_of_picture(const app::Mask& mask) {
   constexpr Index kSquares = 96;  // along the longer side
   const Index step =
@@ -61,17 +74,7 @@ io::Model grid_of_picture(const app::Mask& mask) {
           {corner(x, y), corner(x + step, y), corner(x + step, y + step), corner(x, y + step)});
     }
   }
-  auto& attributes = model.attributes;
-  attributes.texture_coordinates.resize(2, static_cast<Eigen::Index>(model.soup.points.size()));
-  for (std::size_t p = 0; p < model.soup.points.size(); ++p) {
-    const auto& point = model.soup.points[p];
-    attributes.texture_coordinates.col(static_cast<Eigen::Index>(p)) << point.x() / mask.width,
-        point.y() / mask.height;
-  }
-  for (const auto& polygon : model.soup.polygons) {
-    auto& corners = attributes.corners.emplace_back();
-    for (const Index p : polygon) corners.push_back({p, -1});
-  }
+  spread_picture(model, {0, 0}, {mask.width, mask.height});
   return model;
 }
 

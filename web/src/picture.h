@@ -14,6 +14,9 @@ bool is_picture(const std::string& file);
 //! \throws InputError
 app::Mask read_mask(const std::string& file);
 
+//! Texture coordinates for a picture between two corners.
+void spread_picture(io::Model& model, const Vector<2>& low, const Vector<2>& high);
+
 //! Squares that cover what is to be seen, with texture coordinates.
 io::Model grid_of_picture(const app::Mask& mask);
 

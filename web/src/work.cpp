@@ -66,7 +66,9 @@ io::Model fill(const app::ModelFacets<2>& outline) {
   constexpr Index kVertices = 2000;
   const Cage<2> polygon{outline.points, outline.facets};
   const auto mesh = app::make_domain<2>({polygon, "the polygon", kVertices}).mesh;
-  return {io::to_polygons(mesh)};
+  io::Model model{io::to_polygons(mesh)};
+  spread_picture(model, outline.points.rowwise().minCoeff(), outline.points.rowwise().maxCoeff());
+  return model;
 }
 
 #ifdef FLBC_WITH_CGAL
