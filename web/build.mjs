@@ -40,7 +40,7 @@ function page(assets) {
   const names = /set\(page_modules\s+([^)]*)\)/.exec(read("../apps/view/CMakeLists.txt"))[1].trim().split(/\s+/);
   const script = joined([...names.map((name) => `${view}${name}.mjs`), "js/flbc.mjs", "page/reshaping.mjs",
                          "page/shapes.mjs", "page/cage_edits.mjs", "page/app.mjs"]);
-  const samples = Object.fromEntries(["2d/figure", "3d/limb", "3d/star"].map((name) => [
+  const samples = Object.fromEntries(["2d/figure", "3d/limb", "3d/torus"].map((name) => [
     `${name.slice(3)}.obj`, packed(readFileSync(at(`../meshes/${name}_model.obj`)))]));
   const source = address ? `<a href="${address}">source code</a>` : "whoever gave you this page offers its source code";
   const app = read("page/app.html").replace("{{version}}", version).replace("{{source}}", source);

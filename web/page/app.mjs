@@ -9,7 +9,7 @@ import { cageToObj, mergePoints, splitEdge } from "./cage_edits.mjs";
 import { bindReshaping, Reshaper } from "./reshaping.mjs";
 import { decodePicture, Sketch, svgToObj } from "./shapes.mjs";
 
-const kSamples = { "Figure (2D)": "figure.obj", Limb: "limb.obj", Star: "star.obj" };
+const kSamples = { "Figure (2D)": "figure.obj", Limb: "limb.obj", Torus: "torus.obj" };
 const kVertices = 6000;   // of the mesh of the interior
 const kMoves = 1e-4;      // of the cage size: less is no movement
 const kScreens = ["start", "busy", "drawing"];
@@ -50,9 +50,11 @@ class App {
 
   // While the visitor looks for a file, the browser compiles what it will need.
   async warmUp() {
+    this.isWarmingUp = true;
     try {
       await this.flbc.warmUp("limb.obj", await unpacked(globalThis.flbcSamples["limb.obj"]));
     } catch { /* a visitor was faster */ }
+    this.isWarmingUp = false;
   }
 
   goTo(screen) {
@@ -83,6 +85,7 @@ class App {
     };
     try {
       await this.started;
+      if (this.isWarmingUp) await this.flbc.cancel();
       await steps(onProgress);
       return true;
     } catch (error) {
@@ -249,7 +252,7 @@ class App {
       onState();
       this.timer ??= setTimeout(() => {
         this.timer = null;
-        this.showShare();
+        if (this.view) this.showShare();
       }, 150);
     };
     this.showShare();
