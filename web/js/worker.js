@@ -43,6 +43,7 @@ async function answer({ id, name, given }) {
   } catch (error) {
     reply = { error: { kind: "Crash", message: `the module failed: ${error.message ?? error}` } };
   }
+  if (name === "solve") glue.copyMemory = undefined;  // no mesher comes after it
   port.postMessage({ id, ...reply }, buffersOf(reply.result));
 }
 

@@ -376,7 +376,6 @@ class App {
     element("model").addEventListener("change", ({ target }) => { if (target.files.length) this.open(target.files); });
     window.addEventListener("keydown", (event) => this.key(event), true);
     for (const name of ["dragover", "dragleave", "drop"]) window.addEventListener(name, (event) => this.dragged(event));
-    document.documentElement.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
   }
 
   // Keys of the view do nothing while another screen is there.

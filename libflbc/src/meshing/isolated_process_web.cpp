@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // WebAssembly has no processes. A second instance of the module takes their place: it gets a copy
-// of the memory, and whatever happens to it, the first one is intact. The functions of the glue
-// code work on the memory of the second instance meanwhile. The program that starts the module
-// keeps it as Module.wasmModule, and its imports as Module.wasmImports. A time limit has no effect,
-// because there is one thread; the page ends the worker instead.
+// of the memory, which the module must import (-sIMPORTED_MEMORY), and whatever happens to it, the
+// first one is intact. The functions of the glue code work on the memory of the second instance
+// meanwhile. The program that starts the module keeps it as Module.wasmModule, and its imports as
+// Module.wasmImports. A time limit has no effect, because there is one thread; the page ends the
+// worker instead.
 #include <emscripten.h>
+#include <emscripten/heap.h>
 #include <emscripten/stack.h>
 
 #include <cstdint>
@@ -15,15 +17,23 @@
 extern "C" void stackRestore(std::uintptr_t pointer);
 
 // clang-format off
-EM_JS(int, flbc_run_in_copy, (int entry, std::uintptr_t stack, const void* work), {
+EM_JS(int, flbc_run_in_copy, (int entry, std::uintptr_t stack, const void* work, std::size_t most), {
   const parent = wasmMemory;
-  const instance = new WebAssembly.Instance(Module["wasmModule"], Module["wasmImports"]);
-  const exported = (kind) => Object.values(instance.exports).find((item) => item instanceof kind);
-  const copy = exported(WebAssembly.Memory);
-  const kPage = 65536;
-  const missing = parent.buffer.byteLength - copy.buffer.byteLength;
-  if (missing > 0) copy.grow(missing / kPage);
-  new Uint8Array(copy.buffer).set(HEAPU8);
+  const pages = (memory) => memory.buffer.byteLength / 65536;
+  // One memory serves all copies, because nobody knows when the engine would free others.
+  const copy = Module["copyMemory"] ??= new WebAssembly.Memory(
+    { initial: pages(parent), maximum: Math.floor((most >>> 0) / 65536) });
+  if (pages(copy) < pages(parent)) copy.grow(pages(parent) - pages(copy));
+  const imports = {};
+  for (const [name, items] of Object.entries(Module["wasmImports"])) {
+    imports[name] = Object.fromEntries(Object.entries(items).map(
+      ([key, item]) => [key, item instanceof WebAssembly.Memory ? copy : item]));
+  }
+  const instance = new WebAssembly.Instance(Module["wasmModule"], imports);
+  const table = Object.values(instance.exports).find((item) => item instanceof WebAssembly.Table);
+  const bytes = new Uint8Array(copy.buffer);
+  bytes.set(HEAPU8);
+  bytes.fill(0, HEAPU8.length);
   const use = (memory) => {
     wasmMemory = memory;
     updateGlobalBufferAndViews(memory.buffer);
@@ -31,11 +41,12 @@ EM_JS(int, flbc_run_in_copy, (int entry, std::uintptr_t stack, const void* work)
   Module["sentParts"] = [];
   use(copy);
   try {
-    return exported(WebAssembly.Table).get(entry)(stack, work);
+    return table.get(entry)(stack, work);
   } catch (error) {
     return error instanceof WebAssembly.Exception ? 1 : -1;
   } finally {
     use(parent);
+    if (pages(copy) > 4 * pages(parent)) Module["copyMemory"] = undefined;
   }
 });
 
@@ -84,8 +95,9 @@ int enter_copy(std::uintptr_t stack, const Work* work) {
 
 ProcessOutcome run_isolated(const Work& work, double) {
   ProcessOutcome outcome;
-  const int end = flbc_run_in_copy(static_cast<int>(reinterpret_cast<std::uintptr_t>(&enter_copy)),
-                                   emscripten_stack_get_current(), &work);
+  const int end =
+      flbc_run_in_copy(static_cast<int>(reinterpret_cast<std::uintptr_t>(&enter_copy)),
+                       emscripten_stack_get_current(), &work, emscripten_get_heap_max());
   if (end == kOutOfMemory) throw std::bad_alloc();
   if (end != kDone) outcome.end = end == kThrew ? ProcessEnd::kThrew : ProcessEnd::kCrashed;
   outcome.output.resize(flbc_sent_size());
