@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc run: from a cage, a model and poses to everything that can be made of them.
+#include <omp.h>
+
 #include <chrono>
+#include <future>
 #include <iostream>
 #include <memory>
 #include <utility>
@@ -54,30 +57,63 @@ void naming_step(const std::string& step, const Action& action) {
   }
 }
 
+// What the steps report, in this order. Steps at the same time write to different ones.
+constexpr const char* kSteps[] = {"cage",   "mesh",   "solve",  "check",    "sparsify",
+                                  "deform", "border", "export", "pictures", "page"};
+
 template <int Dim>
-struct Step {
-  const char* name;
-  void (*take)(Run<Dim>&);
-};
+void take(Run<Dim>& run, const char* name, void (*step)(Run<Dim>&)) {
+  const auto start = std::chrono::steady_clock::now();
+  naming_step(name, [&] { step(run); });
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  auto& sum = run.report["seconds"][name];
+  sum = sum.template get<double>() + seconds.count();
+}
+
+// Those that draw and check, which need one thread, while others reduce influences by all.
+template <int Dim>
+void take_steps_beside(Run<Dim>& run, std::future<void> deformed) {
+  omp_set_num_threads(1);
+  take(run, "check", check_weights_of_mesh);
+  take(run, "pictures", draw_function);
+  deformed.get();
+  take(run, "pictures", draw_shape);
+  take(run, "page", write_page);
+}
 
 template <int Dim>
 void take_steps(Run<Dim>& run) {
-  const Step<Dim> steps[] = {
-      {"cage", deliver_cage},           {"mesh", mesh_interior},         {"solve", compute_weights},
-      {"check", check_weights_of_mesh}, {"sparsify", reduce_influences}, {"deform", deform_shape},
-      {"export", export_shape},         {"pictures", draw_pictures},     {"page", write_page},
-  };
-  for (const auto& [name, take] : steps) {
-    const auto start = std::chrono::steady_clock::now();
-    naming_step(name, [&, step = take] { step(run); });
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    run.report["seconds"][name] = seconds.count();
+  for (const char* name : kSteps) {
+    run.report[name] = nullptr;
+    run.report["seconds"][name] = 0.0;
   }
-  auto& report = run.report["seconds"];
-  report["cage"] = report["cage"].template get<double>() + run.arguments.caging_seconds;
+  run.report["seconds"]["cage"] = run.arguments.caging_seconds;
+  take(run, "cage", deliver_cage);
+  take(run, "mesh", mesh_interior);
+  take(run, "solve", compute_weights);
+  std::future<void> beside;     // waits when it goes out of scope
+  std::promise<void> deformed;  // breaks before that if a step fails
+  beside = std::async(std::launch::async, [&run, ready = deformed.get_future()]() mutable {
+    take_steps_beside(run, std::move(ready));
+  });
+  take(run, "sparsify", reduce_influences);
+  take(run, "deform", deform_shape);
+  deformed.set_value();
+  take(run, "export", export_shape);
+  beside.get();
   const std::chrono::duration<double> total =
       std::chrono::steady_clock::now() - run.arguments.start;
-  report["total"] = total.count();
+  run.report["seconds"]["total"] = total.count();
+}
+
+// Leaves out what no step has reported.
+template <int Dim>
+void tidy_report(Run<Dim>& run) {
+  for (const char* name : kSteps) {
+    if (!run.report.contains(name) || !run.report[name].is_null()) continue;
+    run.report.erase(name);
+    if (run.report["seconds"][name] == 0.0) run.report["seconds"].erase(name);
+  }
 }
 
 template <int Dim>
@@ -116,6 +152,7 @@ int finish(Run<Dim>& run) {
 // Of a run that failed; it must not hide why.
 template <int Dim>
 void leave_report(Run<Dim>& run, const std::string& failure) {
+  tidy_report(run);
   run.report["failed"] = failure;
   try {
     run.folder.add_report(run.report, "");
@@ -139,6 +176,7 @@ int run_cage(const Cage<Dim>& cage, const RunArguments& arguments,
                 {"cage", settings.cage}, {"model", settings.model}, {"inputs", inputs.files}};
   try {
     take_steps(run);
+    tidy_report(run);
   } catch (const Error& error) {
     leave_report(run, in_words_of_program(error.what()));
     throw;

@@ -41,6 +41,8 @@ class Canvas {
   std::string encode();
 
  private:
+  std::string encode_png() const;
+
   int width_;
   int height_;
   PictureFormat format_;

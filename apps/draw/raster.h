@@ -17,7 +17,7 @@ namespace flbc::draw {
 //! Triangles that share an edge leave no seam, which separately filled paths would.
 class Raster {
  public:
-  static constexpr int kSamplesPerPixel = 3;  //!< in each direction
+  static constexpr int kSamplesPerPixel = 2;  //!< in each direction
 
   //! A transparent raster over those pixels of a picture in which the points lie.
   Raster(const PointList<2>& points, int picture_width, int picture_height) {
@@ -53,14 +53,15 @@ class Raster {
     for (int k = 0; k < 3; ++k) p[k] = kSamplesPerPixel * (corners[k] - corner_);
     const double area = cross(p[1] - p[0], p[2] - p[0]);
     if (area == 0 || !std::isfinite(area)) return;
+    const Vector<2> along_1 = (p[1] - p[0]) / area, along_2 = (p[2] - p[0]) / area;
     const auto [top, bottom] = std::minmax({p[0].y(), p[1].y(), p[2].y()});
     for (int row = first_sample(top, height_); row < first_sample(bottom, height_); ++row) {
       const auto [left, right] = span(p, row + 0.5);
       const int end = first_sample(right, width_);
       for (int column = first_sample(left, width_); column < end; ++column) {
         const Vector<2> q = Vector<2>(column + 0.5, row + 0.5) - p[0];
-        const double b1 = std::clamp(cross(q, p[2] - p[0]) / area, 0.0, 1.0);
-        const double b2 = std::clamp(cross(p[1] - p[0], q) / area, 0.0, 1 - b1);
+        const double b1 = std::clamp(cross(q, along_2), 0.0, 1.0);
+        const double b2 = std::clamp(cross(along_1, q), 0.0, 1 - b1);
         const double b0 = 1 - b1 - b2;
         const auto k = static_cast<std::size_t>(row) * width_ + column;
         const auto near = static_cast<float>(nearness.dot(Vector<3>(b0, b1, b2)));
@@ -102,7 +103,7 @@ class Raster {
 
   static std::uint32_t packed(Color color) {
     const auto byte = [](float c) {
-      return static_cast<std::uint32_t>(std::lround(255 * std::clamp(c, 0.0F, 1.0F)));
+      return static_cast<std::uint32_t>(255 * std::clamp(c, 0.0F, 1.0F) + 0.5F);
     };
     return 0xff000000U | byte(color.r) << 16 | byte(color.g) << 8 | byte(color.b);
   }

@@ -71,7 +71,7 @@ class RunFolder::Lock {
 };
 
 RunFolder::RunFolder(std::string path, const RunFiles& files)
-    : path_(std::move(path)), report_(files.report), quiet_(files.quiet) {
+    : path_(std::move(path)), report_(files.report), quiet_(files.quiet), names_(files.names) {
   check_results(files, names_in_report(path_of(report_), files.command));
   make_folder(path_);
   if (access(path_.c_str(), W_OK | X_OK) != 0) {
@@ -114,33 +114,42 @@ std::string RunFolder::path_of(const std::string& name) const {
 
 void RunFolder::add(const std::string& name, const std::string& facts,
                     const std::function<void(const std::string& path)>& write) {
+  const std::lock_guard lock(mutex_);
   {
     const HeldSignals held;
     write(path_of(name));
   }
-  names_.push_back(name);
-  if (!facts.empty()) print(name, facts);
+  made_.insert(name);
+  if (!facts.empty()) print_line(name, facts);
 }
 
 void RunFolder::add_text(const std::string& name, const std::string& facts,
                          const std::string& text) {
-  write_text(path_of(name), text);
-  names_.push_back(name);
-  print(name, facts);
+  add(name, facts, [&](const std::string& path) {
+    io::write_file(path, [&](std::ostream& file) { file << text; });
+  });
 }
 
 void RunFolder::print(const std::string& name, const std::string& facts) const {
+  const std::lock_guard lock(mutex_);
+  print_line(name, facts);
+}
+
+void RunFolder::print_line(const std::string& name, const std::string& facts) const {
   if (quiet_) return;
+  const bool is_terminal = isatty(STDERR_FILENO) != 0;
   const auto indent = "\n" + std::string(2 + kNameColumn, ' ');
-  std::cerr << "  " << std::left << std::setw(kNameColumn) << name
-            << (isatty(STDERR_FILENO) != 0 ? wrapped(facts, 77 - kNameColumn, indent) : facts)
-            << '\n';
+  // On a terminal a progress line may be there.
+  std::cerr << (is_terminal ? "\r\033[K  " : "  ") << std::left << std::setw(kNameColumn) << name
+            << (is_terminal ? wrapped(facts, 77 - kNameColumn, indent) : facts) << '\n';
 }
 
 void RunFolder::add_report(nlohmann::ordered_json& report, const std::string& facts) {
-  auto names = names_;
-  names.emplace_back(report_);
-  report["files"] = names;
+  auto& files = report["files"] = nlohmann::ordered_json::array();
+  for (const auto& name : names_) {
+    if (made_.count(name) != 0) files.push_back(name);
+  }
+  files.push_back(report_);
   write_report(report);
   if (!facts.empty()) print(report_, facts);
 }

@@ -4,7 +4,9 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <nlohmann/json_fwd.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,7 +23,7 @@ struct RunFiles {
 
 //! Files appear whole or not at all, each as soon as its step has made it. The report lists them:
 //! that is how the next run knows which files are its own. An interrupted run leaves a report that
-//! lists all that it would have made.
+//! lists all that it would have made. Two threads may add files at a time.
 class RunFolder {
  public:
   //! Makes the folder if there is none, and removes from it what an earlier run has made, so that
@@ -50,6 +52,7 @@ class RunFolder {
   void check_results(const RunFiles& files, const std::vector<std::string>& old) const;
   void remove_old(const RunFiles& files, const std::vector<std::string>& old) const;
 
+  void print_line(const std::string& name, const std::string& facts) const;
   void write_report(const nlohmann::ordered_json& report) const;
 
   class Lock;
@@ -58,7 +61,9 @@ class RunFolder {
   std::string report_;
   std::shared_ptr<Lock> lock_;  // while it lives, no other run writes here
   bool quiet_;
-  std::vector<std::string> names_;
+  std::vector<std::string> names_;  // that may be made
+  mutable std::mutex mutex_;        // of the next, of writing, and of printing
+  std::set<std::string> made_;
 };
 
 }  // namespace flbc::app

@@ -36,13 +36,13 @@ draw::WeightPictureOptions options_of(const Run<Dim>& run) {
   return options;
 }
 
-std::string draw_function(const Run<2>& run, Index control_point) {
+std::string function_image(const Run<2>& run, Index control_point) {
   return draw::draw_weights(run.cage, run.solver.domain(),
                             run.solver.domain_weights().of_control_point(control_point),
                             control_point, options_of(run));
 }
 
-std::string draw_function(const Run<3>& run, Index control_point) {
+std::string function_image(const Run<3>& run, Index control_point) {
   const Cage<3> model{run.shape().points, gltf::triangles_of_points(run.shape().surface)};
   return draw::draw_slices(
       run.cage, run.solver.domain(), run.solver.domain_weights().of_control_point(control_point),
@@ -122,12 +122,17 @@ void draw_farthest_pose(Run<Dim>& run, Index control_point) {
 }  // namespace
 
 template <int Dim>
-void draw_pictures(Run<Dim>& run) {
+void draw_function(Run<Dim>& run) {
   const Index control_point = choose_control_point(run);
   run.report["pictures"] = {{"control_point", control_point}};
   Facts facts;
   facts << "the coordinate function of control point " << control_point;
-  add_picture(run, kFunction, facts.text(), draw_function(run, control_point));
+  add_picture(run, kFunction, facts.text(), function_image(run, control_point));
+}
+
+template <int Dim>
+void draw_shape(Run<Dim>& run) {
+  const auto control_point = run.report["pictures"]["control_point"].template get<Index>();
   if (!run.poses().empty()) {
     draw_farthest_pose(run, control_point);
   } else if (run.shape().surface.triangles.cols() > 0) {
@@ -136,7 +141,11 @@ void draw_pictures(Run<Dim>& run) {
   }
 }
 
-template void draw_pictures(Run<2>&);
-template void draw_pictures(Run<3>&);
+#define FLBC_INSTANTIATE(Dim)             \
+  template void draw_function(Run<Dim>&); \
+  template void draw_shape(Run<Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
 
 }  // namespace flbc::app

@@ -91,7 +91,6 @@ void compute_weights(Run<Dim>& run) {
 
 template <int Dim>
 void check_weights_of_mesh(Run<Dim>& run) {
-  const ProgressBar bar(run.arguments.quiet, "checking the weights");
   auto check = check_cage(run.cage, run.arguments.settings.cage);
   check.domain_file = run.report["mesh"]["file"];
   check.weights_file = run.has_model() ? kDomainWeights : kWeights;

@@ -66,11 +66,15 @@ void deform_shape(Run<Dim>& run);
 template <int Dim>
 void export_shape(Run<Dim>& run);
 
-//! function.png: one coordinate function on the mesh, in 3D on slices. With poses also
-//! deformation.png: what the cage moves at rest and in the pose where it moves farthest; without
-//! them model.png: what it will move, coloured by that function.
+//! function.png: one coordinate function on the mesh, in 3D on slices.
 template <int Dim>
-void draw_pictures(Run<Dim>& run);
+void draw_function(Run<Dim>& run);
+
+//! With poses deformation.png: what the cage moves, at rest and in the pose where it moves
+//! farthest. Without them model.png: what it will move, colored by the function that
+//! draw_function() has drawn.
+template <int Dim>
+void draw_shape(Run<Dim>& run);
 
 //! The cage with the edges and the text of its file, if it was read from one.
 template <int Dim>

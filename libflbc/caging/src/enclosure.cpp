@@ -97,6 +97,31 @@ double distance_from(const Simplex<Dim>& simplex, const Vector<Dim>& p) {
   return least;
 }
 
+// Finds boxes on one side of a facet without exact arithmetic. Few boxes near a cage meet the
+// planes of its facets, but many are within the boxes around the facets.
+template <int Dim>
+class PlaneOfFacet {
+ public:
+  // \param all  contains the boxes and the facet
+  PlaneOfFacet(const Simplex<Dim>& facet, const Box<Dim>& all)
+      : origin_(facet.corners.col(0)), normal_(facet_normal<Dim>(facet.corners)) {
+    double lengths = 1;  // their product bounds the rounding errors of the normal
+    for (int k = 1; k < Dim; ++k) lengths *= (facet.corners.col(k) - origin_).norm();
+    const double reach = all.min().cwiseAbs().cwiseMax(all.max().cwiseAbs()).sum();
+    margin_ = 1e-13 * lengths * (reach + all.diagonal().norm());
+  }
+
+  // Whether a box is certainly on one side. False for a facet without a plane.
+  bool misses(const Box<Dim>& box) const {
+    const double extent = normal_.cwiseAbs().dot(box.sizes()) / 2;
+    return std::abs(normal_.dot(box.center() - origin_)) > extent + margin_;
+  }
+
+ private:
+  Vector<Dim> origin_, normal_;
+  double margin_;
+};
+
 // Barycentric coordinates of the centers of equal pieces of a facet.
 template <int Dim>
 std::vector<Vector<Dim>> spread_coordinates() {
@@ -159,7 +184,9 @@ Enclosure<Dim>::Enclosure(const PointList<Dim>& points, const FacetList<Dim>& fa
 
 template <int Dim>
 bool Enclosure<Dim>::meets(const Simplex<Dim>& facet) const {
-  return tree_.any_of(box_of(facet),
+  const Box box = box_of(facet);
+  const PlaneOfFacet<Dim> plane(facet, box.merged(box_));
+  return tree_.any_of([&](const Box& any) { return any.intersects(box) && !plane.misses(any); },
                       [&](Index number) { return intersect(simplices_[number], facet); });
 }
 
@@ -178,17 +205,11 @@ bool Enclosure<Dim>::is_strictly_inside(const Cage<Dim>& cage) const {
 
 template <int Dim>
 double Enclosure<Dim>::distance(const Vector<Dim>& point, double limit) const {
-  // Boxes around the point grow until they contain something.
-  double least = limit;
-  for (double reach = limit / 1024;; reach *= 2) {
-    reach = std::min(reach, limit);
-    const Vector<Dim> margin = Vector<Dim>::Constant(reach);
-    tree_.any_of(Box(point - margin, point + margin), [&](Index number) {
-      least = std::min(least, distance_from<Dim>(simplices_[number], point));
-      return false;
-    });
-    if (least <= reach || reach >= limit) return least;
-  }
+  const auto distance_to = [&](Index number) {
+    return distance_from<Dim>(simplices_[number], point);
+  };
+  const Index nearest = tree_.nearest(point, distance_to);
+  return nearest < 0 ? limit : std::min(limit, distance_to(nearest));
 }
 
 template <int Dim>

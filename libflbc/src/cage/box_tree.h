@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -30,7 +31,14 @@ class BoxTree {
   //! \return whether it did
   template <class Visit>
   bool any_of(const Box& query, const Visit& visit) const {
-    return !nodes_.empty() && search(0, query, visit);
+    return any_of([&](const Box& box) { return box.intersects(query); }, visit);
+  }
+
+  //! The same for boxes that fulfill a condition. \param meets  true for a box around such boxes
+  template <class Meets, class Visit,
+            class = std::enable_if_t<std::is_invocable_v<const Meets&, const Box&>>>
+  bool any_of(const Meets& meets, const Visit& visit) const {
+    return !nodes_.empty() && search(0, meets, visit);
   }
 
   //! \param distance_to  of an element from the point: distance_to(element) -> double
@@ -110,15 +118,15 @@ class BoxTree {
     return self;
   }
 
-  template <class Visit>
-  bool search(Index number, const Box& query, const Visit& visit) const {
+  template <class Meets, class Visit>
+  bool search(Index number, const Meets& meets, const Visit& visit) const {
     const Node& node = nodes_[number];
-    if (!node.box.intersects(query)) return false;
+    if (!meets(node.box)) return false;
     if (node.second >= 0) {
-      return search(number + 1, query, visit) || search(node.second, query, visit);
+      return search(number + 1, meets, visit) || search(node.second, meets, visit);
     }
     for (Index k = node.begin; k < node.end; ++k) {
-      if (boxes_[order_[k]].intersects(query) && visit(order_[k])) return true;
+      if (meets(boxes_[order_[k]]) && visit(order_[k])) return true;
     }
     return false;
   }

@@ -86,6 +86,10 @@ double WeightProjection<Dim>::project(const Vector<Dim>& point, Eigen::VectorXd&
 template <int Dim>
 bool WeightProjection<Dim>::project(const Vector<Dim>& point, const std::vector<Index>& support,
                                     const Eigen::VectorXd& given, Eigen::VectorXd& weights) const {
+  // Weights that already fulfill the constraints up to rounding need no other ones.
+  weights.setZero(given.size());
+  weights(support) = given(support);
+  if (polish(sums_of(point), weights) && is_feasible(point, weights)) return true;
   const WeightProjection<Dim> on_support(points_(Eigen::all, support));
   Workspace work(on_support);
   Eigen::VectorXd few = given(support);

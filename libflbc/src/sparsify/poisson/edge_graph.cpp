@@ -9,7 +9,8 @@ namespace {
 
 // For every point, the first point with the same position and weights.
 template <int Dim>
-std::vector<Index> find_representatives(const PointList<Dim>& points, const WeightMatrix& weights) {
+std::vector<Index> find_representatives(const PointList<Dim>& points,
+                                        const SparseWeights& weights) {
   std::vector<Index> order(points.cols()), representatives(points.cols());
   std::iota(order.begin(), order.end(), 0);
   const auto is_before = [&](Index a, Index b) {
@@ -23,7 +24,7 @@ std::vector<Index> find_representatives(const PointList<Dim>& points, const Weig
     const Index point = order[k];
     if (k == 0 || is_before(order[k - 1], point)) distinct.clear();
     const auto same = std::find_if(distinct.begin(), distinct.end(), [&](Index other) {
-      return weights.col(other) == weights.col(point);
+      return weights.at(other) == weights.at(point);
     });
     representatives[point] = same == distinct.end() ? point : *same;
     if (same == distinct.end()) distinct.push_back(point);
@@ -34,7 +35,7 @@ std::vector<Index> find_representatives(const PointList<Dim>& points, const Weig
 }  // namespace
 
 template <int Dim>
-EdgeGraph::EdgeGraph(const PointList<Dim>& points, const WeightMatrix& weights,
+EdgeGraph::EdgeGraph(const PointList<Dim>& points, const SparseWeights& weights,
                      const EdgeList& edges)
     : representatives_(find_representatives<Dim>(points, weights)) {
   neighbours_ = items_by_vertex<Neighbour>(points.cols(), [&](const auto& visit) {
@@ -77,7 +78,7 @@ void EdgeGraph::color() {
   }
 }
 
-template EdgeGraph::EdgeGraph(const PointList<2>&, const WeightMatrix&, const EdgeList&);
-template EdgeGraph::EdgeGraph(const PointList<3>&, const WeightMatrix&, const EdgeList&);
+template EdgeGraph::EdgeGraph(const PointList<2>&, const SparseWeights&, const EdgeList&);
+template EdgeGraph::EdgeGraph(const PointList<3>&, const SparseWeights&, const EdgeList&);
 
 }  // namespace flbc

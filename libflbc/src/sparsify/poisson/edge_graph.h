@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "flbc/domain_mesh.h"
+#include "flbc/sparse_weights.h"
 #include "mesh/vertex_cells.h"
 
 namespace flbc {
@@ -19,9 +20,9 @@ class EdgeGraph {
     double weight;
   };
 
-  //! \param points  Dim x P \param weights  n x P \param edges  validated
+  //! \param points  Dim x P \param weights  of P points \param edges  validated
   template <int Dim>
-  EdgeGraph(const PointList<Dim>& points, const WeightMatrix& weights, const EdgeList& edges);
+  EdgeGraph(const PointList<Dim>& points, const SparseWeights& weights, const EdgeList& edges);
 
   //! The representative of a point: the first of its merged points.
   Index representative(Index point) const { return representatives_[point]; }

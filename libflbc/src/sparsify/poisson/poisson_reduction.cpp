@@ -11,13 +11,12 @@
 #include "base/parallel.h"
 #include "base/shape_checks.h"
 #include "base/stage_progress.h"
+#include "flbc/non_negative.h"
 #include "flbc/types.h"
 #include "polytope/scaling.h"
-#include "polytope/weight_projection.h"
+#include "sparsify/point_sparsifier.h"
 #include "sparsify/poisson/edge_graph.h"
 #include "sparsify/poisson/poisson_energy.h"
-#include "sparsify/sparsify_twice.h"
-#include "sparsify/support_selection.h"
 
 namespace flbc {
 namespace {
@@ -28,6 +27,8 @@ constexpr double kOvershoot = 1.5;
 constexpr std::size_t kSupports = 16;
 // Invisible gains in squared distance, in units of a tenth of cage size.
 constexpr double kInvisible = 1e-11;
+// Minimum gain of a change of one point, relative to the mean energy of a point.
+constexpr double kLeastGain = 1.5e-2;
 
 void gather(const Eigen::Ref<const Eigen::VectorXd>& column, PointWeights& weights) {
   weights.support = positive_entries(column);
@@ -64,45 +65,53 @@ class PoissonDescent {
   // Everything is kept by reference, except the options.
   // \param control_points  Dim x n
   // \param points  Dim x P
-  // \param given  n x P, target weights
-  // \param plain  n x P, feasible weights within the limits of the options
+  // \param given  of P points, target weights
+  // \param projected  of P points, the nearest feasible weights
   PoissonDescent(const PoissonEnergy& energy, const EdgeGraph& graph,
                  const PointList<Dim>& control_points, const PointList<Dim>& points,
-                 const WeightMatrix& given, const WeightMatrix& plain,
+                 const SparseWeights& given, const SparseWeights& projected,
                  const SparsifyOptions& options)
       : energy_(energy),
         graph_(graph),
         control_points_(control_points),
         points_(points),
         given_(given),
-        plain_(plain),
+        projected_(projected),
         options_(options),
+        sparsifier_(control_points, options),
         stiffness_(points.cols()),
         fixed_(points.cols()),
         weights_(points.cols()),
-        potential_(given.rows(), given.cols()),
+        potential_(control_points.cols(), points.cols()),
         open_(points.cols()) {
     for (Index a = 0; a < static_cast<Index>(points.cols()); ++a) {
       stiffness_[a] = energy.pin * graph.mass(a);
-      for (const auto& neighbour : graph.neighbours_of(a)) stiffness_[a] += neighbour.weight;
-      // On the cage, weights are those of the facet.
-      fixed_[a] = (given.col(a).array() != 0).count() <= Dim && plain.col(a) == given.col(a);
+      for (const auto& neighbour : graph_.neighbours_of(a)) stiffness_[a] += neighbour.weight;
     }
   }
 
-  // Starts from feasible weights, n x P. They may have more influences than allowed; the first
-  // visit of a point removes the excess.
-  void start(const WeightMatrix& weights) {
+  // Starts with one influence more than allowed, which lets neighbors agree on which one to drop:
+  // the first visit of a point removes the excess.
+  void start() {
     const auto num_points = static_cast<Index>(points_.cols());
-    parallel_for(num_points, [&](Index a) {
-      gather(weights.col(a), weights_[a]);
-      potential_.col(a).noalias() = energy_.metric * (weights.col(a) - given_.col(a));
+    LoopProgress progress(num_points);
+    const auto make_work = [&] {
+      return typename PointSparsifier<Dim>::Workspace(control_points_);
+    };
+    parallel_for_chunks(num_points, 64, make_work, [&](Index a, auto& work) {
+      progress.add(1);
+      const Eigen::VectorXd given = given_.at(a), projected = projected_.at(a);
+      // On the cage, weights are those of the facet.
+      fixed_[a] = given == projected && (given.array() != 0).count() <= Dim;
+      const auto more = sparsifier_.with_one_more(points_.col(a), given, projected, work);
+      gather(more, weights_[a]);
+      potential_.col(a).noalias() = energy_.metric * (more - given);
     });
     // If all differences are 0 there is nothing to gain, but influences may have to be removed.
     std::fill(open_.begin(), open_.end(), false);
     for (Index a = 0; a < num_points; ++a) {
       if (static_cast<Index>(weights_[a].support.size()) > options_.max_influences) open_[a] = true;
-      if (weights.col(a) == given_.col(a)) continue;
+      if (potential_.col(a).isZero(0)) continue;
       open_[a] = true;
       for (const auto& neighbour : graph_.neighbours_of(a)) open_[neighbour.point] = true;
     }
@@ -110,36 +119,75 @@ class PoissonDescent {
 
   // Adopting the supports of neighbors gives most of the gain and costs little, so exchanges with
   // other control points come last.
-  void run(double least_gain) {
+  void run() {
     constexpr int kAdoptions = 12, kExchanges = 4;
     constexpr double kAdopted = 0.6;  // share of the time
     {
       const StagePart part(0, kAdopted);
-      sweep_until_settled(kAdoptions, least_gain);
+      sweep_until_settled(1);
+      least_gain_ = kLeastGain * energy() / static_cast<double>(points_.cols());
+      sweep_until_settled(kAdoptions);
     }
     const StagePart part(kAdopted, 1);
     exchanges_ = true;
     std::fill(open_.begin(), open_.end(), true);
-    sweep_until_settled(kExchanges, least_gain);
-    exchanges_ = false;
+    sweep_until_settled(kExchanges);
   }
 
-  // The n weights of a representative of the graph, accurate to about 1e-8.
+  // The weights of a point with exact sum and reproduction. Points without edges, or where
+  // rounding prevents this, get those of sparsify(). Thread-safe.
   Eigen::VectorXd weights_of(Index point) const {
-    Eigen::VectorXd weights = Eigen::VectorXd::Zero(given_.rows());
-    const PointWeights& few = weights_[point];
-    for (std::size_t k = 0; k < few.support.size(); ++k) weights[few.support[k]] = few.values[k];
-    return weights;
+    const Index representative = graph_.representative(point);
+    Eigen::VectorXd projected = projected_.at(point), exact;
+    if (has_neighbours(representative)) {
+      const auto weights = to_dense(weights_[representative], control_points_.cols());
+      if (weights == projected) return projected;
+      if (sparsifier_.projection().project(points_.col(point), weights_[representative].support,
+                                           weights, exact)) {
+        return exact;
+      }
+    }
+    return alone(point, projected);
   }
 
  private:
-  // Sweeps over the points until no point gains more than `least_gain`, at most `sweeps` times.
-  void sweep_until_settled(int sweeps, double least_gain) {
+  bool has_neighbours(Index point) const {
+    const auto neighbours = graph_.neighbours_of(point);
+    return neighbours.begin() != neighbours.end();
+  }
+
+  // The weights that sparsify() gives a point.
+  Eigen::VectorXd alone(Index point, const Eigen::VectorXd& projected) const {
+    typename PointSparsifier<Dim>::Workspace work(control_points_);
+    return sparsifier_.sparsify(points_.col(point), given_.at(point), projected, work);
+  }
+
+  // The energy of the weights, d . (s P - sum k P_b) summed over the points, where P = H d.
+  double energy() const {
+    return parallel_sum<double>(static_cast<Index>(points_.cols()), 0, [&](Index begin, Index end) {
+      double sum = 0;
+      Eigen::VectorXd force;
+      for (Index a = begin; a < end; ++a) {
+        if (!has_neighbours(a)) continue;
+        force = stiffness_[a] * potential_.col(a);
+        for (const auto& [b, weight] : graph_.neighbours_of(a)) {
+          force -= weight * potential_.col(b);
+        }
+        given_.visit(a, [&](Index i, double weight) { sum -= weight * force[i]; });
+        const auto& [support, values, cost] = weights_[a];
+        for (std::size_t k = 0; k < support.size(); ++k) sum += values[k] * force[support[k]];
+      }
+      return sum;
+    });
+  }
+
+  // Sweeps over the points until no point gains more than the least gain, at most `sweeps` times.
+  void sweep_until_settled(int sweeps) {
     // Each sweep leaves about this fraction of work to the next.
     constexpr double kFall = 0.6;
     for (int k = 0; k < sweeps; ++k) {
       const StagePart part(1 - std::pow(kFall, k), 1 - std::pow(kFall, k + 1));
-      if (!sweep(least_gain)) return;
+      if (!sweep()) return;
     }
   }
 
@@ -154,7 +202,7 @@ class PoissonDescent {
 
   // Processes color by color. Points of one color are independent, so order and threads have no
   // effect.
-  bool sweep(double least_gain) {
+  bool sweep() {
     std::atomic<bool> changes{false};
     LoopProgress progress(static_cast<Index>(points_.cols()));
     const auto make_work = [&] { return Workspace(energy_.metric, control_points_); };
@@ -164,7 +212,7 @@ class PoissonDescent {
         progress.add(1);
         if (!open_[point] || fixed_[point]) return;
         open_[point] = false;
-        if (!improve(point, least_gain, work)) return;
+        if (!improve(point, work)) return;
         changes = true;
         for (const auto& neighbour : graph_.neighbours_of(point)) open_[neighbour.point] = true;
       };
@@ -174,8 +222,8 @@ class PoissonDescent {
   }
 
   // \return whether the weights have changed
-  bool improve(Index point, double least_gain, Workspace& work) {
-    const double least = std::max(kInvisible, least_gain / stiffness_[point]);
+  bool improve(Index point, Workspace& work) {
+    const double least = std::max(kInvisible, least_gain_ / stiffness_[point]);
     const Index most = options_.max_influences;
     aim(point, work);
     const PointWeights& before = weights_[point];
@@ -185,7 +233,7 @@ class PoissonDescent {
     best = before;
     work.selection.qp().descend(best);
     if (!work.selection.reduce(most, std::numeric_limits<double>::infinity(), best)) {
-      gather(plain_.col(point), best);
+      gather(alone(point, projected_.at(point)), best);
       best.cost = work.selection.qp().cost_of(best);
     }
     if (exchanges_ || options_.threshold > 0) find_allowed(point, work.may_enter);
@@ -216,10 +264,9 @@ class PoissonDescent {
 
   void find_allowed(Index point, std::vector<bool>& may_enter) const {
     const double least = std::max(options_.threshold, kLeastInfluence);
-    may_enter.resize(given_.rows());
-    for (Index i = 0; i < static_cast<Index>(given_.rows()); ++i) {
-      may_enter[i] = given_(i, point) >= least || plain_(i, point) > 0;
-    }
+    may_enter.assign(control_points_.cols(), false);
+    given_.visit(point, [&](Index i, double weight) { may_enter[i] = weight >= least; });
+    for (const Index i : weights_[point].support) may_enter[i] = true;
   }
 
   // The support of a neighbor often works here too, and then there is no seam between them.
@@ -254,41 +301,18 @@ class PoissonDescent {
   const EdgeGraph& graph_;
   const PointList<Dim>& control_points_;
   const PointList<Dim>& points_;
-  const WeightMatrix& given_;
-  const WeightMatrix& plain_;
+  const SparseWeights& given_;
+  const SparseWeights& projected_;
   SparsifyOptions options_;
+  PointSparsifier<Dim> sparsifier_;
   std::vector<double> stiffness_;  // per point: the sum of k_ab and pin m_a
-  std::vector<bool> fixed_;
+  std::vector<char> fixed_;
   std::vector<PointWeights> weights_;
   Eigen::MatrixXd potential_;            // n x P: H (w - given)
   std::vector<std::atomic<bool>> open_;  // per point: whether it may gain
+  double least_gain_ = 0;                // of a change of one point
   bool exchanges_ = false;               // whether influences may enter that no neighbor has
 };
-
-// Minimum gain of a change of one point, relative to the mean energy of a point.
-constexpr double kLeastGain = 1e-2;
-
-// The weights of the descent with exact sum and reproduction. Points without edges, or where
-// rounding prevents this, get the plain weights.
-template <int Dim>
-WeightMatrix polished(const PoissonDescent<Dim>& descent, const EdgeGraph& graph,
-                      const WeightProjection<Dim>& projection, const PointList<Dim>& points,
-                      const WeightMatrix& plain) {
-  WeightMatrix result = plain;
-  const auto num_points = static_cast<Index>(plain.cols());
-  parallel_for_chunks(num_points, 64, [&](Index a) {
-    const Index representative = graph.representative(a);
-    const auto neighbours = graph.neighbours_of(representative);
-    if (neighbours.begin() == neighbours.end()) return;
-    const Eigen::VectorXd weights = descent.weights_of(representative);
-    if (weights == plain.col(a)) return;
-    Eigen::VectorXd exact;
-    if (projection.project(points.col(a), positive_entries(weights), weights, exact)) {
-      result.col(a) = exact;
-    }
-  });
-  return result;
-}
 
 }  // namespace
 
@@ -296,40 +320,26 @@ template <int Dim>
 SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const PointList<Dim>& points,
                                 const EdgeList& edges, const SparseWeights& given,
                                 const std::vector<PointList<Dim>>& poses,
-                                const SparsifyOptions& user_options) {
+                                const SparsifyOptions& options) {
   validate(edges, points.cols());
+  validate<Dim>(options);
+  const StageScope scope(options.progress);
   constexpr double kStart = 0.3;  // share of the time
-  const StageScope scope(user_options.progress);
-  SparsifyOptions options = user_options;
-  options.progress = {};  // progress is reported by the scope
-  // Starting with one more influence lets neighbors agree on which one to drop.
-  WeightMatrix with_one_more;
-  const auto plain_few = [&] {
-    const StagePart part(0, kStart);
-    return sparsify_twice(control_points, points, given, options,
-                          with_one_more);  // checks the input
+  const auto projected = [&] {
+    const StagePart part(0, kStart / 2);
+    return project_non_negative(control_points, points, given);  // checks the input
   }();
-  const WeightMatrix weights = given.dense(), plain = plain_few.dense();
   const auto energy = make_poisson_energy<Dim>(control_points, points, edges, poses);
-  const double plain_cost = evaluate<Dim>(energy, points, edges, weights, plain);
-  if (!(plain_cost > 0)) return plain_few;
-
-  const EdgeGraph graph(points, weights, edges);
-  const WeightProjection<Dim> projection(control_points);
-  PoissonDescent<Dim> descent(energy, graph, control_points, points, weights, plain, options);
-  const auto descend_from = [&](const WeightMatrix& start) {
-    const StagePart part(kStart, 1);
-    descent.start(start);
-    descent.run(kLeastGain * plain_cost / static_cast<double>(points.cols()));
-    return polished(descent, graph, projection, points, plain);
-  };
-  const auto is_better = [&](const WeightMatrix& result) {
-    return evaluate<Dim>(energy, points, edges, weights, result) < plain_cost;
-  };
-  auto result = descend_from(with_one_more);
-  if (is_better(result)) return result;
-  result = descend_from(plain);
-  return is_better(result) ? SparseWeights(result) : plain_few;
+  const EdgeGraph graph(points, given, edges);
+  PoissonDescent<Dim> descent(energy, graph, control_points, points, given, projected, options);
+  {
+    const StagePart part(kStart / 2, kStart);
+    descent.start();
+  }
+  const StagePart part(kStart, 1);
+  descent.run();
+  return SparseWeights::of(given.num_control_points(), given.num_points(),
+                           [&](Index a) { return descent.weights_of(a); });
 }
 
 bool suits_poisson(const EdgeList& edges, Eigen::Index num_control_points,
