@@ -17,6 +17,7 @@
 #include "flbc/quality.h"
 #include "report/facts.h"
 #include "solve/estimate.h"
+#include "solve/make_domain.h"
 
 namespace flbc::app {
 namespace {
@@ -72,6 +73,19 @@ struct InfoArguments {
   Index vertices = 10000;
 };
 
+// The coarsest mesh of a cage with many control points has more vertices than most meshes.
+template <int Dim>
+Index vertices_of_solve(const Cage<Dim>& cage, Index wanted) {
+  if constexpr (Dim == 3) {
+    try {
+      const auto mesher = coarse_mesher<Dim>(Mesher::kGiven);
+      if (mesher) return std::max(wanted, mesher(cage, 1).num_vertices());
+    } catch (const Error&) {  // the solve will refuse the cage
+    }
+  }
+  return std::max(wanted, cage.size());
+}
+
 template <int Dim>
 void print_cage(const Cage<Dim>& cage, const InfoArguments& arguments) {
   auto defects = find_defects(cage);
@@ -82,8 +96,9 @@ void print_cage(const Cage<Dim>& cage, const InfoArguments& arguments) {
     std::cout << "  a sound " << Dim << "D cage of " << cage.size() << " control points and "
               << cage.facets.cols() << (Dim == 2 ? " edges\n" : " triangles\n");
     if (!arguments.estimates) return;
-    std::cout << "  a solve on " << arguments.vertices << " mesh vertices takes "
-              << describe(estimate_solve(Dim, cage.size(), arguments.vertices, {})) << '\n';
+    const Index vertices = vertices_of_solve(cage, arguments.vertices);
+    std::cout << "  a solve on " << vertices << " mesh vertices takes "
+              << describe(estimate_solve(Dim, cage.size(), vertices, {})) << '\n';
     return;
   }
   std::cout << "  not a cage:\n";

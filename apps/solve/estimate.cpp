@@ -14,7 +14,8 @@ constexpr double kSecondsPerPair2D = 0.8e-6, kSecondsPerPair3D = 2e-6;
 constexpr double kBytesPerPair2D = 80, kBytesPerPair3D = 180;
 // On an active set, of the pairs in it.
 constexpr double kSecondsPerActivePair = 6e-6, kBytesPerActivePair = 570;
-constexpr double kBase = 25e6;  // bytes of the program itself
+constexpr double kSecondsPerDistance = 4e-7, kBytesPerDistance = 8;  // of all pairs
+constexpr double kBase = 25e6;                                       // bytes of the program itself
 
 // Share of the pairs in an active set: 15% for 110 control points, 3.5% for 1,000.
 double active_share(double control_points) {
@@ -36,7 +37,8 @@ Estimate estimate_solve(int dim, Index control_points, Index vertices,
   const double pairs = static_cast<double>(control_points) * vertices;
   if (tries_active_set(dim, control_points, vertices, options)) {
     const double active = active_share(control_points) * pairs;
-    return {kSecondsPerActivePair * active, kBase + kBytesPerActivePair * active};
+    return {kSecondsPerActivePair * active + kSecondsPerDistance * pairs,
+            kBase + kBytesPerActivePair * active + kBytesPerDistance * pairs};
   }
   if (dim == 2) return {kSecondsPerPair2D * pairs, kBase + kBytesPerPair2D * pairs};
   return {kSecondsPerPair3D * pairs, kBase + kBytesPerPair3D * pairs};

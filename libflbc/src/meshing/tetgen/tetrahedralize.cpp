@@ -35,11 +35,23 @@ using MeshMaker = std::function<DomainMesh<3>(double ratio, double largest_volum
 // Exponent of vertex count over volume bound, for meshes of about ten thousand vertices.
 constexpr double kCountExponent = 0.8;
 
-// Measured on cages of characters and animals; the smaller the mesh, the more of its vertices lie
-// on the surface. It only has to spare the search a run or two.
-double guess_volume_bound(double volume, Index vertices) {
-  const double volumes_per_vertex = 0.2 + 9 / std::cbrt(double(vertices));
-  return volumes_per_vertex * volume / vertices;
+// The volume bound of cells for a number of vertices. Per unit of 1 / length^3, TetGen needs 0.22
+// vertices in the volume, and 1.2 on the surface per unit of 1 / length^2; good shapes need about
+// twice the coarsest mesh. Measured on 12 cages of 2,000 to 40,000 vertices: 87% are within 10%.
+double guess_volume_bound(const Cage<3>& cage, double volume, Index coarsest, Index vertices) {
+  double area = 0;
+  for (const auto& facet : cage.facets.colwise()) {
+    const Vector<3> a = cage.points.col(facet[0]);
+    const Vector<3> u = cage.points.col(facet[1]) - a, v = cage.points.col(facet[2]) - a;
+    area += u.cross(v).norm() / 2;
+  }
+  const double wanted = std::max(0.25 * vertices, vertices - 2.0 * coarsest);
+  double density = std::cbrt(wanted / (0.22 * volume));  // 1 / length; too large without surface
+  for (int k = 0; k < 20; ++k) {                         // Newton's method
+    const double count = density * density * (0.22 * volume * density + 1.2 * area);
+    density -= (count - wanted) / (density * (0.66 * volume * density + 2.4 * area));
+  }
+  return 1 / (density * density * density);
 }
 
 // Treatment of cage edges between coplanar facets.
@@ -124,11 +136,13 @@ DomainMesh<3> compact(const Cage<3>& cage, const PointList<3>& input, DomainMesh
 
 // The cells of a regular cage are all halved at the same volume bound, so the count jumps. A
 // different shape bound then gives counts in between.
-DomainMesh<3> refine_to_count(Index wanted, DomainMesh<3> coarsest, const MeshMaker& make_mesh) {
+DomainMesh<3> refine_to_count(const Cage<3>& cage, Index wanted, DomainMesh<3> coarsest,
+                              const MeshMaker& make_mesh) {
   VertexCountGoal goal;
   goal.vertices = wanted;
   goal.good_enough = kCountTolerance / 2;
-  const double first_bound = guess_volume_bound(std::abs(total_measure(coarsest)), wanted);
+  const double first_bound =
+      guess_volume_bound(cage, std::abs(total_measure(coarsest)), coarsest.num_vertices(), wanted);
   DomainMesh<3> mesh = std::move(coarsest);
   for (double ratio : {kRadiusEdgeRatio, 1.3, 1.6, 1.2, 1.8}) {
     mesh = search_vertex_count<3>(goal, std::move(mesh), first_bound, kCountExponent,
@@ -174,30 +188,39 @@ DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, double time_limit)
     peel_flat_cells(task.cage, static_cast<Index>(task.input.points.cols()), mesh);
     return compact(task.cage, task.input.points, std::move(mesh));
   };
-  if (task.roughly && task.vertices > 0) {
-    return make_mesh(kRadiusEdgeRatio,
-                     guess_volume_bound(measure_cage(task.cage).measure, task.vertices));
-  }
   DomainMesh<3> mesh = make_mesh(kRadiusEdgeRatio, 0);
+  if (task.roughly && task.vertices > mesh.num_vertices()) {
+    const double bound = guess_volume_bound(task.cage, std::abs(total_measure(mesh)),
+                                            mesh.num_vertices(), task.vertices);
+    return make_mesh(kRadiusEdgeRatio, bound);
+  }
+  if (task.roughly) return mesh;
   check_vertex_count(task.vertices, mesh.num_vertices(), kCountTolerance);
   if (task.vertices <= mesh.num_vertices()) return mesh;
-  return refine_to_count(task.vertices, std::move(mesh), make_mesh);
+  return refine_to_count(task.cage, task.vertices, std::move(mesh), make_mesh);
 }
 
-// Replaces the mesh by one that also contains cage edges between coplanar facets, if TetGen
-// succeeds and the vertex count is met, or if there is no mesh yet. Without these edges, boundary
-// values are not exactly linear along them, which is better than having no mesh.
-void keep_coplanar_edges(const Task& task, double time_limit, DomainMesh<3>& mesh) {
+// A mesh that also contains cage edges between coplanar facets; empty if TetGen fails. Without
+// these edges, boundary values are not exactly linear along them, which is better than having no
+// mesh.
+DomainMesh<3> keep_coplanar_edges(const Task& task, double time_limit) {
   try {
-    DomainMesh<3> better = fill(task, CoplanarFacets::kKeep, time_limit);
-    const VertexCountGoal goal{task.vertices};
-    const bool has_count =
-        task.vertices == 0 || goal.is_met(better.num_vertices(), kCountTolerance);
-    if (mesh.num_vertices() > 0 && !has_count) return;
-    mesh = std::move(better);
+    return fill(task, CoplanarFacets::kKeep, time_limit);
   } catch (const InputError&) {
   } catch (const OptionError&) {
   }
+  return {};
+}
+
+// The time for a mesh of so many vertices, by that of the coarsest one, and far more, unless TetGen
+// does not terminate.
+double ample_time(const Task& task, double time_limit) {
+  Task coarsest = task;
+  coarsest.vertices = 0;
+  Stopwatch watch;
+  const auto mesh = fill(coarsest, CoplanarFacets::kJoin, time_limit);
+  const double ratio = static_cast<double>(task.vertices) / mesh.num_vertices();
+  return std::min(time_limit, 5 + 20 * watch.lap() * std::max(1.0, ratio));
 }
 
 }  // namespace
@@ -210,22 +233,21 @@ DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& optio
                   options.vertices,
                   options.roughly};
 
-  const bool may_keep_edges = !options.roughly && has_coplanar_facets(cage);
-  Stopwatch watch;
+  const VertexCountGoal goal{task.vertices};
   DomainMesh<3> mesh;
-  std::optional<TooFewVertices> too_few;
   try {
-    mesh = fill(task, CoplanarFacets::kJoin, options.time_limit);
+    if (!options.roughly && has_coplanar_facets(cage)) {
+      mesh = keep_coplanar_edges(task, ample_time(task, options.time_limit));
+    }
+    const bool has_count =
+        mesh.num_vertices() > 0 &&
+        (task.vertices == 0 || goal.is_met(mesh.num_vertices(), kCountTolerance));
+    if (!has_count) mesh = fill(task, CoplanarFacets::kJoin, options.time_limit);
   } catch (const InputError& error) {
-    throw InputError(error.what() + describe_thinnest(cage));
-  } catch (const TooFewVertices& error) {  // joined facets of thin rods need more cells
-    too_few = error;
+    if (mesh.num_vertices() == 0) throw InputError(error.what() + describe_thinnest(cage));
+  } catch (const TooFewVertices&) {  // joined facets of thin rods need more cells
+    if (mesh.num_vertices() == 0) throw;
   }
-  if (may_keep_edges) {
-    // Far more than needed, unless TetGen does not terminate.
-    keep_coplanar_edges(task, std::min(options.time_limit, 5 + 20 * watch.lap()), mesh);
-  }
-  if (too_few && mesh.num_vertices() == 0) throw TooFewVertices(*too_few);
   finish_mesh(mesh, static_cast<Index>(points.cols()));
   return mesh;
 }

@@ -28,7 +28,7 @@ constexpr std::size_t kSupports = 16;
 // Invisible gains in squared distance, in units of a tenth of cage size.
 constexpr double kInvisible = 1e-11;
 // Minimum gain of a change of one point, relative to the mean energy of a point.
-constexpr double kLeastGain = 1.5e-2;
+constexpr double kLeastGain = 1e-2;
 
 void gather(const Eigen::Ref<const Eigen::VectorXd>& column, PointWeights& weights) {
   weights.support = positive_entries(column);
@@ -105,7 +105,11 @@ class PoissonDescent {
       fixed_[a] = given == projected && (given.array() != 0).count() <= Dim;
       const auto more = sparsifier_.with_one_more(points_.col(a), given, projected, work);
       gather(more, weights_[a]);
-      potential_.col(a).noalias() = energy_.metric * (more - given);
+      potential_.col(a).setZero();
+      const Eigen::VectorXd difference = more - given;
+      for (Eigen::Index i = 0; i < difference.size(); ++i) {
+        if (difference[i] != 0) potential_.col(a) += difference[i] * energy_.metric.col(i);
+      }
     });
     // If all differences are 0 there is nothing to gain, but influences may have to be removed.
     std::fill(open_.begin(), open_.end(), false);
@@ -124,8 +128,6 @@ class PoissonDescent {
     constexpr double kAdopted = 0.6;  // share of the time
     {
       const StagePart part(0, kAdopted);
-      sweep_until_settled(1);
-      least_gain_ = kLeastGain * energy() / static_cast<double>(points_.cols());
       sweep_until_settled(kAdoptions);
     }
     const StagePart part(kAdopted, 1);
@@ -164,18 +166,18 @@ class PoissonDescent {
 
   // The energy of the weights, d . (s P - sum k P_b) summed over the points, where P = H d.
   double energy() const {
+    const auto force = [&](Index a, Index i) {
+      double sum = stiffness_[a] * potential_(i, a);
+      for (const auto& [b, weight] : graph_.neighbours_of(a)) sum -= weight * potential_(i, b);
+      return sum;
+    };
     return parallel_sum<double>(static_cast<Index>(points_.cols()), 0, [&](Index begin, Index end) {
       double sum = 0;
-      Eigen::VectorXd force;
       for (Index a = begin; a < end; ++a) {
         if (!has_neighbours(a)) continue;
-        force = stiffness_[a] * potential_.col(a);
-        for (const auto& [b, weight] : graph_.neighbours_of(a)) {
-          force -= weight * potential_.col(b);
-        }
-        given_.visit(a, [&](Index i, double weight) { sum -= weight * force[i]; });
+        given_.visit(a, [&](Index i, double weight) { sum -= weight * force(a, i); });
         const auto& [support, values, cost] = weights_[a];
-        for (std::size_t k = 0; k < support.size(); ++k) sum += values[k] * force[support[k]];
+        for (std::size_t k = 0; k < support.size(); ++k) sum += values[k] * force(a, support[k]);
       }
       return sum;
     });
@@ -188,6 +190,9 @@ class PoissonDescent {
     for (int k = 0; k < sweeps; ++k) {
       const StagePart part(1 - std::pow(kFall, k), 1 - std::pow(kFall, k + 1));
       if (!sweep()) return;
+      // The first two sweeps bring the energy near its end.
+      if (k == 1 && !exchanges_)
+        least_gain_ = kLeastGain * energy() / static_cast<double>(points_.cols());
     }
   }
 
