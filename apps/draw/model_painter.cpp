@@ -115,9 +115,12 @@ void paint_control_points(Canvas& canvas, const Raster& surface, const ModelScen
   const double radius = dot_radius(scene);
   paint_dots(canvas, visible, radius, kInk);
   if (scene.control_point < 0) return;
-  // Last and largest, so that neighbors never hide it.
-  paint_dots(canvas, {pixel_of(scene, places.col(scene.control_point))},
-             std::max(1.6 * radius, 5 * scene.unit), kHighlight);
+  // Last and largest, so that neighbors never hide it; pale behind the model.
+  const Vector<3> place = places.col(scene.control_point);
+  const Vector<2> pixel = pixel_of(scene, place);
+  const bool is_hidden = surface.hides(pixel, scene.view.toward.dot(place));
+  paint_dots(canvas, {pixel}, std::max(1.6 * radius, 5 * scene.unit),
+             is_hidden ? mix(kHighlight, kWhite, 0.6F) : kHighlight);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
           {"coarse_to_fine", name_of(options.coarse_to_fine)},
           {"active", name_of(options.active_set)},
           {"certify", options.certify},
-          {"phi", name_of(options.phi)},
+          {"phi", settings.phi.empty() ? name_of(options.phi) : settings.phi},
           {"smoothness", *options.smoothness},
           {"distances", name_of(options.distances)},
           {"linear_solver", name_of(options.linear_solver)},

@@ -42,16 +42,30 @@ std::string function_image(const Run<2>& run, Index control_point) {
                             control_point, options_of(run));
 }
 
+Eigen::Matrix3d upright_turn(const Run<3>& run) {
+  return turn_upright(up_axis(run.arguments.up, run.shape().points));
+}
+
+// A cage or a mesh with the model's upper end on top, as slices are seen.
+template <class Mesh>
+Mesh turned(const Eigen::Matrix3d& turn, Mesh mesh) {
+  mesh.points = (turn * mesh.points).eval();
+  return mesh;
+}
+
 std::string function_image(const Run<3>& run, Index control_point) {
-  const Cage<3> model{run.shape().points, gltf::triangles_of_points(run.shape().surface)};
-  return draw::draw_slices(
-      run.cage, run.solver.domain(), run.solver.domain_weights().of_control_point(control_point),
-      control_point, 3, options_of(run), model.facets.cols() > 0 ? &model : nullptr);
+  const auto turn = upright_turn(run);
+  const auto model =
+      turned(turn, Cage<3>{run.shape().points, gltf::triangles_of_points(run.shape().surface)});
+  return draw::draw_slices(turned(turn, run.cage), turned(turn, run.solver.domain()),
+                           run.solver.domain_weights().of_control_point(control_point),
+                           control_point, 3, options_of(run),
+                           model.facets.cols() > 0 ? &model : nullptr);
 }
 
 draw::ObliqueView usual_view(const Run<3>& run) {
   return draw::before_turn(draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation),
-                           turn_upright(up_axis(run.arguments.up, run.shape().points)));
+                           upright_turn(run));
 }
 
 // The shape at rest by the sparse weights.
@@ -96,9 +110,10 @@ std::string deformation_image(const Run<3>& run, const Pose<3>& pose, Index cont
   if (shape.surface.triangles.cols() == 0) {
     const auto& weights = run.solver.domain_weights();
     const DomainMesh<3> moved{deform<3>(weights, pose.points), run.solver.domain().cells};
-    return draw::draw_slices({pose.points, run.cage.facets}, moved,
-                             weights.of_control_point(control_point), control_point, 3,
-                             options_of(run));
+    const auto turn = upright_turn(run);
+    return draw::draw_slices(turned(turn, Cage<3>{pose.points, run.cage.facets}),
+                             turned(turn, moved), weights.of_control_point(control_point),
+                             control_point, 3, options_of(run));
   }
   const PointList<3> points = run.moved.at(pose.points);
   return draw::draw_model({gltf::triangles_of_points(shape.surface), shown_cage(run).edges},

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "files/convert_weights.h"
 #include "files/load.h"
 #include "files/model_facets.h"
 #include "flbc/bounding_box.h"
@@ -104,7 +105,11 @@ Solution compute_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
   if (settings.penalty) {
     options.penalty = published_penalty(cage, domain, options.method, *settings.penalty);
   }
-  return flbc::solve(cage, domain, options, mesher, observer);
+  if (settings.phi.empty()) return flbc::solve(cage, domain, options, mesher, observer);
+  auto problem =
+      make_problem(cage, domain, DistanceScheme::kConstant, options.smoothness.value_or(0));
+  problem.phi = WeightFunctions(read_weight_file(settings.phi).dense());
+  return naming(settings.phi, [&] { return flbc::solve(problem, options, {}, observer); });
 }
 
 template <int Dim>

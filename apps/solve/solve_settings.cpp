@@ -2,6 +2,7 @@
 #include "solve/solve_settings.h"
 
 #include "flbc/errors.h"
+#include "flbc/io/formats.h"
 #include "flbc/names.h"
 #include "help/options.h"
 
@@ -62,11 +63,42 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
     }
   }
   if (settings.model.empty()) refuse("--outside", "no model is given");
+  if (!settings.phi.empty() && settings.domain.empty()) {
+    throw OptionError("--phi: the rows of " + settings.phi +
+                      " are for the cells of a mesh; make one by flbc mesh, and name it by "
+                      "--domain of flbc solve");
+  }
   if (!settings.domain.empty()) {
     refuse("--mesher", "--domain gives the mesh");
     refuse("--mesh-timeout", "--domain gives the mesh");
   }
 }
+
+namespace {
+
+// Its names, or a file.
+void add_phi(CLI::App& command, SolveSettings& settings) {
+  auto words = names_of<DistanceScheme>();
+  const auto offered = CLI::detail::join(words, "|");
+  const auto take = [&settings, offered](const std::string& text) {
+    if (const auto scheme = value_named<DistanceScheme>(text)) {
+      settings.options.phi = *scheme;
+    } else if (io::holds(text, {io::Content::kWeights})) {
+      settings.phi = text;
+    } else {
+      throw CLI::ValidationError("--phi", "invalid value '" + text + "'; choose from " + offered +
+                                              ", or name a file that ends in .npy, .mtx or .csv");
+    }
+  };
+  command
+      .add_option_function<std::string>(
+          "--phi", take,
+          "growth of the variation weighting with distance (default: square), or a file of "
+          "weightings >= 0: a row per cell of --domain and a column per control point")
+      ->type_name(offered);
+}
+
+}  // namespace
 
 void add_solver_options(CLI::App& command, SolveSettings& settings) {
   auto& options = settings.options;
@@ -101,8 +133,7 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
              "method that keeps weights non-negative (default: depends on --method)");
   add_choice(command, "--coarse-to-fine", options.coarse_to_fine,
              "use a multilevel start from coarser meshes (default: auto, where it saves time)");
-  add_choice(command, "--phi", options.phi,
-             "growth of the variation weighting with distance (default: square)");
+  add_phi(command, settings);
   add_choice(command, "--active", options.active_set,
              "store and update only weights that may be positive (default: auto, which is on in "
              "3D from 80 control points, unless --certify is given)");

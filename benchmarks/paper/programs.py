@@ -19,10 +19,11 @@ import sys
 import time
 
 import cages
+import pipeline
 import reductions
 
 # Name to (what it is, function of the context that yields rows as dictionaries).
-EXPERIMENTS = {"cages": cages.CAGES, "sparsify": reductions.SPARSIFY}
+EXPERIMENTS = {"cages": cages.CAGES, "sparsify": reductions.SPARSIFY, "pipeline": pipeline.PIPELINE}
 
 
 class Context:

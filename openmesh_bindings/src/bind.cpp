@@ -91,8 +91,8 @@ Binding<Dim> bind_points(const BindInput<Dim>& input, const BindOptions& options
   report.mesh_seconds = watch.lap();
   auto solver_options = options.solver;
   make_smooth(solver_options);
-  const auto solution =
-      flbc::solve(input.cage, domain, solver_options, coarse_mesher(input.mesher));
+  const auto solution = flbc::solve(input.cage, domain, solver_options, coarse_mesher(input.mesher),
+                                    options.observer);
   report.solve = solution.report;
   report.solve_seconds = watch.lap();
   auto evaluation = evaluate(input, domain, solution.weights, options.outside);

@@ -379,6 +379,33 @@ TEST_F(CommandLine, ReportsOfOtherCoordinatesHaveAnObjective) {
 }
 
 // The published criterion can be met far from the optimum.
+TEST_F(CommandLine, PhiMayComeFromAFile) {
+  for (const auto& [name, dim] : {std::pair("2d/letter", 2), std::pair("3d/star", 3)}) {
+    const auto cage = std::string(name) + "_cage.obj";
+    const std::string mesh = dim == 2 ? "d.obj" : "d.mesh";
+    expect("mesh " + cage + " --vertices 600 -q -o " + mesh);
+    const auto cells =
+        dim == 2 ? io::read_domain<2>(mesh).num_cells() : io::read_domain<3>(mesh).num_cells();
+    const auto points = static_cast<Eigen::Index>(io::read_polygons(cage).points.size());
+    WeightMatrix phi = WeightMatrix::Ones(points, cells);
+    io::write_weights("ones.npy", phi);
+    const auto solve = "solve " + cage + " --domain " + mesh + " -q --tolerance 1e-5 --phi ";
+    expect(solve + "ones.npy -o a.npy --report a.json");
+    expect(solve + "constant -o b.npy");
+    const auto ours = io::read_weights("a.npy").dense();
+    EXPECT_LT((ours - io::read_weights("b.npy").dense()).cwiseAbs().maxCoeff(), 1e-2);
+    EXPECT_NE(slurp("a.json").find("ones.npy"), std::string::npos);
+
+    phi(1, 2) = -1;
+    io::write_weights("negative.npy", phi);
+    expect_refused(solve + "negative.npy -o c.npy", 2, "negative.npy");
+    io::write_weights("few.npy", WeightMatrix(phi.leftCols(cells - 1)));
+    expect_refused(solve + "few.npy -o c.npy", 2, "few.npy");
+    expect_refused("solve " + cage + " -q --phi ones.npy -o c.npy", 1, "--domain");
+    expect_refused(solve + "steep -o c.npy", 1, "choose from square|linear|sqrt|constant");
+  }
+}
+
 TEST_F(CommandLine, ConvergedFarFromTheOptimumIsTold) {
   const std::string solve =
       "solve 2d/ring_cage.obj --vertices 500 --certify -o w.npy --report r.json --method ";

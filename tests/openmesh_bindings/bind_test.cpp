@@ -94,6 +94,21 @@ TYPED_TEST(Bind, LeavesTheWeightsThatTheStepsGive) {
   EXPECT_EQ(openmesh::get_weights(this->model_), all);
 }
 
+TYPED_TEST(Bind, TheObserverSeesTheSolveAndMayCancelIt) {
+  const auto& [cage, domain, name] = this->sample_;
+  int calls = 0;
+  auto options = this->options_;
+  options.observer.poll = [&] { ++calls; };
+  bind(this->model_, cage, domain, options);
+  EXPECT_GT(calls, 0);
+
+  auto fresh = this->model_;
+  options.weights = "others";
+  options.observer.poll = [] { throw std::runtime_error("cancelled"); };
+  EXPECT_THROW(bind(fresh, cage, domain, options), std::runtime_error);
+  EXPECT_THROW(openmesh::get_rest_cage(fresh, "others"), InputError);
+}
+
 TYPED_TEST(Bind, FramesFollowTheCageAndDoNotAccumulate) {
   constexpr int kDimension = TypeParam::kDim;
   const auto& cage = this->sample_.cage;

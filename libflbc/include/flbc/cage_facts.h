@@ -34,8 +34,7 @@ struct ThinPlace {
   Index facet = -1;  //!< the control point is not one of its corners; -1: none
 };
 
-//! The smallest distance from a control point to a facet of which it is not a corner. Time is
-//! proportional to the number of control points times the number of facets.
+//! The smallest distance from a control point to a facet of which it is not a corner.
 //! \param cage  has passed validate()
 template <int Dim>
 ThinPlace thinnest_place(const Cage<Dim>& cage);

@@ -15,6 +15,7 @@
 
 #include "flbc/bounding_box.h"
 #include "flbc/meshing.h"
+#include "flbc/observer.h"
 #include "flbc/openmesh/convert.h"
 #include "flbc/openmesh/deform.h"
 #include "flbc/openmesh/meshers.h"
@@ -38,9 +39,9 @@ struct BindOptions {
   Index vertices = kDefaultVertices;
   static constexpr Index kDefaultVertices = 10000;  //!< same as for the program flbc
 
-  //! Method, tolerance, threads, progress. If the smoothness is not set, it is
-  //! kDeformationSmoothness.
+  //! Method, tolerance, threads. If the smoothness is not set, it is kDeformationSmoothness.
   SolverOptions solver{};
+  Observer observer{};  //!< of the solve; what it throws leaves bind(), and the model is unchanged
   Index max_influences = 8;                      //!< per vertex; 0 = keep all weights
   Reduction reduction = Reduction::kPoisson;     //!< how influences are reduced
   OutsidePoints outside = OutsidePoints::kFail;  //!< vertices outside the cage
