@@ -19,6 +19,7 @@
 #include "caging/enclosure.h"
 #include "caging/mirror_plane.h"
 #include "caging/surface_tools.h"
+#include "caging/thickness.h"
 #include "flbc/cage.h"
 #include "flbc/cage_facts.h"
 #include "flbc/errors.h"
@@ -252,10 +253,22 @@ class Caging {
     auto limits = limits_;
     limits.growth =
         std::min(std::max(kGrowth * volume, kFreeVolume * volume_), most_volume) / volume;
+    limits.lengths = edge_lengths(surface);
     const bool is_convex = volume > kConvex * hull_volume(surface);
     const auto cage = reduced(surface, size.offset, is_convex ? kLeastOfConvex : kLeast, limits);
     if (!cage) return {};
     return describe(*cage, size.offset);
+  }
+
+  // Edges at most about twice as long as the surface is thick leave control points along limbs,
+  // at which these bend.
+  std::vector<double> edge_lengths(const Cage<3>& surface) const {
+    constexpr double kLengthOfThickness = 1.6;
+    const auto whole = plane_.is_there() ? join_halves(surface, plane_) : surface;
+    auto lengths = thickness_of(whole);
+    lengths.resize(static_cast<std::size_t>(surface.size()));
+    for (double& length : lengths) length *= kLengthOfThickness;
+    return lengths;
   }
 
   double hull_volume(const Cage<3>& surface) const {

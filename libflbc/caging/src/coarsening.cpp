@@ -46,7 +46,8 @@ Coarsening<Dim>::Coarsening(const Cage<Dim>& surface, const MirrorPlane& plane,
       offset_(offset),
       origin_(enclosure.box().center()),
       quadrics_(collect_quadrics(surface_, origin_)),
-      versions_(quadrics_.size(), 0) {
+      versions_(quadrics_.size(), 0),
+      lengths_(limits.lengths) {
   for (Index f = 0; f < surface.facets.cols(); ++f) measure_ += measure_of(surface_.facet(f));
   most_ = limits.growth * measure_;
 }
@@ -122,10 +123,34 @@ std::vector<Vector<Dim>> Coarsening<Dim>::positions(const Quadric<Dim>& quadric,
   return all;
 }
 
+// The limit at a vertex that becomes one with another.
+template <int Dim>
+double Coarsening<Dim>::length_at(const Replacement<Dim>& change) const {
+  if (change.removed < 0) return lengths_[change.vertex];
+  return std::min(lengths_[change.vertex], lengths_[change.removed]);
+}
+
+// An edge may be as long as the mean of what is allowed at its ends.
+template <int Dim>
+bool Coarsening<Dim>::keeps_lengths(const Replacement<Dim>& change,
+                                    const Vector<Dim>& position) const {
+  if (lengths_.empty()) return true;
+  const double own = length_at(change);
+  for (const auto& corners : change.new_facets) {
+    for (const Index other : corners) {
+      if (other == change.vertex) continue;
+      const double length = (surface_.points().col(other) - position).norm();
+      if (length > (own + lengths_[other]) / 2) return false;
+    }
+  }
+  return true;
+}
+
 template <int Dim>
 bool Coarsening<Dim>::allows(const Replacement<Dim>& change, const Vector<Dim>& position) const {
   const double growth = this->growth(change, position);
-  return !(growth > 0 && measure_ + growth > most_) && check_.allows(change, position);
+  return !(growth > 0 && measure_ + growth > most_) && keeps_lengths(change, position) &&
+         check_.allows(change, position);
 }
 
 template <int Dim>
@@ -176,6 +201,7 @@ bool Coarsening<Dim>::take(Candidate candidate) {
     }
   }
   measure_ += growth(change, candidate.position);
+  if (!lengths_.empty()) lengths_[candidate.a] = length_at(change);
   surface_.collapse(*plan, candidate.position);
   quadrics_[candidate.a] = sum;
   ++versions_[candidate.a];

@@ -108,6 +108,8 @@ class Coarsening {
   std::vector<Vector<Dim>> positions(const Quadric<Dim>& quadric,
                                      const Replacement<Dim>& change) const;
   Vector<Dim> outer_position(const Vector<Dim>& start, const Replacement<Dim>& change) const;
+  double length_at(const Replacement<Dim>& change) const;
+  bool keeps_lengths(const Replacement<Dim>& change, const Vector<Dim>& position) const;
   bool allows(const Replacement<Dim>& change, const Vector<Dim>& position) const;
   std::optional<Vector<Dim>> first_allowed(const Quadric<Dim>& quadric,
                                            const Replacement<Dim>& change) const;
@@ -127,6 +129,7 @@ class Coarsening {
   std::priority_queue<Candidate> candidates_;
   double measure_ = 0;  // Dim! times the area or volume inside the closed surface or its half
   double most_;         // of this
+  std::vector<double> lengths_;  // limits of edges at every vertex; empty: none
 };
 
 }  // namespace flbc

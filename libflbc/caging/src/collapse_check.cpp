@@ -26,7 +26,8 @@ double shape_of(const Simplex<Dim>& facet) {
 
 template <int Dim>
 Replacement<Dim> replacement_of(const Collapse<Dim>& plan) {
-  Replacement<Dim> change{plan.ring, plan.corners, plan.ring, plan.kept, plan.is_in_plane};
+  Replacement<Dim> change{plan.ring, plan.corners, plan.ring,
+                          plan.kept, plan.removed, plan.is_in_plane};
   change.old_facets.insert(change.old_facets.end(), plan.dying.begin(), plan.dying.end());
   return change;
 }
@@ -34,7 +35,7 @@ Replacement<Dim> replacement_of(const Collapse<Dim>& plan) {
 template <int Dim>
 Replacement<Dim> replacement_of(const EditableSurface<Dim>& surface, Index vertex) {
   const auto& facets = surface.facets_at(vertex);
-  Replacement<Dim> change{facets, {}, facets, vertex, surface.is_in_plane(vertex)};
+  Replacement<Dim> change{facets, {}, facets, vertex, -1, surface.is_in_plane(vertex)};
   for (const Index f : facets) change.new_facets.push_back(surface.facets()[f]);
   return change;
 }

@@ -17,6 +17,7 @@ struct Replacement {
   std::vector<FacetCorners<Dim>> new_facets{};  //!< each contains the vertex
   std::vector<Index> predecessors{};            //!< the old facet of each new one
   Index vertex = -1;
+  Index removed = -1;  //!< the vertex that becomes one with it; -1: none
   bool is_in_plane = false;
 };
 
@@ -32,6 +33,7 @@ struct CageLimits {
   Index valence = std::numeric_limits<Index>::max();        //!< edges at a control point, in 3D
   double reach = std::numeric_limits<double>::infinity();   //!< distance of one from the model
   double growth = std::numeric_limits<double>::infinity();  //!< 3D: of the volume, by collapses
+  std::vector<double> lengths{};  //!< of edges, at the vertices of the surface; empty: any
 };
 
 //! \param clearance  new facets keep about this distance from the model

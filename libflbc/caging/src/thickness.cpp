@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "caging/thickness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "base/parallel.h"
+#include "caging/enclosure.h"
+#include "flbc/bounding_box.h"
+
+namespace flbc {
+namespace {
+
+using RayBox = Eigen::AlignedBox<double, 3>;
+constexpr double kNothing = std::numeric_limits<double>::infinity();
+
+struct Ray {
+  Vector<3> origin, direction;
+
+  // Whether it passes through a box, or may do so.
+  bool meets(const RayBox& box) const {
+    double begin = 0, end = kNothing;
+    for (int k = 0; k < 3; ++k) {
+      const double one = (box.min()(k) - origin(k)) / direction(k);
+      const double other = (box.max()(k) - origin(k)) / direction(k);
+      // A ray within a side of the box makes these NaN, which min and max then leave out.
+      begin = std::max(begin, std::min(one, other));
+      end = std::min(end, std::max(one, other));
+    }
+    return begin <= end;
+  }
+
+  // The distance to a triangle, by Cramer's rule.
+  double distance_to(const Eigen::Matrix3d& corners) const {
+    const Vector<3> u = corners.col(1) - corners.col(0), v = corners.col(2) - corners.col(0);
+    const Vector<3> across = direction.cross(v), from = origin - corners.col(0);
+    const double determinant = u.dot(across);
+    const Vector<3> turned = from.cross(u);
+    const double s = from.dot(across) / determinant, t = direction.dot(turned) / determinant;
+    const double distance = v.dot(turned) / determinant;
+    return s >= 0 && t >= 0 && s + t <= 1 && distance > 0 ? distance : kNothing;
+  }
+};
+
+// The inward normal, and directions at 30 degrees from it.
+std::vector<Vector<3>> directions_around(const Vector<3>& inward) {
+  constexpr int kAround = 6;
+  const double angle = std::acos(-1.0) / 6;
+  const Vector<3> side = inward.unitOrthogonal(), other = inward.cross(side);
+  std::vector<Vector<3>> directions{inward};
+  for (int k = 0; k < kAround; ++k) {
+    const double turn = 2 * k * std::acos(-1.0) / kAround;
+    directions.push_back(std::cos(angle) * inward +
+                         std::sin(angle) * (std::cos(turn) * side + std::sin(turn) * other));
+  }
+  return directions;
+}
+
+}  // namespace
+
+std::vector<double> thickness_of(const Cage<3>& surface) {
+  std::vector<RayBox> boxes;
+  PointList<3> normals = PointList<3>::Zero(3, surface.size());
+  for (const auto& facet : surface.facets.colwise()) {
+    const Eigen::Matrix3d corners = surface.points(Eigen::all, facet);
+    boxes.emplace_back(Vector<3>(corners.rowwise().minCoeff()),
+                       Vector<3>(corners.rowwise().maxCoeff()));
+    const Vector<3> normal =
+        (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
+    for (const Index v : facet) normals.col(v) += normal;
+  }
+  const OverlapTree<3> tree(std::move(boxes));
+  const double size = bounding_box_diagonal<3>(surface.points);
+  std::vector<double> thickness(static_cast<std::size_t>(surface.size()));
+  parallel_for(surface.size(), [&](Index v) {
+    std::vector<double> lengths;
+    for (const auto& direction : directions_around(-normals.col(v).normalized())) {
+      const Ray ray{surface.points.col(v), direction};
+      double nearest = size;
+      tree.any_of([&](const RayBox& box) { return ray.meets(box); },
+                  [&](Index f) {
+                    const auto facet = surface.facets.col(f);
+                    if ((facet.array() != v).all()) {
+                      const Eigen::Matrix3d corners = surface.points(Eigen::all, facet);
+                      nearest = std::min(nearest, ray.distance_to(corners));
+                    }
+                    return false;
+                  });
+      lengths.push_back(nearest);
+    }
+    const auto median = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), median, lengths.end());
+    thickness[v] = *median;
+  });
+  return thickness;
+}
+
+}  // namespace flbc
