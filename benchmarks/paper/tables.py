@@ -223,6 +223,13 @@ def animated(row):
     return ", ".join(percent(row, kind) for kind in kinds) if row["edges_animation"] else ""
 
 
+
+
+PIPELINE = [("model", "model"), ("cage of", "cage_of"), ("total, s", "total:.1f"), ("cage", "cage:.1f"),
+            ("mesh", "mesh:.1f"), ("solve", "solve:.1f"), ("reduce to 8", "sparsify:.1f"), ("export", "export:.1f"),
+            ("beside these: check", "check:.1f"), ("pictures", "pictures:.1f")]
+
+
 def sparsified(row):
     return (f"{row['weights']}, {thousands(row['points'])} points, n = {row['control_points']}, "
             f"{value(row, 'influences_before'):.0f} influences before")
@@ -251,7 +258,7 @@ def time_to_error(rows):
 TABLES = {"models": lines(*MODELS), "harmonic": lines(*HARMONIC), "race": race, "solvers": solvers,
           "speed": lines(*SPEED), "growth": curves(GROWTH, "total_seconds", "peak_mebibytes"),
           "many": lines(*MANY), "tolerance": tolerance, "smoothness": grouped(sized, *SMOOTHNESS),
-          "cages": lines(*CAGES), "sparsify": grouped(sparsified, *SPARSIFY), "table1": lines(*TABLE1),
+          "cages": lines(*CAGES), "pipeline": lines(*PIPELINE), "sparsify": grouped(sparsified, *SPARSIFY), "table1": lines(*TABLE1),
           "table2": grouped(with_published, *TABLE2),
           "figure3": curves(FIGURE3, "total_seconds", "solve_mebibytes"), "figure5": time_to_error,
           "figure6": time_to_error}

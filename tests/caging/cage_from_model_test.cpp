@@ -252,6 +252,22 @@ TEST(CageLimitsTest, CompactModelsGetFewControlPointsAndThinOnesMore) {
   EXPECT_GE(make(spider(), {}).cage.size(), 60);
 }
 
+// There is something to hold wherever a rod may bend, in any position.
+TEST(CageLimitsTest, RodsGetControlPointsAlongTheirLength) {
+  for (const double angle : {0.0, 0.6}) {
+    const Eigen::AngleAxisd turn(angle, Vector<3>(1, 2, 0.5).normalized());
+    auto rod = box_cage<3>(Vector<3>(-2, -0.15, -0.1), Vector<3>(2, 0.15, 0.1));
+    rod.points = turn.toRotationMatrix() * rod.points;
+    const auto made = make(rod, {});
+    const Eigen::RowVectorXd along =
+        (turn.toRotationMatrix().transpose() * made.cage.points).row(0);
+    for (double place = -1.5; place <= 1.5; place += 0.25) {
+      EXPECT_GE(((along.array() - place).abs() < 0.5).count(), 3) << place;
+    }
+    EXPECT_LE(made.volume_ratio, kMaxCageVolume);
+  }
+}
+
 TEST(CageLimitsTest, ARequestedNumberOverridesThem) {
   CagingOptions options;
   options.control_points = 4;

@@ -65,7 +65,7 @@ SparseWeights sparsify(const PointList<Dim>& control_points, const PointList<Dim
 //! Without given poses, the energy consists of these random poses only.
 //!
 //! The solver is block coordinate descent: it optimizes the weights of one point while its
-//! neighbors are fixed. The result is a local minimum whose energy is not above that of sparsify().
+//! neighbors are fixed. The result is a local minimum, usually far below the energy of sparsify().
 //! Points without edges get the weights of sparsify(). Points with at most Dim given influences
 //! keep them, because they lie on the cage and follow its facet. Coincident points with equal
 //! weights get equal results. The result does not depend on the number of threads.
