@@ -106,7 +106,7 @@ TYPED_TEST(Bind, TheObserverSeesTheSolveAndMayCancelIt) {
   options.weights = "others";
   options.observer.poll = [] { throw std::runtime_error("cancelled"); };
   EXPECT_THROW(bind(fresh, cage, domain, options), std::runtime_error);
-  EXPECT_THROW(openmesh::get_rest_cage(fresh, "others"), InputError);
+  EXPECT_EQ(openmesh::get_rest_cage(fresh, "others").size(), 0);
 }
 
 TYPED_TEST(Bind, FramesFollowTheCageAndDoNotAccumulate) {

@@ -91,9 +91,9 @@ std::vector<double> thickness_of(const Cage<3>& surface) {
                   });
       lengths.push_back(nearest);
     }
-    const auto median = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-    std::nth_element(lengths.begin(), median, lengths.end());
-    thickness[v] = *median;
+    // Near edges some rays are short; at the tip of a limb the middle one is long.
+    std::sort(lengths.begin(), lengths.end());
+    thickness[v] = lengths[lengths.size() - 2];
   });
   return thickness;
 }
