@@ -8,20 +8,19 @@
 #include <Eigen/Geometry>
 
 #include "base/parallel.h"
-#include "caging/enclosure.h"
+#include "cage/box_tree.h"
 #include "flbc/bounding_box.h"
 
 namespace flbc {
 namespace {
 
-using RayBox = Eigen::AlignedBox<double, 3>;
 constexpr double kNothing = std::numeric_limits<double>::infinity();
 
 struct Ray {
   Vector<3> origin, direction;
 
   // Whether it passes through a box, or may do so.
-  bool meets(const RayBox& box) const {
+  bool meets(const BoxTree<3>::Box& box) const {
     double begin = 0, end = kNothing;
     for (int k = 0; k < 3; ++k) {
       const double one = (box.min()(k) - origin(k)) / direction(k);
@@ -62,17 +61,14 @@ std::vector<Vector<3>> directions_around(const Vector<3>& inward) {
 }  // namespace
 
 std::vector<double> thickness_of(const Cage<3>& surface) {
-  std::vector<RayBox> boxes;
   PointList<3> normals = PointList<3>::Zero(3, surface.size());
   for (const auto& facet : surface.facets.colwise()) {
     const Eigen::Matrix3d corners = surface.points(Eigen::all, facet);
-    boxes.emplace_back(Vector<3>(corners.rowwise().minCoeff()),
-                       Vector<3>(corners.rowwise().maxCoeff()));
     const Vector<3> normal =
         (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
     for (const Index v : facet) normals.col(v) += normal;
   }
-  const OverlapTree<3> tree(std::move(boxes));
+  const BoxTree<3> tree(boxes_of<3, 3>(surface.points, surface.facets));
   const double size = bounding_box_diagonal<3>(surface.points);
   std::vector<double> thickness(static_cast<std::size_t>(surface.size()));
   parallel_for(surface.size(), [&](Index v) {
@@ -80,7 +76,7 @@ std::vector<double> thickness_of(const Cage<3>& surface) {
     for (const auto& direction : directions_around(-normals.col(v).normalized())) {
       const Ray ray{surface.points.col(v), direction};
       double nearest = size;
-      tree.any_of([&](const RayBox& box) { return ray.meets(box); },
+      tree.any_of([&](const BoxTree<3>::Box& box) { return ray.meets(box); },
                   [&](Index f) {
                     const auto facet = surface.facets.col(f);
                     if ((facet.array() != v).all()) {
