@@ -260,10 +260,10 @@ class Caging {
     return describe(*cage, size.offset);
   }
 
-  // Edges at most about twice as long as the surface is thick leave control points along limbs,
+  // Edges not much longer than the surface is thick leave control points along limbs,
   // at which these bend.
   std::vector<double> edge_lengths(const Cage<3>& surface) const {
-    constexpr double kLengthOfThickness = 1.6;
+    constexpr double kLengthOfThickness = 1.4;
     const auto whole = plane_.is_there() ? join_halves(surface, plane_) : surface;
     auto lengths = thickness_of(whole);
     lengths.resize(static_cast<std::size_t>(surface.size()));
