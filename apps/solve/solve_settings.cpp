@@ -122,7 +122,7 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
                      "target for the estimated error of the weights (default: 1e-6 for gradient, "
                      "1e-7 for other methods)");
   command.add_flag("--certify", options.certify,
-                   "bound the distance of the weights from the optimum");
+                   "prove by how much the objective can exceed its minimum");
   command.add_option("--threads", options.threads, "number of threads (default: all cores)");
   command.option_defaults()->group(kMore);
   add_choice(command, "--outside", settings.outside,

@@ -80,7 +80,7 @@ OPTIONS = """\
         is not given.
     max_iterations : int, default 20000
     certify : bool, default False
-        Whether to bound the distance of the weights from the optimum.
+        Whether to prove by how much the objective can exceed its minimum.
     threads : int, default 0
         Number of threads; 0 for all cores.
     non_negative : str, default "auto"
