@@ -16,6 +16,8 @@ skip() {
 }
 command -v node >/dev/null || skip "Node.js is missing (Debian: nodejs)"
 [ -e "$dist/flbc.html" ] || skip "the module for the web is missing; run scripts/web.sh"
+newer=$(find "$root/libflbc" "$root/apps" "$root/web/"{src,js,page} -type f -newer "$dist/flbc.html" -print -quit)
+[ -z "$newer" ] || skip "the module for the web is older than ${newer#"$root/"}; run scripts/web.sh"
 rm -rf "$work"
 mkdir -p "$work"
 if [ "$kind" = node ]; then
