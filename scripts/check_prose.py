@@ -71,7 +71,8 @@ def missing_files(page, text):
         first = name.split("/")[0]
         folders = [page.parent] if first == ".." else [ROOT, ROOT / "libflbc" / "src"]
         below = [folder for folder in folders if (folder / first).is_dir()]
-        if below and first not in ("build", "out") and not any(
+        is_made = name.startswith(("build/", "out/", "web/dist/"))
+        if below and not is_made and not any(
                 list(folder.glob(name)) or list(folder.glob(name + ".*")) for folder in below):
             yield name
 
