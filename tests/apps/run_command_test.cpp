@@ -118,9 +118,9 @@ class RunCommand : public CommandLineTest {
     expect("check " + cage + " --weights d.npy --domain " + domain + " --json check.json");
     auto checked = json_in("check.json");
     // Whoever has solved knows them.
-    for (const char* name : {"weighted_variation", "harmonic_weighted_variation"}) {
-      EXPECT_GT(checked["weights"]["mesh"][name], 0);
-      checked["weights"]["mesh"][name] = nullptr;
+    for (const char* variation : {"weighted_variation", "harmonic_weighted_variation"}) {
+      EXPECT_GT(checked["weights"]["mesh"][variation], 0);
+      checked["weights"]["mesh"][variation] = nullptr;
     }
     EXPECT_EQ(json["check"]["cage"], checked["cage"]);
     EXPECT_EQ(json["check"]["weights"]["worst"], checked["weights"]["worst"]);

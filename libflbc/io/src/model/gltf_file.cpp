@@ -23,12 +23,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Chunk = std::pair<std::size_t, std::size_t>;  // begin and end in the file
 
-constexpr std::size_t kHeader = 12, kChunkHead = 8;
+constexpr std::size_t kGlbHeader = 12, kChunkHead = 8;
 
 // Of a .glb file: the JSON and, if there is one, the binary chunk.
 std::array<Chunk, 2> chunks_of(const std::string& path, const std::string& bytes) {
   std::array<Chunk, 2> chunks{};
-  std::size_t begin = kHeader;
+  std::size_t begin = kGlbHeader;
   for (auto& chunk : chunks) {
     if (bytes.size() < begin + kChunkHead) break;
     const auto size = number_at<std::uint32_t>(bytes.data() + begin);
@@ -559,9 +559,9 @@ std::string with_bounds_of_points(std::string bytes) {
   auto text = json.dump();
   text.resize((text.size() + 3) / 4 * 4, ' ');
   std::string result =
-      bytes.substr(0, kHeader + kChunkHead) + text + bytes.substr(json_chunk.second);
+      bytes.substr(0, kGlbHeader + kChunkHead) + text + bytes.substr(json_chunk.second);
   put_number(static_cast<std::uint32_t>(result.size()), result.data() + 8);
-  put_number(static_cast<std::uint32_t>(text.size()), result.data() + kHeader);
+  put_number(static_cast<std::uint32_t>(text.size()), result.data() + kGlbHeader);
   return result;
 }
 

@@ -11,7 +11,7 @@ namespace flbc::io {
 template <class Number>
 Number number_at(const char* bytes) {
   Number number;
-  std::memcpy(&number, bytes, sizeof number);
+  std::memcpy(static_cast<void*>(&number), bytes, sizeof number);
   return number;
 }
 
