@@ -14,7 +14,8 @@ include(GNUInstallDirs)
 set(shared_libraries flbc flbc_io flbc_cgal flbc_caging flbc_tetgen flbc_netgen flbc_openmesh)
 # Internal headers of the core that the other libraries use.
 set(shared_inside
-  cage/close_points cage/oriented_cage cage/point_in_cage linear/dense meshing/isolated_process
+  cage/close_points cage/oriented_cage cage/point_in_cage linear/dense
+  meshing/cgal/exact_predicates meshing/isolated_process
   meshing/meshing_common meshing/surface_subdivision meshing/vertex_count_search)
 
 # What matches an expression in headers, as mangled names: length, word. Comments do not count.

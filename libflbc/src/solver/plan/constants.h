@@ -192,7 +192,7 @@ constexpr double kCoarseStartTolerance = 3e-7;
 constexpr double kLooseness = 4;
 
 //! When a multilevel start pays. `value` needs few iterations, so coarse meshes must be cheap: one
-//! level with about an eighth of the vertices.
+//! level with a tenth of the vertices.
 struct Worthwhile {
   double numbers;  //!< minimum of vertices times control points
   Index coarsest;  //!< vertices
@@ -201,9 +201,9 @@ struct Worthwhile {
 //! \param on_active_set  after a multilevel start, it need not grow and takes a third of the
 //! iterations
 constexpr Worthwhile worthwhile(int dim, bool on_active_set) {
-  return on_active_set ? Worthwhile{kActivePairs, 500, 8}
+  return on_active_set ? Worthwhile{kActivePairs, 500, 12}
          : dim == 2    ? Worthwhile{2.5e5, 900, 10}
-                       : Worthwhile{7e5, 1000, 8};
+                       : Worthwhile{7e5, 1000, 12};
 }
 
 // ---- distances behind phi -----------------------------------------------------------------------
