@@ -37,8 +37,8 @@ struct MeshCheck {
   Extreme<Dim> highest_maximum;     //!< as for minima
   double total_variation = 0;       //!< sum_s sum_i A_s |grad w_i|, in units of the mesh^(Dim - 1)
   double harmonic_total_variation = 0;  //!< of harmonic coordinates on this mesh
-  //! What local coordinates minimize, sum_s sum_i phi_s^i A_s |grad w_i|, with phi = kSquare. 0 if it
-  //! was not asked for, and for meshes of several parts, because each part has its own phi.
+  //! What local coordinates minimize, sum_s sum_i phi_s^i A_s |grad w_i|, with phi = kSquare. 0 if
+  //! it was not asked for, and for meshes of several parts, because each part has its own phi.
   double weighted_variation = 0;
   double harmonic_weighted_variation = 0;  //!< of harmonic coordinates on this mesh
   double gradient_jump = 0;                //!< see gradient_jump() in quality.h
