@@ -227,7 +227,7 @@ def animated(row):
 
 PIPELINE = [("model", "model"), ("cage of", "cage_of"), ("total, s", "total:.1f"), ("cage", "cage:.1f"),
             ("mesh", "mesh:.1f"), ("solve", "solve:.1f"), ("reduce to 8", "sparsify:.1f"), ("export", "export:.1f"),
-            ("beside these: check", "check:.1f"), ("pictures", "pictures:.1f")]
+            ("at the same time: check", "check:.1f"), ("pictures", "pictures:.1f")]
 
 
 def sparsified(row):
