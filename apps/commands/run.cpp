@@ -84,7 +84,7 @@ void take_steps_beside(Run<Dim>& run, std::future<void> deformed) {
 template <int Dim>
 void take_steps(Run<Dim>& run) {
   for (const char* name : kSteps) {
-    run.report[name] = nullptr;
+    run.report.emplace(name, nullptr);  // "cage" already names its file
     run.report["seconds"][name] = 0.0;
   }
   run.report["seconds"]["cage"] = run.arguments.caging_seconds;

@@ -87,6 +87,7 @@ class RunCommand : public CommandLineTest {
     }
     const auto json = report("out");
     EXPECT_EQ(json["files"].get<Names>(), expected);
+    EXPECT_EQ(json["cage"], cage);
 
     expect_same("solve " + cage + " --vertices 800 --model " + model +
                     " --tolerance 1e-4 --smoothness 0.003",
