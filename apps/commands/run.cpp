@@ -72,7 +72,7 @@ void take(Run<Dim>& run, const char* name, void (*step)(Run<Dim>&)) {
 
 // Those that draw and check, which need one thread, while others reduce influences by all.
 template <int Dim>
-void take_steps_beside(Run<Dim>& run, std::future<void> deformed) {
+void take_other_steps(Run<Dim>& run, std::future<void> deformed) {
   omp_set_num_threads(1);
   take(run, "check", check_weights_of_mesh);
   take(run, "pictures", draw_function);
@@ -91,16 +91,16 @@ void take_steps(Run<Dim>& run) {
   take(run, "cage", deliver_cage);
   take(run, "mesh", mesh_interior);
   take(run, "solve", compute_weights);
-  std::future<void> beside;     // waits when it goes out of scope
+  std::future<void> others;     // waits when it goes out of scope
   std::promise<void> deformed;  // breaks before that if a step fails
-  beside = std::async(std::launch::async, [&run, ready = deformed.get_future()]() mutable {
-    take_steps_beside(run, std::move(ready));
+  others = std::async(std::launch::async, [&run, ready = deformed.get_future()]() mutable {
+    take_other_steps(run, std::move(ready));
   });
   take(run, "sparsify", reduce_influences);
   take(run, "deform", deform_shape);
   deformed.set_value();
   take(run, "export", export_shape);
-  beside.get();
+  others.get();
   const std::chrono::duration<double> total =
       std::chrono::steady_clock::now() - run.arguments.start;
   run.report["seconds"]["total"] = total.count();

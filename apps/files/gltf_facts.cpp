@@ -12,6 +12,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
+#include "model/gltf_node.h"
 
 namespace flbc::app {
 namespace {
@@ -25,23 +26,6 @@ std::string json_of(const std::string& bytes) {
   std::uint32_t size = 0;
   if (bytes.size() >= kBegin) std::memcpy(&size, bytes.data() + 12, sizeof size);
   return bytes.size() < kBegin ? "" : bytes.substr(kBegin, size);
-}
-
-Eigen::Matrix4d transform_of(const GltfJson& node) {
-  const auto numbers = [&](const char* name, std::vector<double> otherwise) {
-    return node.contains(name) ? node.at(name).get<std::vector<double>>() : otherwise;
-  };
-  if (const auto given = numbers("matrix", {}); given.size() == 16) {
-    return Eigen::Map<const Eigen::Matrix4d>(given.data());
-  }
-  const auto turn = numbers("rotation", {0, 0, 0, 1});
-  const auto size = numbers("scale", {1, 1, 1});
-  const auto shift = numbers("translation", {0, 0, 0});
-  const Eigen::Affine3d transform =
-      Eigen::Translation3d(shift.at(0), shift.at(1), shift.at(2)) *
-      Eigen::Quaterniond(turn.at(3), turn.at(0), turn.at(1), turn.at(2)) *
-      Eigen::Scaling(size.at(0), size.at(1), size.at(2));
-  return transform.matrix();
 }
 
 // The box around all meshes where the nodes of the file put them. Skins are at rest where their
@@ -68,7 +52,7 @@ class SceneBox {
     const auto& node = nodes.at(k);
     if (depth > nodes.size())
       throw GltfJson::other_error::create(501, "nodes form a circle", &node);
-    const Eigen::Matrix4d transform = parent * transform_of(node);
+    const Eigen::Matrix4d transform = parent * io::transform_of(node).matrix();
     if (node.contains("mesh")) {
       const auto mesh = node.at("mesh").get<std::size_t>();
       for (const auto& primitive : gltf_.at("meshes").at(mesh).at("primitives")) {

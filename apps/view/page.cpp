@@ -12,6 +12,7 @@
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/sparsify.h"
+#include "model/srgb.h"
 
 namespace flbc::view {
 
@@ -82,12 +83,6 @@ Json pack_weights(const SparseWeights& weights) {
           {"values", pack<float>(weights.values())}};
 }
 
-// From linear colours to the sRGB of pages.
-double to_srgb(double color) {
-  constexpr double kGamma = 2.4;
-  return color <= 0.0031308 ? 12.92 * color : 1.055 * std::pow(color, 1 / kGamma) - 0.055;
-}
-
 bool is_identity(const std::vector<Index>& sources, Eigen::Index num_points) {
   for (std::size_t v = 0; v < sources.size(); ++v) {
     if (sources[v] != static_cast<Index>(v)) return false;
@@ -125,7 +120,7 @@ Json pack_surface(const gltf::Surface& surface, Eigen::Index num_points) {
   }
   if (surface.colors.cols() > 0) {
     const Eigen::MatrixXd bytes =
-        surface.colors.unaryExpr([](double color) { return std::round(255 * to_srgb(color)); });
+        surface.colors.unaryExpr([](double color) { return std::round(255 * io::to_srgb(color)); });
     json["colors"] = pack<std::uint8_t>(bytes.reshaped());
   }
   return json;

@@ -36,4 +36,4 @@ def rows(context):
 
 
 PIPELINE = ("flbc run with 8 influences: seconds of each stage, medians of 3 runs; check, pictures and page are "
-            "made beside sparsify and export, with one thread", rows)
+            "made at the same time as sparsify and export, with one thread", rows)

@@ -123,10 +123,9 @@ std::vector<Vector<Dim>> Coarsening<Dim>::positions(const Quadric<Dim>& quadric,
   return all;
 }
 
-// The limit at a vertex that becomes one with another.
+// The limit at the vertex of a collapse, which has that of both ends.
 template <int Dim>
 double Coarsening<Dim>::length_at(const Replacement<Dim>& change) const {
-  if (change.removed < 0) return lengths_[change.vertex];
   return std::min(lengths_[change.vertex], lengths_[change.removed]);
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "cage/box_tree.h"
+#include "caging/surface_tools.h"
 #include "flbc/bounding_box.h"
 
 namespace flbc {
@@ -64,8 +65,7 @@ std::vector<double> thickness_of(const Cage<3>& surface) {
   PointList<3> normals = PointList<3>::Zero(3, surface.size());
   for (const auto& facet : surface.facets.colwise()) {
     const Eigen::Matrix3d corners = surface.points(Eigen::all, facet);
-    const Vector<3> normal =
-        (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
+    const Vector<3> normal = facet_normal<3>(corners);
     for (const Index v : facet) normals.col(v) += normal;
   }
   const BoxTree<3> tree(boxes_of<3, 3>(surface.points, surface.facets));

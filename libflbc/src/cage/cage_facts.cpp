@@ -104,8 +104,8 @@ ThinPlace thinnest_place(const Cage<Dim>& cage) {
       if (along(i) > high[axis] + thinnest.distance) break;
       if ((cage.facets.col(f).array() == i).any()) continue;
       const Vector<Dim> point = cage.points.col(i);
-      const Vector<Dim> beside = (low - point).cwiseMax(point - high).cwiseMax(0);
-      if (beside.norm() > thinnest.distance) continue;
+      const Vector<Dim> outside = (low - point).cwiseMax(point - high).cwiseMax(0);
+      if (outside.norm() > thinnest.distance) continue;
       const double distance = distance_to_facet<Dim>(point, corners);
       const bool is_tie = distance == thinnest.distance && f == thinnest.facet;
       if (distance < thinnest.distance || (is_tie && i < thinnest.control_point)) {

@@ -10,6 +10,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/cut_polygon.h"
+#include "model/srgb.h"
 
 namespace flbc::gltf {
 namespace {
@@ -131,11 +132,6 @@ void turn_counterclockwise(const io::PolygonSoup& soup, Corners& corners) {
   }
 }
 
-// Converts sRGB colors, as written by most programs, to the linear colors of glTF.
-double linear(double color) {
-  return color <= 0.04045 ? color / 12.92 : std::pow((color + 0.055) / 1.055, 2.4);
-}
-
 // The vertices, in the order of the model vertices, and the corners of the triangles.
 Surface index_corners(const Corners& corners, Corners& vertices) {
   vertices = corners;
@@ -164,7 +160,7 @@ void add_texture_and_colors(const io::SurfaceAttributes& attributes, const Corne
     surface.texture_coordinates.col(v) << place[0], 1 - place[1];
   }
   if (attributes.colors.cols() > 0) {
-    surface.colors = attributes.colors(Eigen::all, surface.sources).unaryExpr(&linear);
+    surface.colors = attributes.colors(Eigen::all, surface.sources).unaryExpr(&io::to_linear);
   }
 }
 

@@ -14,7 +14,9 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
+#include "model/gltf_node.h"
 #include "model/model_scan.h"
+#include "model/srgb.h"
 #include "text/bytes.h"
 
 namespace flbc::io {
@@ -77,24 +79,6 @@ constexpr int kFloat = 5126;
 
 int rows_of(const std::string& type) {
   return type == "SCALAR" ? 1 : type == "VEC2" ? 2 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : 16;
-}
-
-Eigen::Affine3d transform_of(const Json& node) {
-  const auto numbers = [&](const char* name, std::vector<double> usual) {
-    return node.value(name, std::move(usual));
-  };
-  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
-  if (const auto given = numbers("matrix", {}); given.size() == 16) {
-    transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(given.data());
-    return transform;
-  }
-  const auto turn = numbers("rotation", {0, 0, 0, 1});
-  const auto size = numbers("scale", {1, 1, 1});
-  const auto shift = numbers("translation", {0, 0, 0});
-  transform = Eigen::Translation3d(shift.at(0), shift.at(1), shift.at(2)) *
-              Eigen::Quaterniond(turn.at(3), turn.at(0), turn.at(1), turn.at(2)) *
-              Eigen::Scaling(size.at(0), size.at(1), size.at(2));
-  return transform;
 }
 
 class GltfScanner {
@@ -425,14 +409,20 @@ class GltfScanner {
     scan_.sites.push_back({place, kind, static_cast<std::uint8_t>(axis), index, number_of_frame_});
   }
 
+  View attribute(const Json& attributes, const char* name, int rows, std::size_t vertices,
+                 const char* numbers) const {
+    const auto view = accessor(attributes.at(name), rows);
+    if (view.count < vertices) fail("a mesh has fewer " + std::string(numbers) + " than vertices");
+    return view;
+  }
+
   void add_normals(const Json& attributes, const Vertices& vertices) {
     const auto count = vertices.numbers.size();
     if (!vertices.has_normals) {
       normals_.insert(normals_.end(), 3 * count, 0.0);
       return;
     }
-    const auto view = accessor(attributes.at("NORMAL"), 3);
-    if (view.count < count) fail("a mesh has fewer normals than vertices");
+    const auto view = attribute(attributes, "NORMAL", 3, count, "normals");
     const Eigen::Matrix3d turn = frame_.linear().inverse().transpose();
     for (std::size_t k = 0; k < count; ++k) {
       const Vector<3> normal = turn * Vector<3>(view.at(k, 0), view.at(k, 1), view.at(k, 2));
@@ -450,8 +440,7 @@ class GltfScanner {
       texture_.insert(texture_.end(), 2 * count, 0.0);
       return;
     }
-    const auto view = accessor(attributes.at("TEXCOORD_0"), 2);
-    if (view.count < count) fail("a mesh has fewer texture coordinates than vertices");
+    const auto view = attribute(attributes, "TEXCOORD_0", 2, count, "texture coordinates");
     for (std::size_t k = 0; k < count; ++k) {
       texture_.push_back(view.at(k, 0));
       texture_.push_back(1 - view.at(k, 1));
@@ -462,14 +451,10 @@ class GltfScanner {
   // From linear colors to those that most other files have.
   void add_colors(const Json& attributes, const Vertices& vertices) {
     if (!attributes.contains("COLOR_0")) return;
-    const auto view = accessor(attributes.at("COLOR_0"), 3);
-    if (view.count < vertices.numbers.size()) fail("a mesh has fewer colors than vertices");
+    const auto view = attribute(attributes, "COLOR_0", 3, vertices.numbers.size(), "colors");
     for (std::size_t k = 0; k < vertices.numbers.size(); ++k) {
       auto& color = colors_[vertices.numbers[k]];
-      for (int d = 0; d < 3; ++d) {
-        const double linear = view.at(k, d);
-        color[d] = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-      }
+      for (int d = 0; d < 3; ++d) color[d] = to_srgb(view.at(k, d));
     }
   }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes .glb: a mesh of triangles with all attributes, its materials, and their pictures.
-#include <cmath>
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -11,6 +10,7 @@
 #include "flbc/io/cut_polygon.h"
 #include "flbc/io/files.h"
 #include "model/model_scan.h"
+#include "model/srgb.h"
 #include "text/bytes.h"
 
 namespace flbc::io {
@@ -20,11 +20,6 @@ using Json = nlohmann::ordered_json;
 using Corner = std::tuple<Index, Index, Index>;  // point, texture coordinate, normal; -1 = none
 
 constexpr int kSingles = 5126, kIndices = 5125;
-
-// From colors as most files have them.
-double to_linear(double color) {
-  return color <= 0.04045 ? color / 12.92 : std::pow((color + 0.055) / 1.055, 2.4);
-}
 
 class GlbWriter {
  public:

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -136,13 +135,11 @@ DomainMesh<3> compact(const Cage<3>& cage, const PointList<3>& input, DomainMesh
 
 // The cells of a regular cage are all halved at the same volume bound, so the count jumps. A
 // different shape bound then gives counts in between.
-DomainMesh<3> refine_to_count(const Cage<3>& cage, Index wanted, DomainMesh<3> coarsest,
+DomainMesh<3> refine_to_count(Index wanted, double first_bound, DomainMesh<3> coarsest,
                               const MeshMaker& make_mesh) {
   VertexCountGoal goal;
   goal.vertices = wanted;
   goal.good_enough = kCountTolerance / 2;
-  const double first_bound =
-      guess_volume_bound(cage, std::abs(total_measure(coarsest)), coarsest.num_vertices(), wanted);
   DomainMesh<3> mesh = std::move(coarsest);
   for (double ratio : {kRadiusEdgeRatio, 1.3, 1.6, 1.2, 1.8}) {
     mesh = search_vertex_count<3>(goal, std::move(mesh), first_bound, kCountExponent,
@@ -189,15 +186,12 @@ DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, double time_limit)
     return compact(task.cage, task.input.points, std::move(mesh));
   };
   DomainMesh<3> mesh = make_mesh(kRadiusEdgeRatio, 0);
-  if (task.roughly && task.vertices > mesh.num_vertices()) {
-    const double bound = guess_volume_bound(task.cage, std::abs(total_measure(mesh)),
-                                            mesh.num_vertices(), task.vertices);
-    return make_mesh(kRadiusEdgeRatio, bound);
-  }
-  if (task.roughly) return mesh;
-  check_vertex_count(task.vertices, mesh.num_vertices(), kCountTolerance);
+  if (!task.roughly) check_vertex_count(task.vertices, mesh.num_vertices(), kCountTolerance);
   if (task.vertices <= mesh.num_vertices()) return mesh;
-  return refine_to_count(task.cage, task.vertices, std::move(mesh), make_mesh);
+  const double bound = guess_volume_bound(task.cage, std::abs(total_measure(mesh)),
+                                          mesh.num_vertices(), task.vertices);
+  if (task.roughly) return make_mesh(kRadiusEdgeRatio, bound);
+  return refine_to_count(task.vertices, bound, std::move(mesh), make_mesh);
 }
 
 // A mesh that also contains cage edges between coplanar facets; empty if TetGen fails. Without
