@@ -85,12 +85,11 @@ TEST_F(ExportCommand, InfoTellsWhatIsInASkin) {
   file("moved.gltf", R"({"nodes": [{"children": [1], "translation": [10, 0, 0]},
                                    {"mesh": 0, "scale": [1, 2, 1], "rotation": [0, 0, 1, 0]}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-    "accessors": [{"count": 3, "min": [0, 0, 0], "max": [1, 1, 1]}]})");
+    "accessors": [{"count": 3, "bufferView": 0, "componentType": 5120, "type": "VEC3"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 9}],
+    "buffers": [{"byteLength": 9, "uri": "data:;base64,AAAAAQABAQEA"}]})");
   const auto moved = expect("info moved.gltf").output;
   EXPECT_NE(moved.find("from (9, -2, 0) to (10, 0, 1)"), std::string::npos) << moved;
-  file("t.gltf", skin.json.dump());
-  const auto words = [](const std::string& text) { return text.substr(text.find(": ")); };
-  EXPECT_EQ(words(expect("info t.gltf").output), words(info));
   for (const std::string& damaged : {slurp("s.glb").substr(0, 500), std::string("glTF"),
                                      std::string(R"({"meshes": 3})"), std::string()}) {
     expect("info " + file("u.glb", damaged), 2, "not a glTF file, or damaged");

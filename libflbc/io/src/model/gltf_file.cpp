@@ -14,7 +14,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
-#include "model/gltf_node.h"
+#include "model/gltf_json.h"
 #include "model/model_scan.h"
 #include "model/srgb.h"
 #include "text/bytes.h"
@@ -71,11 +71,11 @@ std::string from_base64(const std::string& text) {
 }
 
 // Sizes of the numbers of an accessor by its type; 0 = unknown.
-std::size_t component_size(int type) {
+std::size_t component_size(std::size_t type) {
   constexpr std::size_t kSizes[] = {1, 1, 2, 2, 0, 4, 4};  // 5120 .. 5126
   return type >= 5120 && type <= 5126 ? kSizes[type - 5120] : 0;
 }
-constexpr int kFloat = 5126;
+constexpr std::size_t kFloat = 5126;
 
 int rows_of(const std::string& type) {
   return type == "SCALAR" ? 1 : type == "VEC2" ? 2 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : 16;
@@ -101,7 +101,8 @@ class GltfScanner {
     const char* data = nullptr;
     std::size_t count = 0, stride = 0;
     std::size_t place = 0;  // 0 = none
-    int rows = 0, type = 0;
+    std::size_t type = 0;
+    int rows = 0;
     bool is_normalized = false;
 
     double at(std::size_t k, int row) const {
@@ -161,11 +162,12 @@ class GltfScanner {
     return read_file(beside(path_, uri));
   }
 
-  View view_of(std::size_t number, std::size_t offset) const {
+  View view_of(const Json& index, std::size_t offset) const {
+    const auto number = whole(index);
     const auto& json = json_.at("bufferViews").at(number);
-    const auto buffer = json.at("buffer").get<std::size_t>();
-    const auto begin = json.value("byteOffset", std::size_t{0});
-    const auto length = json.at("byteLength").get<std::size_t>();
+    const auto buffer = whole(json.at("buffer"));
+    const auto begin = whole(json, "byteOffset", 0);
+    const auto length = whole(json.at("byteLength"));
     const bool is_inside = buffers_.at(buffer).empty();
     const auto size = is_inside ? binary_.second - binary_.first : buffers_[buffer].size();
     if (begin > size || length > size - begin || offset > length) {
@@ -176,20 +178,21 @@ class GltfScanner {
     view.data =
         is_inside ? scan_.text.data() + view.place : buffers_[buffer].data() + begin + offset;
     view.count = length - offset;  // bytes
-    view.stride = json.value("byteStride", std::size_t{0});
+    view.stride = whole(json, "byteStride", 0);
     return view;
   }
 
-  View accessor(std::size_t number, int rows) const {
+  View accessor(const Json& index, int rows) const {
+    const auto number = whole(index);
     const auto& json = json_.at("accessors").at(number);
     const auto name = "accessor " + std::to_string(number);
     if (json.contains("sparse") || !json.contains("bufferView")) {
       fail(name + " is sparse, which is not supported");
     }
-    auto view = view_of(json.at("bufferView"), json.value("byteOffset", std::size_t{0}));
+    auto view = view_of(json.at("bufferView"), whole(json, "byteOffset", 0));
     const auto bytes = view.count;
-    view.count = json.at("count").get<std::size_t>();
-    view.type = json.at("componentType").get<int>();
+    view.count = whole(json.at("count"));
+    view.type = whole(json.at("componentType"));
     view.rows = rows_of(json.at("type"));
     view.is_normalized = json.value("normalized", false);
     const auto size = component_size(view.type) * static_cast<std::size_t>(view.rows);
@@ -221,9 +224,9 @@ class GltfScanner {
   }
 
   void read_texture(const Json& texture, Material& material) {
-    const auto source = json_.at("textures").at(texture.at("index").get<std::size_t>());
+    const auto source = json_.at("textures").at(whole(texture.at("index")));
     if (!source.contains("source")) return;
-    const auto number = source["source"].get<std::size_t>();
+    const auto number = whole(source["source"]);
     const auto& image = json_.at("images").at(number);
     material.texture = path_ + "#" + std::to_string(number);
     if (image.contains("bufferView")) {
@@ -245,14 +248,13 @@ class GltfScanner {
     const auto nodes = json_.value("nodes", Json::array());
     parents_.assign(nodes.size(), -1);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
-      for (const auto& child : nodes[k].value("children", Json::array())) {
-        parents_.at(child.get<std::size_t>()) = static_cast<std::ptrdiff_t>(k);
-      }
+      for (const auto child : wholes(nodes[k], "children"))
+        parents_.at(child) = static_cast<std::ptrdiff_t>(k);
     }
     std::vector<std::size_t> roots;
     if (json_.contains("scenes")) {
-      const auto& scene = json_["scenes"].at(json_.value("scene", std::size_t{0}));
-      roots = scene.value("nodes", roots);
+      const auto& scene = json_["scenes"].at(whole(json_, "scene", 0));
+      roots = wholes(scene, "nodes");
     } else {
       for (std::size_t k = 0; k < nodes.size(); ++k) {
         if (parents_[k] < 0) roots.push_back(k);
@@ -269,14 +271,14 @@ class GltfScanner {
       if (++visits_ > nodes.size()) fail("a node has two parents");
       const auto& node = nodes.at(k);
       if (node.contains("mesh")) {
-        begin_node(node.contains("skin") ? transform_of_skin(nodes, node.at("skin"))
+        begin_node(node.contains("skin") ? transform_of_skin(nodes, whole(node.at("skin")))
                                          : world_transform(nodes, k));
         for (const auto& primitive :
-             json_.at("meshes").at(node.at("mesh").get<std::size_t>()).at("primitives")) {
+             json_.at("meshes").at(whole(node.at("mesh"))).at("primitives")) {
           add_primitive(primitive);
         }
       }
-      const auto children = node.value("children", std::vector<std::size_t>());
+      const auto children = wholes(node, "children");
       left.insert(left.end(), children.rbegin(), children.rend());
     }
   }
@@ -295,7 +297,7 @@ class GltfScanner {
   // At rest all joints of a skin move its mesh alike, and its node not at all.
   Eigen::Affine3d transform_of_skin(const Json& nodes, std::size_t number) const {
     const auto& skin = json_.at("skins").at(number);
-    auto transform = world_transform(nodes, skin.at("joints").at(0).get<std::size_t>());
+    auto transform = world_transform(nodes, whole(skin.at("joints").at(0)));
     if (!skin.contains("inverseBindMatrices")) return transform;
     const auto matrices = accessor(skin.at("inverseBindMatrices"), 16);
     Eigen::Affine3d inverse = Eigen::Affine3d::Identity();
@@ -319,21 +321,22 @@ class GltfScanner {
   }
 
   void add_primitive(const Json& primitive) {
-    constexpr int kTriangles = 4, kStrip = 5, kFan = 6;
-    const int mode = primitive.value("mode", kTriangles);
+    constexpr std::size_t kTriangles = 4, kStrip = 5, kFan = 6;
+    const auto mode = whole(primitive, "mode", kTriangles);
     if (mode < kTriangles || mode > kFan) return add_other(model_, "points and lines");
     if (primitive.contains("targets")) add_other(model_, "morph targets");
     const auto& vertices = vertices_of(primitive.at("attributes"));
     std::vector<std::size_t> corners;
     if (primitive.contains("indices")) {
       const auto indices = accessor(primitive.at("indices"), 1);
-      for (std::size_t k = 0; k < indices.count; ++k)
-        corners.push_back(static_cast<std::size_t>(indices.at(k, 0)));
+      for (std::size_t k = 0; k < indices.count; ++k) corners.push_back(to_whole(indices.at(k, 0)));
     } else {
       for (std::size_t k = 0; k < vertices.numbers.size(); ++k) corners.push_back(k);
     }
-    const auto material = primitive.value("material", Index{-1});
-    if (material >= static_cast<Index>(model_.materials.size())) fail("a material is out of range");
+    const bool has_material = primitive.contains("material");
+    const auto number = whole(primitive, "material", 0);
+    if (has_material && number >= model_.materials.size()) fail("a material is out of range");
+    const auto material = has_material ? static_cast<Index>(number) : -1;
     for (std::size_t k = 2; k < corners.size(); k += mode == kTriangles ? 3 : 1) {
       const bool is_odd = mode == kStrip && k % 2 == 1;
       const std::size_t first = mode == kFan ? 0 : k - 2;
@@ -370,8 +373,8 @@ class GltfScanner {
     if (const auto found = known_.find(key); found != known_.end()) return found->second;
     auto& vertices = known_[key];
     vertices.first = static_cast<Index>(normals_.size() / 3);
-    const auto number = attributes.at("POSITION").get<std::size_t>();
-    const auto places = accessor(number, 3);
+    const auto number = whole(attributes.at("POSITION"));
+    const auto places = accessor(attributes.at("POSITION"), 3);
     const bool has_sites = places.place != 0;
     if (has_sites && !placed_.insert(number).second) {
       scan_.fixed =
@@ -522,18 +525,18 @@ std::string with_bounds_of_points(std::string bytes) {
   std::set<std::size_t> positions;
   for (const auto& mesh : json.at("meshes")) {
     for (const auto& primitive : mesh.at("primitives")) {
-      positions.insert(primitive.at("attributes").at("POSITION").get<std::size_t>());
+      positions.insert(whole(primitive.at("attributes").at("POSITION")));
     }
   }
   for (const auto number : positions) {
     auto& accessor = json.at("accessors").at(number);
     if (accessor.at("componentType") != kFloat || !accessor.contains("bufferView")) continue;
-    const auto& view = json.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>());
-    const auto stride = view.value("byteStride", std::size_t{12});
-    const char* point = bytes.data() + binary.first + view.value("byteOffset", std::size_t{0}) +
-                        accessor.value("byteOffset", std::size_t{0});
+    const auto& view = json.at("bufferViews").at(whole(accessor.at("bufferView")));
+    const auto stride = whole(view, "byteStride", 12);
+    const char* point = bytes.data() + binary.first + whole(view, "byteOffset", 0) +
+                        whole(accessor, "byteOffset", 0);
     Eigen::AlignedBox3f box;
-    for (std::size_t k = 0; k < accessor.at("count").get<std::size_t>(); ++k, point += stride) {
+    for (std::size_t k = 0; k < whole(accessor.at("count")); ++k, point += stride) {
       box.extend(number_at<Eigen::Vector3f>(point));
     }
     for (int d = 0; d < 3; ++d) {
