@@ -37,6 +37,7 @@ for name in 2d/figure 3d/limb; do
   "$flbc" sparsify "$out.npy" --cage "$cage" --points "$model" -k 8 -q -o "$out.mtx"
   "$flbc" view "$model" --weights "$out.mtx" --cage "$cage" --pose "$meshes/${name}_cage_pose.obj" \
     -q -o "$out.html"
+  "$flbc" view "$model" --weights "$out.mtx" --cage "$cage" -q -o "${out}_rest.html"
 done
 if [ "$kind" = firefox ]; then
   # Without a display it offers no WebGL.

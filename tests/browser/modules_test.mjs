@@ -10,11 +10,12 @@ const { Camera } = await load("camera");
 const { Deformer } = await load("deformer");
 const { Editor } = await load("editor");
 const { decodeIndices } = await load("data");
-const { poseText } = await load("obj");
+const { poseText, readPose } = await load("obj");
 const { interpolatePoses, playedTime } = await load("poses");
 const { edgesOf, sumNormals } = await load("surface_normals");
 const { rotate, scale, translate } = await load("transforms");
-const { pick, pointsInRectangle } = await load("picking");
+const { pick, pointsInside, rectangle } = await load("picking");
+const { CageGraph } = await load("rings");
 const { ToolDrag } = await load("actions");
 const { Reshaper } = await import(new URL("../../web/page/reshaping.mjs", import.meta.url));
 const { cageToObj, mergePoints, splitEdge } = await import(new URL("../../web/page/cage_edits.mjs", import.meta.url));
@@ -143,6 +144,87 @@ test("transforms: identities", () => {
   near(result.slice(6, 9), [0, 3, 2]);
 });
 
+// A tube of square sections at the heights given, closed at both ends. The last one is far larger,
+// as a body is.
+function tube(heights) {
+  const count = heights.length, points = [], facets = [];
+  heights.forEach((height, h) => {
+    const size = h === count - 1 ? 3 : 0.5;
+    for (const [x, y] of [[-1, -1], [1, -1], [1, 1], [-1, 1]]) points.push(size * x, size * y, height);
+  });
+  for (let h = 0; h + 1 < count; ++h) {
+    for (let k = 0; k < 4; ++k) {
+      const [a, b] = [4 * h + k, 4 * h + (k + 1) % 4];
+      facets.push(a, b, b + 4, a, b + 4, a + 4);
+    }
+  }
+  const last = 4 * count - 4;
+  facets.push(0, 2, 1, 0, 3, 2, last, last + 1, last + 2, last, last + 2, last + 3);
+  return { points: Float64Array.from(points), facets };
+}
+
+test("rings: around a limb, beyond it, and growing", () => {
+  const { points, facets } = tube([0, 1, 2, 3, 4, 5]);
+  const graph = new CageGraph(facets, 3, points.length / 3);
+  for (const h of [1, 2, 3]) {
+    for (let k = 0; k < 4; ++k) {
+      assert.deepEqual(graph.ring(points, 4 * h + k).sort((a, b) => a - b), [0, 1, 2, 3].map((c) => 4 * h + c));
+    }
+    const ring = new Set(graph.ring(points, 4 * h));
+    if (h > 1) assert.deepEqual(graph.shrink(new Set(graph.grow(ring))).sort(), [...ring].sort());
+    const limb = graph.beyond(ring).sort((a, b) => a - b);
+    // The smaller part: toward the end that has fewer control points.
+    assert.deepEqual(limb, h < 3 ? [...Array(4 * h + 4).keys()] : [...Array(24).keys()].slice(12));
+  }
+  const open = new CageGraph(facets.slice(0, 24), 3, points.length / 3);
+  assert.deepEqual(open.ring(points, 0), [0], "at the border of an open cage");
+});
+
+test("rings in the plane: the control point across the shape", () => {
+  // A bar of width 1, with points at all units.
+  const bottom = [0, 1, 2, 3, 4, 5].map((x) => [x, 0, 0]), top = [5, 4, 3, 2, 1, 0].map((x) => [x, 1, 0]);
+  const points = Float64Array.from([...bottom, ...top].flat());
+  const graph = new CageGraph([...Array(12).keys()].flatMap((k) => [k, (k + 1) % 12]), 2, 12);
+  for (const x of [1, 2, 3, 4]) assert.deepEqual(graph.ring(points, x), [x, 11 - x]);
+});
+
+test("soft selection follows the cage, and fades to its radius", () => {
+  const { points, facets } = tube([0, 1, 2, 3, 4, 5]);
+  const editor = new Editor(points, 3, facets);
+  editor.select([0, 1, 2, 3]);
+  assert.deepEqual([...editor.shares().keys()], [0, 1, 2, 3]);
+  editor.softness = 2.5;
+  const shares = editor.shares();
+  near([0, 4, 8].map((i) => shares.get(i)), [1, (1 - 0.16) ** 2, (1 - 0.64) ** 2]);
+  assert.ok(!shares.has(12));
+  const drag = new ToolDrag(editor, cameraOf(3), "rotate", "z", 0, { x: 0, y: 0 });
+  drag.by(90);
+  near(editor.points.slice(0, 3), [0.5, -0.5, 0]);
+  const angle = Math.PI / 2 * shares.get(4) + Math.atan2(-0.5, -0.5);
+  near(editor.points.slice(12, 15), [Math.hypot(0.5, 0.5) * Math.cos(angle), Math.hypot(0.5, 0.5) * Math.sin(angle), 1]);
+  drag.by(0);
+  near(editor.points, points);
+});
+
+test("a limb rotates around the ring where it begins", () => {
+  const { points, facets } = tube([0, 1, 2, 3, 4, 5]);
+  const editor = new Editor(points, 3, facets);
+  editor.selectRings([8]);
+  editor.selectLimb();
+  near(editor.pivot, [0, 0, 2]);
+  new ToolDrag(editor, cameraOf(3), "rotate", "x", 0, { x: 0, y: 0 }).by(90);
+  near(editor.points.slice(0, 3), [-0.5, 2, -0.5 + 2]);
+  editor.select([1]);
+  assert.equal(editor.pivot, null);
+});
+
+test("poses are read from files", () => {
+  near(readPose("# pose\nv 1 2 3\n v 4 5 6 7\r\nvt 0 0\nf 1 2 1\n", 3, 2), [1, 2, 3, 4, 5, 6], 0);
+  near(readPose("v 1 2 0\n", 2, 1), [1, 2], 0);
+  assert.throws(() => readPose("v 1 2 3\n", 3, 8), /has 1 vertices, but the cage has 8/);
+  assert.throws(() => readPose("v 1 two 3\n", 3, 1), /no number/);
+});
+
 test("mirror: images move as mirrors do, points of the plane stay in it", () => {
   const rest = Float64Array.of(1, 0, 0, -1, 0, 0, 0, 1, 0, 5, 5, 5);
   const editor = new Editor(rest, 3);
@@ -175,14 +257,18 @@ test("editor: resetting is a stroke, strokes without a change are none", () => {
   assert.equal(editor.canUndo, false);
 });
 
-test("picking: the nearest within reach, and what a rectangle holds", () => {
+test("picking: the nearest within reach, and what an outline holds", () => {
   const camera = cameraOf(3);
   camera.look(0, 0);
   const spot = camera.project([1, 1, 1]);
   assert.equal(pick(kCube, camera, spot.x + 3, spot.y - 2, 12), 7);
   assert.equal(pick(kCube, camera, 400, 300, 12), -1);
-  const front = pointsInRectangle(kCube, camera, { x: 800, y: 0 }, { x: 400, y: 600 });
-  assert.deepEqual(front, [1, 3, 5, 7]);
+  const right = pointsInside(kCube, camera, rectangle({ x: 800, y: 0 }, { x: 400, y: 600 }));
+  assert.deepEqual(right, [1, 3, 5, 7]);
+  const diamond = [[-9, 0], [0, -9], [9, 0], [0, 9]].map(([x, y]) => ({ x: spot.x + x, y: spot.y + y }));
+  assert.deepEqual(pointsInside(kCube, camera, diamond), [7]);
+  const arrow = [diamond[0], { x: spot.x + 3, y: spot.y }, diamond[2], diamond[3]];
+  assert.deepEqual(pointsInside(kCube, camera, arrow.map(({ x, y }) => ({ x, y: y + 1 }))), [], "the notch of a lasso");
 });
 
 test("deformer: a point goes where its weights take it, and home again bit by bit", () => {

@@ -93,6 +93,23 @@ export class Page {
     return this.tab.click(`#${id}`);
   }
 
+  state() {
+    return this.tab.$eval("#state", (element) => element.textContent);
+  }
+
+  async type(keys) {
+    for (const key of keys) await this.tab.keyboard.press(key);
+  }
+
+  // A control point that can be dragged without selecting it first.
+  async touchable(accepts = () => true) {
+    for (let i = 0; ; ++i) {
+      const spot = await this.ask("spot", i);
+      await this.tab.mouse.move(spot.x, spot.y);
+      if ((await this.state()).startsWith(`control point ${i} `) && await accepts(i)) return i;
+    }
+  }
+
   // A control point that can be clicked.
   async grabbable() {
     for (let i = 0; ; ++i) {
@@ -121,7 +138,9 @@ export class Page {
     return pixelsOf(this.tab, base64);
   }
 
-  close() {
+  // Forgets the pose, which the browser would keep for the next page of this model.
+  async close() {
+    await this.tab.evaluate(() => localStorage.clear());
     assert.deepEqual(this.failures, []);
     const others = this.requests.filter(
       (url) => !/^(file|data|blob):/.test(url) && !url.startsWith(this.url));

@@ -137,6 +137,264 @@ async function testSelection(name, dim, cage) {
   await page.close();
 }
 
+const minus = (a, b) => a.map((value, k) => value - b[k]);
+
+function middleOf(points, indices) {
+  return points[0].map((_, k) => indices.reduce((sum, i) => sum + points[i][k], 0) / indices.length);
+}
+
+async function cageOf(page) {
+  const points = [];
+  for (let i = 0; i < await page.tab.evaluate(() => window.flbc.viewer.editor.size); ++i) {
+    points.push(await page.ask("controlPoint", i));
+  }
+  return points;
+}
+
+// What a person does who has never seen the page: the first drag looks right, because it takes a ring.
+async function testFirstDrag(name, weights) {
+  const page = await open(name);
+  const i = await page.touchable((k) => page.tab.evaluate((v) => {
+    const { editor } = window.flbc.viewer;
+    return editor.graph.ring(editor.rest, v).length > 1;
+  }, k));
+  const shown = await page.state();
+  const [, ...lines] = readFileSync(weights, "utf8").split("\n").filter((line) => line && !line.startsWith("%"));
+  const entries = lines.map((line) => line.split(/\s+/).map(Number));
+  const moved = entries.filter(([, column, value]) => column === i + 1 && value > 1e-4).length;
+  const total = Math.max(...entries.map(([row]) => row));
+  const share = Number(/moves ([^%]*)% of the vertices/.exec(shown)[1]);
+  assert.ok(Math.abs(share - 100 * moved / total) < 0.01 * share + 1e-6, `${shown}, not ${moved} of ${total}`);
+
+  const before = await cageOf(page);
+  await page.drag(await page.ask("spot", i), 40, -30);
+  const ring = await page.ask("selection");
+  assert.ok(ring.length > 1 && ring.includes(i), `${ring}`);
+  const after = await cageOf(page);
+  const step = minus(after[i], before[i]);
+  assert.ok(Math.hypot(...step) > 0);
+  after.forEach((place, k) => {
+    const expected = ring.includes(k) ? step : step.map(() => 0);
+    assert.ok(largestDifference(minus(place, before[k]), expected) < 1e-9 * sizeOf(before.flat(), before[0].length));
+  });
+  await page.picture(join(work, `${name}_first_drag.png`));
+
+  // From now on every control point is on its own.
+  await page.ask("select", []);
+  const j = await page.touchable((k) => !ring.includes(k));
+  await page.drag(await page.ask("spot", j), 10, 10);
+  assert.deepEqual(await page.ask("selection"), [j]);
+  await page.close();
+}
+
+// A limb bends by: double click, L, R, 60, Enter.
+async function testBend(name, dim) {
+  const page = await open(name);
+  const { tab } = page;
+  const n = (await cageOf(page)).length;
+  const limbOf = async (i) => {
+    const spot = await page.ask("spot", i);
+    await tab.mouse.click(spot.x, spot.y, { count: 2 });
+    const ring = await page.ask("selection");
+    await page.type("l");
+    return [ring, await page.ask("selection")];
+  };
+  const i = await page.touchable(async (k) => {
+    const [ring, limb] = await limbOf(k);
+    return ring.length > 1 && limb.length > ring.length && limb.length < n / 2;
+  });
+  const [ring, limb] = await limbOf(i);
+  assert.ok(ring.every((k) => limb.includes(k)));
+  await page.type("+");
+  assert.ok((await page.ask("selection")).length > limb.length);
+  await page.type("-");
+  assert.deepEqual(await page.ask("selection"), limb);
+  await limbOf(i);
+
+  const before = await cageOf(page);
+  const center = middleOf(before, ring);
+  await page.type("r60");
+  assert.match(await page.state(), /rotate 60°/);
+  await tab.keyboard.press("Enter");
+  const after = await cageOf(page);
+  const toward = await tab.evaluate(() => window.flbc.viewer.camera.axes().toward);
+  const across = (arm) => {
+    const along = arm.reduce((sum, value, k) => sum + value * toward[k], 0);
+    return arm.map((value, k) => value - along * toward[k]);
+  };
+  const size = sizeOf(before.flat(), dim);
+  for (let k = 0; k < n; ++k) {
+    if (!limb.includes(k)) {
+      assert.deepEqual(after[k], before[k]);
+      continue;
+    }
+    const [a, b] = [before, after].map((places) => across(minus(places[k], center)));
+    const cosine = a.reduce((sum, value, c) => sum + value * b[c], 0) / (Math.hypot(...a) * Math.hypot(...b));
+    assert.ok(Math.abs(cosine - 0.5) < 1e-9);
+    assert.ok(Math.abs(Math.hypot(...minus(after[k], center)) - Math.hypot(...minus(before[k], center))) < 1e-9 * size);
+  }
+  await page.picture(join(work, `${name}_bent.png`));
+  await page.press("undo");
+  assert.deepEqual(await cageOf(page), before);
+  await page.type("r60");
+  await tab.keyboard.press("Escape");
+  assert.deepEqual(await cageOf(page), before, "Escape cancels");
+
+  // A number during a drag, of which only one coordinate changes.
+  await page.press("axisX");
+  await page.type("g");
+  const spot = await page.ask("spot", i);
+  await tab.mouse.move(spot.x, spot.y);
+  await tab.mouse.down();
+  await tab.mouse.move(spot.x + 30, spot.y + 10, { steps: 3 });
+  await page.type("-.25");
+  await tab.mouse.move(spot.x + 50, spot.y + 10);
+  await tab.keyboard.press("Enter");
+  await tab.mouse.up();
+  const moved = await cageOf(page);
+  for (let k = 0; k < n; ++k) {
+    const expected = before[k].map((value, c) => (c === 0 && limb.includes(k) ? value - 0.25 : value));
+    assert.ok(largestDifference(moved[k], expected) < 1e-12 * size);
+  }
+  await page.close();
+}
+
+// Around a control point by Alt and click. Dragging elsewhere turns the view, whatever the tool.
+async function testPivot(name, dim) {
+  const page = await open(name);
+  const { tab } = page;
+  const pivot = await page.touchable();
+  const chosen = await page.touchable((k) => k !== pivot);
+  for (const [i, key] of [[chosen, null], [pivot, "Alt"]]) {
+    const spot = await page.ask("spot", i);
+    if (key) await tab.keyboard.down(key);
+    await tab.mouse.click(spot.x, spot.y);
+    if (key) await tab.keyboard.up(key);
+  }
+  assert.deepEqual(await page.ask("selection"), [chosen]);
+  await tab.waitForSelector("#pivot", { visible: true });
+  const before = await cageOf(page);
+  await page.type("s2");
+  await tab.keyboard.press("Enter");
+  const after = await cageOf(page);
+  const arm = minus(before[chosen], before[pivot]);
+  assert.ok(largestDifference(minus(after[chosen], before[pivot]), arm.map((x) => 2 * x)) < 1e-9 * Math.hypot(...arm));
+  const view = () => tab.evaluate(() => JSON.stringify(window.flbc.viewer.camera));
+  const seen = await view();
+  const box = await (await tab.$("#canvas")).boundingBox();
+  await page.drag({ x: box.x + 5, y: box.y + box.height - 5 }, 40, -20);
+  assert.notEqual(await view(), seen);
+  assert.deepEqual(await cageOf(page), after);
+  assert.deepEqual(await page.ask("selection"), [chosen]);
+  await page.picture(join(work, `${name}_pivot.png`));
+  await page.close();
+}
+
+// Neighbors follow, in part, and what lies in a lasso is selected.
+async function testSoftAndLasso(name) {
+  const page = await open(name);
+  const { tab } = page;
+  const i = await page.touchable();
+  const spot = await page.ask("spot", i);
+  await tab.mouse.click(spot.x, spot.y);
+  await page.type("o");
+  const before = await cageOf(page);
+  await page.drag(spot, 50, -40);
+  await page.picture(join(work, `${name}_soft.png`));
+  const after = await cageOf(page);
+  const far = (k) => Math.hypot(...minus(after[k], before[k]));
+  const parts = before.map((_, k) => far(k) / far(i));
+  assert.ok(parts.every((part) => part <= 1 + 1e-9));
+  assert.ok(parts.some((part) => part > 0.05 && part < 0.95), "no neighbor follows");
+  await page.press("undo");
+  await page.type("o");
+  await page.drag(spot, 50, -40);
+  const alone = await cageOf(page);
+  assert.equal(alone.filter((place, k) => place.some((x, c) => x !== before[k][c])).length, 1);
+
+  const spots = [];
+  for (let k = 0; k < before.length; ++k) spots.push(await page.ask("spot", k));
+  const box = await (await tab.$("#canvas")).boundingBox();
+  const [left, bottom] = [box.x + 2, box.y + box.height - 2];
+  const [width, height] = [0.6 * box.width, 0.6 * box.height];
+  await tab.keyboard.down("Control");
+  await tab.mouse.move(left, bottom);
+  await tab.mouse.down();
+  await tab.mouse.move(left + width, bottom);
+  await tab.mouse.move(left, bottom - height);
+  await page.picture(join(work, `${name}_lasso.png`));
+  await tab.mouse.up();
+  await tab.keyboard.up("Control");
+  const inside = spots.flatMap(({ x, y }, k) =>
+    (x > left && y < bottom && (x - left) / width + (bottom - y) / height < 1 ? [k] : []));
+  assert.deepEqual(await page.ask("selection"), [...new Set([i, ...inside])].sort((a, b) => a - b));
+  await page.close();
+}
+
+// Poses survive a reload, are loaded from files, and become keys of an animation.
+async function testKeptPoses(name, dim, pose) {
+  const page = await open(name);
+  const { tab } = page;
+  const rest = await cageOf(page);
+  const load = async (path) => {
+    const [chooser] = await Promise.all([tab.waitForFileChooser(), page.press("loadPose")]);
+    await chooser.accept([path]);
+  };
+  const wrong = join(work, "wrong_pose.obj");
+  writeFileSync(wrong, "v 1 2 3\n");
+  await load(wrong);
+  await tab.waitForFunction(() => document.getElementById("note").textContent.includes("has 1 vertices"));
+  await load(pose);
+  await tab.waitForFunction(() => window.flbc.viewer.editor.canUndo);
+  const posed = await cageOf(page);
+  assert.deepEqual(posed.flat(), vertices(pose, dim));
+  await tab.reload();
+  await page.loaded();
+  assert.deepEqual(await cageOf(page), posed);
+  await tab.keyboard.down("Control");
+  await page.type("z");
+  await tab.keyboard.up("Control");
+  assert.deepEqual(await cageOf(page), rest);
+  await tab.reload();
+  await page.loaded();
+  assert.deepEqual(await cageOf(page), rest);
+  assert.equal(await tab.$eval("#undo", (button) => button.disabled), true);
+  await page.close();
+}
+
+// From a page without poses.
+async function testKeys(name, dim, pose) {
+  const page = await open(`${name}_rest`);
+  const { tab } = page;
+  const rest = await cageOf(page);
+  const isShown = () => tab.$eval("#timeline", (element) => element.checkVisibility());
+  assert.ok(!(await isShown()));
+  const [chooser] = await Promise.all([tab.waitForFileChooser(), page.press("loadPose")]);
+  await chooser.accept([pose]);
+  await tab.waitForFunction(() => window.flbc.viewer.editor.canUndo);
+  await page.type("k");
+  await page.press("resetAll");
+  await page.type("k");
+  assert.ok(await isShown());
+  await tab.reload();
+  await page.loaded();
+  assert.ok(await isShown(), "keys are kept");
+  await tab.focus("#time");
+  await tab.keyboard.press("Home");
+  assert.deepEqual(await cageOf(page), rest);
+  await tab.evaluate(() => { window.largest = 0; });
+  await page.press("play");
+  await tab.waitForFunction((x) => {
+    window.largest = Math.max(window.largest, Math.abs(window.flbc.viewer.time - 1) < 0.1 ? 1 : 0);
+    return window.largest > 0;
+  });
+  await page.press("play");
+  await page.picture(join(work, `${name}_keys.png`));
+  for (let k = 0; k < 2; ++k) await page.press("removeKey");
+  assert.ok(!(await isShown()));
+  await page.close();
+}
+
 async function testPoses(name, dim, model, weights, pose) {
   const page = await open(name);
   const size = sizeOf(vertices(pose, dim), dim);
@@ -293,6 +551,12 @@ try {
     if (!isChromium) continue;
     await testSelection(name, dim, file("cage"));
     await testPoses(name, dim, file("model"), weights, file("cage_pose"));
+    await testFirstDrag(name, weights);
+    await testBend(name, dim);
+    await testPivot(name, dim);
+    await testSoftAndLasso(name);
+    await testKeptPoses(name, dim, file("cage_pose"));
+    await testKeys(name, dim, file("cage_pose"));
     await testButtons(name, dim === 2 ? "light" : "dark");
     await testTouch(name);
   }

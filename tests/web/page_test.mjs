@@ -108,6 +108,16 @@ async function testModel(sample, file, dim) {
   assert.ok(largestDifference(await app.points(), moved) < 5e-3 * size);
   const rig = await app.saved("[data-save=glb4]", `${title}.glb`);
   assert.match(String(execFileSync(program, ["info", rig])), /animation of 1 s/);
+
+  // Two keys are an animation of two seconds.
+  await app.type("k");
+  await app.press("undo");
+  await app.type("k");
+  const animated = await app.saved("[data-save=glb8]", `${title}_8.glb`);
+  assert.match(String(execFileSync(program, ["info", animated])), /animation of 2 s/);
+  await app.shot(`${dim}d_keys`);
+  for (let k = 0; k < 2; ++k) await app.press("removeKey");
+  await app.press("redo");
   const page = await app.saved("[data-save=page]", `${title}.html`);
   assert.match(readFileSync(page, "utf8"), /<html/);
 

@@ -19,47 +19,67 @@ export class ToolDrag {
   constructor(editor, camera, tool, axisName, grabbed, from) {
     this.editor = editor;
     this.camera = camera;
-    this.indices = [...editor.selection];
-    this.tool = this.indices.length > 1 ? tool : "move";
+    this.shares = editor.shares();
+    this.shareOf = (i) => this.shares.get(i);
+    this.tool = this.shares.size > 1 || editor.pivot ? tool : "move";
     this.axis = axisName ? kAxes[axisName] : null;
     this.from = from;
     this.grabbed = grabbed;
     editor.begin();
     this.anchor = pointAt(editor.start, grabbed);
-    this.center = centroid(editor.start, this.indices);
+    this.center = editor.pivot ?? centroid(editor.start, [...editor.selection]);
   }
 
+  // To where the pointer is.
   to(spot) {
-    const { editor, indices } = this;
-    editor.change(indices, (start, listed, result) => {
-      if (this.tool === "rotate") return this.rotate(spot, start, listed, result);
-      if (this.tool === "scale") return this.scale(spot, start, listed, result);
-      return this.translate(spot, start, listed, result);
-    });
+    if (this.tool === "rotate") return this.rotate(this.angleTo(spot));
+    if (this.tool === "scale") return this.scale(this.factorTo(spot));
+    return this.translate(this.stepTo(spot));
   }
 
-  translate(spot, start, listed, result) {
+  // By a number of degrees, times, or units of length along the axis (x if none is chosen).
+  by(number) {
+    if (this.tool === "rotate") return this.rotate(number * Math.PI / 180);
+    if (this.tool === "scale") return this.scale(number);
+    return this.translate(times(number, this.axis ?? kAxes.x));
+  }
+
+  change(move) {
+    this.editor.change([...this.shares.keys()], move);
+  }
+
+  translate(step) {
+    this.change((start, listed, result) => translate(start, listed, step, result, this.shareOf));
+  }
+
+  rotate(angle) {
+    const axis = this.axis ?? this.camera.axes().toward;
+    this.change((start, listed, result) =>
+      rotate(start, listed, this.center, axis, angle, result, this.shareOf));
+  }
+
+  scale(factor) {
+    this.change((start, listed, result) =>
+      scale(start, listed, this.center, factor, this.axis, result, this.shareOf));
+  }
+
+  stepTo(spot) {
     const dx = spot.x - this.from.x, dy = spot.y - this.from.y;
-    const step = this.axis
-      ? times(alongAxis(this.camera, this.anchor, this.axis, dx, dy), this.axis)
-      : this.camera.step(this.anchor, dx, dy);
-    translate(start, listed, step, result);
+    return this.axis ? times(alongAxis(this.camera, this.anchor, this.axis, dx, dy), this.axis)
+                     : this.camera.step(this.anchor, dx, dy);
   }
 
-  rotate(spot, start, listed, result) {
+  angleTo(spot) {
     const middle = this.camera.project(this.center);
     const angleOf = (place) => Math.atan2(middle.y - place.y, place.x - middle.x);
-    const { toward } = this.camera.axes();
-    const axis = this.axis ?? toward;
-    const sense = dot(axis, toward) < 0 ? -1 : 1;
-    rotate(start, listed, this.center, axis, sense * (angleOf(spot) - angleOf(this.from)), result);
+    const sense = this.axis && dot(this.axis, this.camera.axes().toward) < 0 ? -1 : 1;
+    return sense * (angleOf(spot) - angleOf(this.from));
   }
 
-  scale(spot, start, listed, result) {
+  factorTo(spot) {
     const middle = this.camera.project(this.center);
     const distance = (place) => Math.hypot(place.x - middle.x, place.y - middle.y);
-    const factor = distance(spot) / Math.max(4, distance(this.from));
-    scale(start, listed, this.center, factor, this.axis, result);
+    return distance(spot) / Math.max(4, distance(this.from));
   }
 
   // How far the grabbed control point is from where it began.

@@ -3,6 +3,8 @@
 // the control points are from there. Every point is computed anew from these, never from where it
 // was before, so that the same cage always gives the same bits.
 
+const kInfluence = 1e-4;  // smaller weights count as none
+
 export class Deformer {
   constructor(weights, base, rest) {
     this.weights = weights;
@@ -66,6 +68,17 @@ export class Deformer {
       for (let k = starts[p]; k < starts[p + 1]; ++k) sums[p] += isSelected[owners[k]] * values[k];
     }
     return sums;
+  }
+
+  // The share of the model's points that a control point moves.
+  shareOf(i) {
+    if (this.sharesOf !== this.weights) {
+      const { starts, controlPoints: owners, values } = this.weights;
+      this.sharesOf = this.weights;
+      this.shares = new Float64Array(this.rest.length / 3);
+      owners.forEach((owner, k) => { this.shares[owner] += values[k] > kInfluence ? 1 / (starts.length - 1) : 0; });
+    }
+    return this.shares[i];
   }
 
   // Eight weights per point for the card, and their control points; null if a point has more.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cage in the hands of a user: where its control points are, which of them are selected, and
+// The cage as the user edits it: where its control points are, which of them are selected, and
 // what can be undone. Between begin() and end() lies a stroke, which is undone at once.
 import { mirrorMoves, mirrorPairs } from "./mirror.mjs";
-import { boundingSphere, pointAt, setPoint } from "./vectors.mjs";
+import { CageGraph } from "./rings.mjs";
+import { boundingSphere, centroid, pointAt, setPoint } from "./vectors.mjs";
 
 const kMostStrokes = 200;
 
@@ -11,7 +12,11 @@ function areEqual(a, b) {
 }
 
 export class Editor {
-  constructor(rest, dim) {
+  // \param facets  of the cage, dim control points each
+  constructor(rest, dim, facets = []) {
+    this.graph = new CageGraph(facets, dim, rest.length / 3);
+    this.softness = 0;  // radius of the soft selection, 0: none
+    this.pivot = null;  // around which the selection is rotated and scaled, null: its center
     this.rest = rest;
     this.dim = dim;
     this.points = rest.slice();
@@ -38,6 +43,7 @@ export class Editor {
   }
 
   select(indices) {
+    this.pivot = null;
     this.selection = new Set([...indices].filter((i) => i >= 0 && i < this.size));
     this.onChange();
   }
@@ -45,6 +51,34 @@ export class Editor {
   toggle(i) {
     if (!this.selection.delete(i)) this.selection.add(i);
     this.onChange();
+  }
+
+  // The rings around the limbs at the control points selected.
+  selectRings(indices = this.selection) {
+    this.select([...indices].flatMap((i) => this.graph.ring(this.rest, i)));
+  }
+
+  // The limb beyond the selection, which rotates around the center of what was selected.
+  selectLimb() {
+    const pivot = centroid(this.points, [...this.selection]);
+    this.select(this.graph.beyond(this.selection));
+    this.setPivot(pivot);
+  }
+
+  setPivot(place) {
+    this.pivot = place;
+    this.onChange();
+  }
+
+  // Which share of a step control points take: within the radius it falls smoothly to 0.
+  shares() {
+    const distances = this.graph.distances(this.rest, this.selection, this.softness);
+    const shares = new Map();
+    for (const [i, distance] of distances) {
+      const share = distance > 0 ? (1 - (distance / this.softness) ** 2) ** 2 : 1;
+      if (share > 0) shares.set(i, share);
+    }
+    return shares;
   }
 
   // -1: none. Mirrors at a plane through the origin or through the middle of the resting cage.

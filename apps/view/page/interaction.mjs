@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mouse, pen and fingers on the picture.
-import { pick, pointsInRectangle } from "./picking.mjs";
+import { pick, pointsInside, rectangle } from "./picking.mjs";
 import { ToolDrag } from "./actions.mjs";
+import { pointAt } from "./vectors.mjs";
 
 const kReach = { mouse: 12, pen: 16, touch: 26 };  // pixels
 const kClick = { mouse: 2, pen: 4, touch: 8 };     // moves up to here are none
 
 export class Interaction {
-  // \param view  what is shown: canvas, camera, editor, tool, axis, boxSelects, and functions
-  // redraw, showRectangle, hover
+  // \param view  what is shown: canvas, camera, editor, tool, axis, area, typed, and functions
+  // redraw, hover, onOutline, onState
   constructor(view) {
     this.view = view;
     this.pointers = new Map();
@@ -19,6 +20,7 @@ export class Interaction {
     canvas.addEventListener("pointermove", (event) => this.move(event));
     canvas.addEventListener("pointerup", (event) => this.up(event));
     canvas.addEventListener("pointercancel", (event) => this.up(event));
+    canvas.addEventListener("dblclick", (event) => this.selectRing(event));
     canvas.addEventListener("pointerleave", () => view.hover(-1));
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
     canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
@@ -47,23 +49,68 @@ export class Interaction {
     this.hasMoved = false;
     this.adds = event.shiftKey || event.ctrlKey || event.metaKey;
     const hit = event.button === 0 ? this.pickAt(spot, event) : -1;
+    if (hit >= 0 && event.altKey) return view.editor.setPivot(pointAt(view.editor.points, hit));
     this.mode = hit >= 0 ? this.grab(hit) : this.modeOfEmptySpot(event);
   }
 
-  // A control point under the pointer is selected, and moves with all that are.
+  // A control point under the pointer is selected, and moves with all that are. The first drag of
+  // all takes the ring around the limb, because one control point alone makes a dent.
   grab(hit) {
-    const { editor, camera, tool, axis } = this.view;
+    const { editor } = this.view;
+    const isFirst = editor.selection.size === 0 && !editor.canUndo && !editor.canRedo && !this.adds;
     if (this.adds) editor.toggle(hit);
     else if (!editor.selection.has(hit)) editor.select([hit]);
     if (!editor.selection.has(hit)) return "none";
-    this.makeDrag = () => new ToolDrag(editor, camera, tool, axis, hit, this.from);
+    this.beginDrag = () => {
+      if (isFirst) editor.selectRings();
+      this.drag = this.newDrag(hit);
+    };
     return "edit";
+  }
+
+  newDrag(grabbed) {
+    const { editor, camera, tool, axis } = this.view;
+    return new ToolDrag(editor, camera, tool, axis, grabbed, this.from);
+  }
+
+  selectRing(event) {
+    const { editor } = this.view;
+    const hit = this.pickAt(this.spotOf(event), event);
+    if (hit < 0) return;
+    const others = event.shiftKey ? [...editor.selection] : [];
+    editor.selectRings([hit]);
+    if (others.length > 0) editor.select([...others, ...editor.selection]);
+  }
+
+  // A key of a number that the tool applies to the selection. \return whether it was one
+  type(key) {
+    const { view } = this;
+    const { selection } = view.editor;
+    if (view.typed === null || selection.size === 0) return false;
+    if (key === "Enter" && view.typed !== "") {
+      view.editor.end();
+      this.finish();
+      return true;
+    }
+    if (/^[-.\d]$/.test(key)) view.typed += key;
+    else if (key === "Backspace" && view.typed !== "") view.typed = view.typed.slice(0, -1);
+    else return false;
+    this.drag ??= this.newDrag(selection.values().next().value);
+    const number = Number(view.typed || NaN);
+    if (Number.isFinite(number)) this.drag.by(number);
+    view.redraw();
+    view.onState();
+    return true;
   }
 
   modeOfEmptySpot(event) {
     const { view } = this;
     if (event.button !== 0) return "pan";
-    if (view.boxSelects || event.shiftKey) return "rectangle";
+    if (view.area || event.shiftKey || event.ctrlKey) {
+      this.area = event.ctrlKey ? "lasso" : event.shiftKey ? "box" : view.area;
+      this.outline = [this.from];
+      return "area";
+    }
     return view.camera.dim === 3 ? "orbit" : "pan";
   }
 
@@ -100,10 +147,13 @@ export class Interaction {
     const { camera } = view;
     const dx = spot.x - this.last.x, dy = spot.y - this.last.y;
     if (this.mode === "edit") {
-      this.drag ??= this.makeDrag();
-      this.drag.to(spot);
-    } else if (this.mode === "rectangle") {
-      view.showRectangle(this.from, spot);
+      if (!this.drag) this.beginDrag();
+      view.typed ??= "";
+      if (view.typed === "") this.drag.to(spot);
+    } else if (this.mode === "area") {
+      if (this.area === "lasso") this.outline.push(spot);
+      else this.outline = rectangle(this.from, spot);
+      view.onOutline(this.outline);
     } else if (this.mode === "orbit") {
       camera.orbit(dx, dy);
     } else if (this.mode === "pan") {
@@ -131,28 +181,30 @@ export class Interaction {
       return;
     }
     if (this.mode === "edit") view.editor.end();
-    if (this.mode === "rectangle") this.selectRectangle(this.spotOf(event));
+    if (this.mode === "area") this.selectArea();
     const isClick = !this.hasMoved && event.button === 0;
     if (isClick && (this.mode === "orbit" || this.mode === "pan")) view.editor.select([]);
     this.finish();
   }
 
-  selectRectangle(spot) {
+  selectArea() {
     const { editor, camera } = this.view;
-    const found = this.hasMoved ? pointsInRectangle(editor.points, camera, this.from, spot) : [];
+    const found = this.hasMoved ? pointsInside(editor.points, camera, this.outline) : [];
     editor.select(this.adds ? [...editor.selection, ...found] : found);
   }
 
   // Escape, or a second finger: the drag never was.
   cancel() {
-    if (this.mode === "edit") this.view.editor.cancel();
+    if (this.drag) this.view.editor.cancel();
     this.finish();
   }
 
   finish() {
     this.mode = null;
     this.drag = null;
-    this.view.showRectangle(null);
+    this.view.typed = null;
+    this.view.onOutline(null);
+    this.view.onState();
     this.view.redraw();
   }
 

@@ -7,22 +7,28 @@ const kNudge = 8;  // pixels
 const kArrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 export const kHelp = [
-  ["Drag a control point", "moves it, and all that are selected"],
+  ["Drag a control point", "moves it, and all that are selected; the first drag takes the ring around the limb"],
   ["Click, Shift+click", "select one, one more or one less"],
-  ["Shift+drag, Box", "select what is in a rectangle"],
+  ["Double click, E", "select the ring around the limb; Shift+double click: one more ring"],
+  ["L", "select the limb beyond the ring; it rotates around the ring"],
+  ["+  −", "grow, shrink the selection"],
+  ["Shift+drag, Ctrl+drag", "select in a rectangle, in a lasso"],
   ["Drag elsewhere", "turn (3D) or shift (2D) the view"],
   ["Right drag, wheel", "shift, zoom; with two fingers both"],
   ["G  R  S", "tools: move, rotate, scale the selection"],
+  ["G  R  S, number, Enter", "move by units of length, rotate by degrees, scale by a factor; also during a drag"],
   ["X  Y  Z", "along or around one axis only; again: freely"],
+  ["Alt+click, P", "pivot of R and S: a control point, the center of the selection; P again: none"],
+  ["O", "soft selection: neighbors follow; the slider is its radius"],
   ["Arrows", "move the selection a little; Shift: more"],
   ["M", "mirror: off, x, y, z"],
-  ["A  B", "select all or none; box"],
+  ["A  B  Q", "select all or none; drags select in a box; in a lasso"],
   ["Ctrl+Z  Ctrl+Y", "undo, redo"],
   ["Del  Shift+Del", "reset the selection, everything"],
   ["F  1  2  3", "frame the selection; front, side, top"],
   ["T", "turn the model by 90 degrees (3D)"],
   ["C  W", "cage, edges of the model"],
-  ["Space", "play the poses"],
+  ["K  Space", "the pose becomes a key of the animation; play it"],
   ["D", "light or dark"],
   ["Esc", "cancel the drag, close this"],
 ];
@@ -30,11 +36,12 @@ export const kHelp = [
 // In the picture's plane.
 function nudge(viewer, [dx, dy], isLarge) {
   const { editor, camera } = viewer;
-  const indices = [...editor.selection];
-  if (indices.length === 0) return;
+  const shares = editor.shares();
+  if (shares.size === 0) return;
   const far = isLarge ? 4 * kNudge : kNudge;
-  const step = camera.step(centroid(editor.points, indices), far * dx, far * dy);
-  editor.change(indices, (start, listed, result) => translate(start, listed, step, result));
+  const step = camera.step(centroid(editor.points, [...editor.selection]), far * dx, far * dy);
+  editor.change([...shares.keys()], (start, listed, result) =>
+    translate(start, listed, step, result, (i) => shares.get(i)));
   editor.end();
 }
 
@@ -42,12 +49,14 @@ function nudge(viewer, [dx, dy], isLarge) {
 export function bindKeys(viewer, commands, interaction, signal) {
   const plain = {
     g: "move", r: "rotate", s: "scale", x: "axisX", y: "axisY", z: "axisZ", m: "nextMirror",
-    a: "selectAll", b: "box", f: "frame", t: "turn", 1: "front", 2: "side", 3: "top", c: "cage", w: "edges",
+    a: "selectAll", b: "box", q: "lasso", e: "ring", l: "limb", "+": "grow", "=": "grow", "-": "shrink",
+    p: "pivotHere", o: "toggleSoft", k: "addKey", f: "frame", t: "turn", 1: "front", 2: "side", 3: "top", c: "cage", w: "edges",
     " ": "play", d: "theme", "?": "help", delete: "resetSelection", backspace: "resetSelection",
   };
   const withControl = { z: "undo", y: "redo", a: "selectAll" };
   window.addEventListener("keydown", (event) => {
     if (event.target.matches("input, select") && event.key !== "Escape") return;
+    if (!event.ctrlKey && !event.metaKey && interaction.type(event.key)) return event.preventDefault();
     const key = event.key.toLowerCase();
     const isControl = event.ctrlKey || event.metaKey;
     let name = isControl ? withControl[key] : plain[key];
@@ -60,6 +69,7 @@ export function bindKeys(viewer, commands, interaction, signal) {
     } else if (kArrows[event.key] && !isControl) {
       nudge(viewer, kArrows[event.key], event.shiftKey);
     } else if (name) {
+      if (!name.startsWith("axis")) viewer.typed = null;
       commands[name]();
     } else {
       return;

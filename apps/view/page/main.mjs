@@ -2,8 +2,9 @@
 // Starts the page, and lets scripts do what the mouse does.
 import { decodeContent } from "./data.mjs";
 import { Interaction } from "./interaction.mjs";
+import { keepPose } from "./keeping.mjs";
 import { bindKeys } from "./keyboard.mjs";
-import { bindPanel } from "./panel.mjs";
+import { bindPanel, tell } from "./panel.mjs";
 import { pointsOf, poseOf } from "./saving.mjs";
 import { pointAt } from "./vectors.mjs";
 import { Viewer } from "./viewer.mjs";
@@ -83,6 +84,7 @@ export function show(content, signal) {
   });
   new ResizeObserver(() => viewer.redraw()).observe(canvas);
   window.flbc = hookOf(viewer);
+  if (keepPose(viewer)) tell("The pose of your last visit. Ctrl+Z: the cage at rest");
   viewer.changed();
   answerPageAround(viewer);
   return viewer;

@@ -23,6 +23,15 @@ function rewrite(text, given, places, dim) {
   return vertex === given.length / dim ? lines.join("\n") : null;
 }
 
+// The control points of a pose, `dim` numbers each. \throws Error if it has not so many
+export function readPose(text, dim, count) {
+  const places = text.split("\n").filter((line) => /^\s*v\s/.test(line))
+    .map((line) => line.trim().split(/\s+/).slice(1, dim + 1).map(Number));
+  if (places.length !== count) throw new Error(`has ${places.length} vertices, but the cage has ${count} control points`);
+  if (!places.every((place) => place.length === dim && place.every(Number.isFinite))) throw new Error("a coordinate is no number");
+  return Float64Array.from(places.flat());
+}
+
 function vertexLine(places, dim, i) {
   return ["v", ...places.slice(dim * i, dim * i + dim), ...(dim === 2 ? [0] : [])].join(" ");
 }

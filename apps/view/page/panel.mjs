@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The buttons beside the picture: what they do, and how they show what is on.
-import { kColorings } from "./colors.mjs";
+import { kColorings, shortNumber } from "./colors.mjs";
+import { inSpace } from "./data.mjs";
 import { kHelp } from "./keyboard.mjs";
+import { readPose } from "./obj.mjs";
 import { nearestPose } from "./poses.mjs";
 import { commandOf, saveModel, savePicture, savePose } from "./saving.mjs";
+import { centroid } from "./vectors.mjs";
 
 const kAxisNames = ["x", "y", "z"];
 
@@ -38,7 +41,41 @@ function mirror(viewer, axis) {
   const count = viewer.editor.setMirror(axis);
   element("mirror").value = String(axis);
   const total = viewer.editor.size;
-  if (axis >= 0) tell(`Mirror ${kAxisNames[axis]}: ${count} of ${total} control points have an image`);
+  if (axis < 0) return;
+  const cure = count < total ? `; the others move alone. For a symmetric cage, make it with the symmetry ${kAxisNames[axis]} (--symmetry ${kAxisNames[axis]})` : "";
+  tell(`Mirror ${kAxisNames[axis]}: ${count} of ${total} control points have an image${cure}`);
+}
+
+async function loadPose(viewer, file) {
+  const { editor, content } = viewer;
+  try {
+    const places = readPose(await file.text(), content.dim, editor.size);
+    viewer.stopPlaying();
+    editor.begin();
+    editor.setPoints(inSpace(places, content.dim));
+    editor.end();
+  } catch (error) {
+    tell(`${file.name}: ${error.message}`);
+  }
+}
+
+// Turns soft selection off, or on with the radius that it had.
+function toggleSoft(viewer) {
+  const { editor } = viewer;
+  const slider = element("soft");
+  slider.value = editor.softness > 0 ? 0 : viewer.lastSoft;
+  slider.dispatchEvent(new Event("input"));
+}
+
+function fillSoft(viewer) {
+  const { editor } = viewer;
+  viewer.lastSoft = 0.3;
+  element("soft").addEventListener("input", ({ target }) => {
+    if (Number(target.value) > 0) viewer.lastSoft = Number(target.value);
+    editor.softness = Number(target.value) * editor.sphere.radius;
+    viewer.changed();
+  });
+  element("soft").addEventListener("change", () => viewer.canvas.focus());
 }
 
 export function setTheme(viewer, theme) {
@@ -52,7 +89,8 @@ export function makeCommands(viewer) {
   const everything = () => [...Array(editor.size).keys()];
   const selected = () => [...editor.selection];
   const axis = (name) => () => viewer.set("axis", viewer.axis === name ? null : name);
-  const tool = (name) => () => viewer.set("tool", name);
+  const tool = (name) => () => { viewer.typed = ""; viewer.set("tool", name); };
+  const area = (name) => () => viewer.set("area", viewer.area === name ? null : name);
   const help = element("keyHelp");
   return {
     undo: () => { viewer.stopPlaying(); editor.undo(); },
@@ -62,7 +100,16 @@ export function makeCommands(viewer) {
     resetSelection: () => editor.reset(selected()),
     resetAll: () => { viewer.stopPlaying(); viewer.time = 0; editor.reset(everything()); },
     selectAll: () => editor.select(editor.selection.size === editor.size ? [] : everything()),
-    box: () => viewer.set("boxSelects", !viewer.boxSelects),
+    box: area("box"), lasso: area("lasso"),
+    ring: () => editor.selectRings(),
+    limb: () => { if (editor.selection.size > 0) editor.selectLimb(); },
+    grow: () => editor.select(editor.graph.grow(editor.selection)),
+    shrink: () => editor.select(editor.graph.shrink(editor.selection)),
+    pivotHere: () => editor.setPivot(editor.pivot || editor.selection.size === 0 ? null : centroid(editor.points, selected())),
+    toggleSoft: () => toggleSoft(viewer),
+    loadPose: () => element("poseFile").click(),
+    addKey: () => viewer.addKey(),
+    removeKey: () => viewer.removeKey(),
     nextMirror: () => mirror(viewer, (editor.mirrorAxis + 2) % (content.dim + 1) - 1),
     frame: () => viewer.frame(selected()),
     front: () => viewer.look("front"),
@@ -132,12 +179,7 @@ function fillHelp() {
 }
 
 function fillTimeline(viewer) {
-  const { poses } = viewer.content;
-  element("timeline").hidden = poses.length < 2;
-  if (poses.length < 2) return;
   const slider = element("time");
-  slider.min = poses[0].time;
-  slider.max = viewer.duration;
   slider.addEventListener("input", () => {
     viewer.playing = null;
     viewer.seek(Number(slider.value));
@@ -159,19 +201,26 @@ function showLegend(legend) {
   element("high").textContent = legend.high;
 }
 
-function showRectangle(from, to) {
-  const box = element("rectangle");
-  box.hidden = !from;
-  if (!from) return;
-  Object.assign(box.style, {
-    left: `${Math.min(from.x, to.x)}px`, top: `${Math.min(from.y, to.y)}px`,
-    width: `${Math.abs(to.x - from.x)}px`, height: `${Math.abs(to.y - from.y)}px` });
+function showOutline(outline) {
+  const corners = (outline ?? []).map(({ x, y }) => `${x},${y}`).join(" ");
+  element("outline").firstElementChild.setAttribute("points", corners);
 }
 
+function showPivot(spot) {
+  element("pivot").hidden = !spot;
+  if (spot) Object.assign(element("pivot").style, { left: `${spot.x}px`, top: `${spot.y}px` });
+}
+
+const kUnits = { move: "", rotate: "°", scale: " times" };
+
 function describeSelection(viewer) {
-  const { selection } = viewer.editor;
-  if (viewer.hovered >= 0) return `control point ${viewer.hovered}`;
-  if (selection.size === 0) return "drag a control point";
+  const { editor: { selection }, deformer } = viewer;
+  if (viewer.typed) return `${viewer.tool} ${viewer.typed}${kUnits[viewer.tool]}; press Enter, or Esc to cancel`;
+  if (viewer.hovered >= 0) {
+    const share = 100 * deformer.shareOf(viewer.hovered);
+    return `control point ${viewer.hovered} moves ${shortNumber(share)}% of the vertices`;
+  }
+  if (selection.size === 0) return "drag a control point, or double-click it for the ring around the limb";
   return selection.size === 1 ? `control point ${[...selection][0]} selected`
                               : `${selection.size} control points selected`;
 }
@@ -181,17 +230,21 @@ function showState(viewer) {
   const isPressed = {
     move: viewer.tool === "move", rotate: viewer.tool === "rotate", scale: viewer.tool === "scale",
     axisX: viewer.axis === "x", axisY: viewer.axis === "y", axisZ: viewer.axis === "z",
-    box: viewer.boxSelects, cage: viewer.showsCage, edges: viewer.showsEdges };
+    box: viewer.area === "box", lasso: viewer.area === "lasso", cage: viewer.showsCage, edges: viewer.showsEdges };
   for (const [id, pressed] of Object.entries(isPressed)) {
     element(id).setAttribute("aria-pressed", String(pressed));
   }
   element("undo").disabled = !editor.canUndo;
   element("redo").disabled = !editor.canRedo;
-  element("resetSelection").disabled = editor.selection.size === 0;
+  for (const id of ["resetSelection", "ring", "limb", "grow", "shrink"]) {
+    element(id).disabled = editor.selection.size === 0;
+  }
+  element("removeKey").disabled = content.poses.length === 0;
   element("state").textContent = describeSelection(viewer);
   element("play").textContent = viewer.playing ? "Pause" : "Play";
+  element("timeline").hidden = content.poses.length < 2;
   if (content.poses.length < 2) return;
-  element("time").value = viewer.time;
+  Object.assign(element("time"), { min: content.poses[0].time, max: viewer.duration, value: viewer.time });
   element("pose").textContent = nearestPose(content.poses, viewer.time).name;
 }
 
@@ -209,11 +262,17 @@ export function bindPanel(viewer) {
   element("mirror").addEventListener("change", (event) => mirror(viewer, Number(event.target.value)));
   viewer.onState = () => showState(viewer);
   viewer.onLegend = showLegend;
-  viewer.onRectangle = showRectangle;
+  viewer.onOutline = showOutline;
+  viewer.onPivot = showPivot;
   showFacts(content);
   fillColorings(viewer);
   fillHelp();
   fillTimeline(viewer);
+  fillSoft(viewer);
+  element("poseFile").addEventListener("change", ({ target }) => {
+    if (target.files.length > 0) loadPose(viewer, target.files[0]);
+    target.value = "";
+  });
   fillPalette(content.palette);
   setTheme(viewer, matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
   return commands;

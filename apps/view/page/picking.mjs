@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which control points lie under the pointer or in a rectangle.
+// Which control points lie under the pointer or in an outline.
 import { pointAt } from "./vectors.mjs";
 
 const kSame = 4;  // pixels within which the nearer one to the eye counts
@@ -21,13 +21,24 @@ export function pick(points, camera, x, y, reach) {
   return best;
 }
 
-export function pointsInRectangle(points, camera, from, to) {
-  const [left, right] = [Math.min(from.x, to.x), Math.max(from.x, to.x)];
-  const [top, bottom] = [Math.min(from.y, to.y), Math.max(from.y, to.y)];
+export function rectangle(from, to) {
+  return [from, { x: to.x, y: from.y }, to, { x: from.x, y: to.y }];
+}
+
+// Whether a place lies in a closed outline of corners.
+export function isInside(outline, { x, y }) {
+  let result = false;
+  outline.forEach((a, k) => {
+    const b = outline[(k + 1) % outline.length];
+    if (a.y > y !== b.y > y && x < a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x)) result = !result;
+  });
+  return result;
+}
+
+export function pointsInside(points, camera, outline) {
   const found = [];
   for (let i = 0; i < points.length / 3; ++i) {
-    const { x, y } = camera.project(pointAt(points, i));
-    if (x >= left && x <= right && y >= top && y <= bottom) found.push(i);
+    if (isInside(outline, camera.project(pointAt(points, i)))) found.push(i);
   }
   return found;
 }

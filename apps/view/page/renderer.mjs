@@ -236,14 +236,15 @@ export class Renderer {
     this.upload(this.valueBuffer, atVertices(values, this.content.surface.sources, 1, this.values));
   }
 
-  setCage(points, selection, hovered) {
+  // \param shares  of a step that control points take, by their number
+  setCage(points, shares, hovered) {
     const { center, edges } = this.content;
     for (let k = 0; k < points.length; ++k) this.dots[k] = points[k] - center[k % 3];
     for (let k = 0; k < edges.length; ++k) {
       for (let c = 0; c < 3; ++c) this.wire[3 * k + c] = this.dots[3 * edges[k] + c];
     }
     for (let i = 0; i < this.states.length; ++i) {
-      this.states[i] = (selection.has(i) ? 1 : 0) + (i === hovered ? 2 : 0);
+      this.states[i] = (shares.get(i) ?? 0) + (i === hovered ? 2 : 0);
     }
     this.upload(this.wireBuffer, this.wire);
     this.upload(this.dotBuffer, this.dots);

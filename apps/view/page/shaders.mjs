@@ -158,7 +158,7 @@ export const kDotShader = {
     uniform mat4 toClip;
     uniform float size;
     layout(location = 0) in vec3 place;
-    layout(location = 1) in float state;  // 0: as it is, 1: selected, 2 more: under the pointer
+    layout(location = 1) in float state;  // share of a step, 1: selected; 2 more: under the pointer
     out float isSelected;
     out float pixels;
     void main() {
@@ -179,7 +179,7 @@ export const kDotShader = {
     void main() {
       float fromCenter = length(gl_PointCoord - 0.5) * pixels;
       float radius = 0.5 * pixels - 0.75;
-      vec4 inner = isSelected > 0.5 ? highlight : ink;
+      vec4 inner = mix(ink, highlight, isSelected);
       float isInner = clamp(radius - 1.2 - fromCenter + 0.5, 0.0, 1.0);
       float coverage = clamp(radius - fromCenter + 0.5, 0.0, 1.0);
       color = vec4(mix(rim, inner.rgb, isInner), inner.a * coverage);

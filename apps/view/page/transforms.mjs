@@ -4,31 +4,34 @@ import { add, cross, dot, pointAt, setPoint, subtract, times } from "./vectors.m
 
 export const kAxes = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 
+// Every control point takes its share of a step; without soft selection the share is 1.
+const kFully = () => 1;
+
 // Sets the points of `result` that are listed to where `move` takes those of `start`.
-function transform(start, indices, move, result) {
-  for (const i of indices) setPoint(result, i, move(pointAt(start, i)));
+function transform(start, indices, move, result, shareOf) {
+  for (const i of indices) setPoint(result, i, move(pointAt(start, i), shareOf(i)));
 }
 
-export function translate(start, indices, step, result) {
-  transform(start, indices, (place) => add(place, step), result);
+export function translate(start, indices, step, result, shareOf = kFully) {
+  transform(start, indices, (place, share) => add(place, times(share, step)), result, shareOf);
 }
 
 // By an angle in radians round an axis of length 1 through the center.
-export function rotate(start, indices, center, axis, angle, result) {
-  const cosine = Math.cos(angle), sine = Math.sin(angle);
-  transform(start, indices, (place) => {
+export function rotate(start, indices, center, axis, angle, result, shareOf = kFully) {
+  transform(start, indices, (place, share) => {
+    const cosine = Math.cos(share * angle), sine = Math.sin(share * angle);
     const arm = subtract(place, center);
     const along = times((1 - cosine) * dot(axis, arm), axis);
     const turned = add(times(cosine, arm), times(sine, cross(axis, arm)));
     return add(center, add(turned, along));
-  }, result);
+  }, result, shareOf);
 }
 
 // From the center; along one axis only if there is one.
-export function scale(start, indices, center, factor, axis, result) {
-  transform(start, indices, (place) => {
+export function scale(start, indices, center, factor, axis, result, shareOf = kFully) {
+  transform(start, indices, (place, share) => {
     const arm = subtract(place, center);
-    const grown = axis ? times((factor - 1) * dot(axis, arm), axis) : times(factor - 1, arm);
-    return add(place, grown);
-  }, result);
+    const growth = share * (factor - 1);
+    return add(place, axis ? times(growth * dot(axis, arm), axis) : times(growth, arm));
+  }, result, shareOf);
 }

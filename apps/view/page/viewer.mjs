@@ -28,11 +28,12 @@ export class Viewer {
     const weights = movesOnCard ? this.deformer.weightsForCard() : null;
     this.renderer = new Renderer(canvas, content, weights);
     this.camera = new Camera(content.dim, content.up);
-    this.editor = new Editor(content.rest, content.dim);
+    this.editor = new Editor(content.rest, content.dim, content.facets);
     this.coloring = "shaded";
     this.tool = "move";
     this.axis = null;
-    this.boxSelects = false;
+    this.area = null;    // what drags elsewhere select: "box", "lasso" or null
+    this.typed = null;   // digits of a number for the tool, null: digits are other keys
     this.showsCage = true;
     this.showsEdges = false;
     this.theme = "light";
@@ -44,7 +45,8 @@ export class Viewer {
     this.milliseconds = -1;  // of the last step, which may be too short for the clock; none yet
     this.onState = () => {};
     this.onLegend = () => {};
-    this.onRectangle = () => {};
+    this.onOutline = () => {};
+    this.onPivot = () => {};
     this.editor.onChange = () => this.changed();
     this.camera.sphere = this.editor.sphere;
   }
@@ -85,7 +87,7 @@ export class Viewer {
     renderer.setModel(deformer);
     const { values, legend } = colorValues(this.coloring, deformer, editor.selection);
     if (values) renderer.setValues(values);
-    renderer.setCage(editor.points, editor.selection, this.hovered);
+    renderer.setCage(editor.points, editor.shares(), this.hovered);
     this.onLegend(legend);
   }
 
@@ -96,6 +98,7 @@ export class Viewer {
     camera.height = canvas.clientHeight || 1;
     if (!this.isFramed) this.frame();
     this.update();
+    this.onPivot(this.editor.pivot ? camera.project(this.editor.pivot) : null);
     renderer.draw(camera, { ...kThemes[this.theme], coloring: this.coloring, dotSize: this.dotSize(),
                             showsCage: this.showsCage, showsEdges: this.showsEdges });
   }
@@ -133,13 +136,9 @@ export class Viewer {
     if (i === this.hovered) return;
     this.hovered = i;
     this.canvas.style.cursor = i >= 0 ? "pointer" : "";
-    this.renderer.setCage(this.editor.points, this.editor.selection, i);
+    this.renderer.setCage(this.editor.points, this.editor.shares(), i);
     this.redraw();
     this.onState();
-  }
-
-  showRectangle(from, to) {
-    this.onRectangle(from, to);
   }
 
   get duration() {
@@ -153,6 +152,25 @@ export class Viewer {
     this.time = time;
     this.editor.begin();
     this.editor.setPoints(interpolatePoses(poses, time));
+  }
+
+  // The pose as it is becomes the last one of the animation, a second after the one before.
+  addKey() {
+    const { poses, rest } = this.content;
+    this.stopPlaying();
+    if (poses.length === 0) poses.push({ name: "rest", time: 0, points: rest });
+    poses.push({ name: `key ${poses.length}`, time: this.duration + 1, points: this.editor.points.slice() });
+    this.time = this.duration;
+    this.changed();
+  }
+
+  removeKey() {
+    const { poses } = this.content;
+    this.stopPlaying();
+    poses.pop();
+    if (poses.length < 2) poses.length = 0;
+    this.time = this.duration;
+    this.changed();
   }
 
   play() {
