@@ -40,17 +40,16 @@ struct Evaluation {
   SparseWeights weights;
   PointList<Dim> points;
   RowBlock<double> offsets;
-  Index outside = 0;
+  std::vector<Index> outside;
 };
 
 template <int Dim>
 Evaluation<Dim> evaluate(const BindInput<Dim>& input, const DomainMesh<Dim>& domain,
                          const SparseWeights& weights, OutsidePoints outside) {
   auto placement = place_points(input.cage, domain, input.points, outside);
-  Evaluation<Dim> evaluation{weights_at(input.cage, domain, weights, placement),
-                             std::move(placement.points),
-                             {},
-                             static_cast<Index>(placement.outside.size())};
+  Evaluation<Dim> evaluation{
+      weights_at(input.cage, domain, weights, placement), std::move(placement.points), {}, {}};
+  for (const auto& beside : placement.outside) evaluation.outside.push_back(beside.point);
   if (placement.outside.empty() || outside == OutsidePoints::kExtend) return evaluation;
   evaluation.offsets = RowBlock<double>(1, Dim);
   evaluation.offsets.resize(placement.places.size());
@@ -64,6 +63,26 @@ Evaluation<Dim> evaluate(const BindInput<Dim>& input, const DomainMesh<Dim>& dom
   return evaluation;
 }
 
+//! Points outside keep the weights of an extension: negative weights cannot be reduced.
+template <int Dim>
+SparseWeights reduce_inside(const BindInput<Dim>& input, const DomainMesh<Dim>& domain,
+                            const SparseWeights& weights, const Evaluation<Dim>& evaluation,
+                            const BindOptions& options) {
+  const auto reduced = [&](const Evaluation<Dim>& all) {
+    return reduce<Dim>(input.cage.points, all.points, input.edges, all.weights,
+                       options.max_influences, options.reduction, 0);
+  };
+  if (options.outside != OutsidePoints::kExtend || evaluation.outside.empty())
+    return reduced(evaluation);
+  const auto inside = reduced(evaluate(input, domain, weights, OutsidePoints::kNearest));
+  const auto& outside = evaluation.outside;
+  return SparseWeights::of(
+      inside.num_control_points(), inside.num_points(), [&](Index point) -> Eigen::VectorXd {
+        const bool is_outside = std::binary_search(outside.begin(), outside.end(), point);
+        return is_outside ? evaluation.weights.at(point) : inside.at(point);
+      });
+}
+
 }  // namespace
 
 template <int Dim>
@@ -74,10 +93,6 @@ Binding<Dim> bind_points(const BindInput<Dim>& input, const BindOptions& options
     validate<Dim>(SparsifyOptions{options.max_influences});
   } else if (options.max_influences < 0) {
     throw OptionError("max_influences must be positive, or 0 for all");
-  }
-  if (options.outside == OutsidePoints::kExtend && options.max_influences != 0) {
-    throw OptionError(
-        "outside cannot be extend unless max_influences is 0: negative weights cannot be reduced");
   }
   validate(options.solver);
   validate(input.cage);
@@ -96,13 +111,11 @@ Binding<Dim> bind_points(const BindInput<Dim>& input, const BindOptions& options
   report.solve = solution.report;
   report.solve_seconds = watch.lap();
   auto evaluation = evaluate(input, domain, solution.weights, options.outside);
-  report.outside = evaluation.outside;
+  report.outside = static_cast<Index>(evaluation.outside.size());
   report.evaluate_seconds = watch.lap();
-  binding.weights = std::move(evaluation.weights);
-  if (options.max_influences > 0) {
-    binding.weights = reduce<Dim>(input.cage.points, evaluation.points, input.edges,
-                                  binding.weights, options.max_influences, options.reduction, 0);
-  }
+  binding.weights = options.max_influences > 0
+                        ? reduce_inside(input, domain, solution.weights, evaluation, options)
+                        : std::move(evaluation.weights);
   report.sparsify_seconds = watch.lap();
   report.quality = measure_quality<Dim>(input.cage.points, evaluation.points, binding.weights);
   binding.offsets = std::move(evaluation.offsets);

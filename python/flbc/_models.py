@@ -218,7 +218,8 @@ def bind(
     outside : str, default "fail"
         For vertices outside the cage: "fail"; "nearest", to follow the nearest point of the
         cage at a constant offset; "keep", to stay where they are, without weights; or "extend",
-        which needs ``max_influences=0``.
+        to follow an affine map of the control points around them. These vertices keep all their
+        weights, of which some are negative, whatever `max_influences` is.
 
     callback : callable, optional
         As for `solve`.
@@ -248,8 +249,6 @@ def bind(
     points = as_points(vertices, "vertices", cage.dim)
     if len(points) == 0:
         raise InputError("vertices has shape (0, d): the model has no vertices")
-    if outside == "extend" and max_influences:
-        raise InputError("outside cannot be 'extend' unless max_influences is 0")
     polygons = as_polygons(faces, "faces", len(points))
     named = {name: value for name, value in given.items() if np.ndim(value) == 0}
     given["smoothness"] = _core.smoothness_of_bind(named)
@@ -261,7 +260,16 @@ def bind(
     weights = from_core(parts)
     if max_influences:
         flat = None if len(polygons[1]) == 1 else faces
-        weights = sparsify(weights, cage, placed, max_influences, faces=flat)
+        given, is_extended = weights, bool(which) and outside == "extend"
+        if is_extended:  # negative weights cannot be reduced
+            parts, placed, _ = evaluate(solution, points, "nearest")
+            given = from_core(parts)
+        reduced = sparsify(given, cage, placed, max_influences, faces=flat)
+        if is_extended:
+            rows = reduced.tolil()
+            rows[which] = weights[which]
+            reduced = rows.tocsr()
+        weights = reduced
     offsets = None
     if which and outside != "extend":
         offsets = np.zeros_like(points)

@@ -169,6 +169,23 @@ def test_bind_leaves_vertices_outside_where_they_are(square, max_influences):
     assert np.allclose(binding.deform(square.points + [0, 3]), [[0.5, 3.5], [1.25, 0.5]])
 
 
+@pytest.mark.parametrize("max_influences", [0, 4])
+def test_bind_extends_weights_to_vertices_outside(limb, max_influences):
+    cage, vertices, faces = limb
+    vertices = vertices.copy()
+    vertices[7] = cage.points.max(axis=0) + 0.1
+    binding = flbc.bind(
+        vertices, faces, cage, mesh_vertices=2000, outside="extend", max_influences=max_influences
+    )
+    assert binding.outside.tolist() == [7]
+    inside = np.arange(len(vertices)) != 7
+    assert binding.weights[inside].min() >= 0 > binding.weights[[7]].min()
+    if max_influences:
+        assert np.diff(binding.weights.indptr)[inside].max() <= max_influences
+    turned = [[1, 0.3, 0], [0, 1.5, 0], [0, 0, 1]]
+    assert np.allclose(binding.deform(cage.points @ turned), vertices @ turned)
+
+
 @pytest.mark.parametrize("outside", ["nearest", "keep"])
 def test_pages_and_skins_of_models_partly_outside(model, outside, tmp_path):
     cage, vertices, faces, _ = model

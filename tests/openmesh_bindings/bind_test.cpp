@@ -280,6 +280,32 @@ TYPED_TEST(Bind, VerticesOutsideStayIfTheyAreKept) {
   }
 }
 
+// Its weights may be negative, so that they are not reduced with the others.
+TYPED_TEST(Bind, VerticesOutsideFollowAnAffineMapIfTheyAreExtended) {
+  constexpr int kVertex = 11, kMost = 5;
+  put_outside<TypeParam::kDim>(this->model_, this->sample_.cage, kVertex, 1);
+  const auto rest = this->points();
+  this->options_.outside = openmesh::OutsidePoints::kExtend;
+  this->options_.max_influences = kMost;
+  const auto report =
+      openmesh::bind(this->model_, this->sample_.cage, this->sample_.mesh, this->options_);
+  EXPECT_EQ(report.outside, 1);
+  EXPECT_LT(report.quality.max_reproduction_error, 1e-11);
+  const WeightMatrix weights = openmesh::get_weights(this->model_);
+  for (Index k = 0; k < weights.cols(); ++k) {
+    if (k == kVertex) continue;
+    EXPECT_LE((weights.col(k).array() != 0).count(), kMost);
+    EXPECT_GE(weights.col(k).minCoeff(), 0);
+  }
+  EXPECT_LT(weights.col(kVertex).minCoeff(), 0);
+  // An affine map of the control points moves the vertex as well.
+  Eigen::Matrix<double, TypeParam::kDim, TypeParam::kDim> map =
+      1.5 * Eigen::Matrix<double, TypeParam::kDim, TypeParam::kDim>::Identity();
+  map(0, 1) = 0.3;
+  openmesh::deform(this->model_, PointList<TypeParam::kDim>(map * this->sample_.cage.points));
+  EXPECT_LT((this->points() - map * rest).cwiseAbs().maxCoeff(), 10 * TypeParam::kRounding);
+}
+
 TYPED_TEST(Bind, FilesKeepABinding) {
   this->options_.persistent = true;
   this->options_.outside = openmesh::OutsidePoints::kNearest;

@@ -29,7 +29,8 @@ namespace flbc::openmesh {
 
 //! Treatment of the model's vertices outside the cage (flbc/placement.h). With kNearest they follow
 //! the nearest point of the cage at a constant offset, and with kKeep they stay where they are.
-//! kExtend needs BindOptions::max_influences = 0, because negative weights cannot be reduced.
+//! With kExtend they keep all their weights, whatever BindOptions::max_influences: negative weights
+//! cannot be reduced.
 using flbc::OutsidePoints;
 
 //! Options of bind().
@@ -224,9 +225,11 @@ BindReport bind_to(Mesh& model, const Cage<Dim>& cage, const DomainMesh<Dim>* do
   const auto edges = edge_list_at<Dim>(model, points);
   auto binding = bind_points<Dim>({cage, points, edges, domain, mesher}, options);
   if (options.max_influences > 0) {
-    set_influences(model, binding.weights,
-                   static_cast<std::size_t>(std::min(options.max_influences, cage.size())),
-                   options.weights, options.persistent);
+    const Index most = options.outside == OutsidePoints::kExtend
+                           ? 0
+                           : std::min(options.max_influences, cage.size());
+    set_influences(model, binding.weights, static_cast<std::size_t>(most), options.weights,
+                   options.persistent);
   } else {
     set_weights(model, binding.weights.dense(), options.weights, options.persistent);
   }
