@@ -360,7 +360,7 @@ void place(Mutator& mutator) {
     return;
   }
   auto placement = place_points(cage, mesh, points, policy);
-  if (mutator.below(4) == 0) placement.places.pop_back();
+  if (mutator.below(4) == 0 && !placement.places.empty()) placement.places.pop_back();
   const auto weights = some_weights<Dim>(mutator);
   weights_at(cage, mesh, weights, placement);
   gradients_at(mesh, weights, placement.places, GradientKind::kCell);

@@ -95,7 +95,8 @@ class Mutator {
   template <class Entry, class Matrix>
   Entry other(Entry value, const Matrix& matrix) {
     if (below(2) == 0) return matrix.data()[below(matrix.size())];
-    return one_of<Entry>({static_cast<Entry>(-1), static_cast<Entry>(value + 1), 0,
+    return one_of<Entry>({static_cast<Entry>(-1),
+                          value < 64 ? static_cast<Entry>(value + 1) : Entry{},
                           std::numeric_limits<Entry>::max(), std::numeric_limits<Entry>::min(),
                           static_cast<Entry>(below(64))});
   }
