@@ -173,7 +173,7 @@ void VertexLinearProgram<Dim>::factor() {
 // operations.
 template <int Dim>
 double VertexLinearProgram<Dim>::rigorous_bound(const Eigen::VectorXd& costs) const {
-  constexpr double kRounding = (3 * Dim + 4) * std::numeric_limits<double>::epsilon();
+  constexpr double kErrorOfSum = (3 * Dim + 4) * std::numeric_limits<double>::epsilon();
   const auto bound_with = [&](const Sums& multipliers) {
     double least = std::numeric_limits<double>::infinity();
     for (Eigen::Index i = 0; i < costs.size(); ++i) {
@@ -183,7 +183,7 @@ double VertexLinearProgram<Dim>::rigorous_bound(const Eigen::VectorXd& costs) co
         value -= product;
         magnitude += std::abs(product);
       }
-      least = std::min(least, value - kRounding * magnitude);
+      least = std::min(least, value - kErrorOfSum * magnitude);
     }
     return least;
   };

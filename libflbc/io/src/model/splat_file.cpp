@@ -262,7 +262,7 @@ bool SplatFile::Content::deform(char* moved, Index splat, const Vector3d& point,
   }
   if (degree == 0) return is_finite;
   const Matrix3d by = rotation_of(j);
-  return is_finite & turn<1>(moved, splat, by) & turn<2>(moved, splat, by) &
+  return is_finite && turn<1>(moved, splat, by) && turn<2>(moved, splat, by) &&
          turn<3>(moved, splat, by);
 }
 
