@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc: local barycentric coordinates from the command line. A file per subcommand.
-#include <fcntl.h>
-#include <malloc.h>
 #include <omp.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <iostream>
 #include <new>
 #include <string>
@@ -17,6 +13,7 @@
 #include "flbc/errors.h"
 #include "flbc/version.h"
 #include "help/wording.h"
+#include "system/system.h"
 
 namespace {
 
@@ -70,20 +67,10 @@ void refuse_empty_values(CLI::App& app) {
 }
 
 std::string version() {
-  std::string text = "flbc " FLBC_VERSION "\nwith";
-#ifdef FLBC_WITH_CGAL
-  text += " CGAL (2D meshes, cages of models)";
-#endif
-#ifdef FLBC_WITH_TETGEN
-  text += " TetGen (3D meshes)";
-#endif
-#ifdef FLBC_WITH_NETGEN
-  text += " Netgen (3D meshes where TetGen fails)";
-#endif
-#ifdef FLBC_WITH_OPENMESH
-  text += " OpenMesh (.om files)";
-#endif
-  return text;
+  const std::string without = FLBC_WITHOUT;
+  return "flbc " FLBC_VERSION "\nwith " FLBC_WITH +
+         (without.empty() ? "" : "\nwithout " + without) +
+         "\nlicense of this program: " FLBC_LICENSE;
 }
 
 // Number of letters to change, insert, drop or swap with their neighbours.
@@ -152,7 +139,7 @@ int run(int argc, char** argv) {
       "flbc"};
   app.formatter(help_formatter());
   app.set_help_flag("-h,--help", "print this help and exit");
-  app.set_version_flag("--version", version(), "print version and components and exit");
+  app.set_version_flag("--version", version(), "print version, components, and license, and exit");
   app.require_subcommand(1);
   app.failure_message(describe_usage_error);
   int exit_status = kDone;
@@ -186,20 +173,8 @@ int run(int argc, char** argv) {
   return exit_status;
 }
 
-// Where a standard stream is closed, the next file would get its number, and messages would go into
-// that file. What takes its place fails in use, as the closed one would; only messages may be lost.
-void occupy_standard_streams() {
-  constexpr std::pair<int, int> kStreams[] = {
-      {STDIN_FILENO, O_WRONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}};
-  for (const auto& [stream, mode] : kStreams) {
-    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", mode);  // gets the smallest free number
-  }
-}
-
-// Limits of the system end in messages rather than in signals.
-void adapt_to_limits() {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow fails to be written
-  std::signal(SIGPIPE, SIG_IGN);  // messages that nobody reads must not end a solve
+// A system that limits threads must not end the program.
+void limit_threads() {
   constexpr int kMostThreads = 64;
   const int most = std::max(kMostThreads, omp_get_num_procs());
   if (omp_get_max_threads() > most) omp_set_num_threads(most);
@@ -209,11 +184,8 @@ void adapt_to_limits() {
 
 int main(int argc, char** argv) {
   using namespace flbc::app;
-  occupy_standard_streams();
-  adapt_to_limits();
-  // Matrices go back to the system when they are freed. By default freed memory of their size is
-  // kept, in pieces between others, which costs a fifth of what a solve takes.
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  adapt_to_system();
+  limit_threads();
   try {
     return run(argc, argv);
   } catch (const flbc::OptionError& error) {

@@ -18,6 +18,18 @@ list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
 # On if its library is found.
 find_package(Nglib QUIET)
 option(FLBC_WITH_NETGEN "3D meshing with Netgen (LGPL-2.1) where TetGen fails" ${Nglib_FOUND})
+
+# Of a program that links all components. Netgen is loaded at run time.
+set(FLBC_LICENSE "BSD-3-Clause")
+if(FLBC_WITH_CHOLMOD)
+  set(FLBC_LICENSE "GPL-2.0-or-later, because of CHOLMOD (supernodal module)")
+endif()
+if(FLBC_WITH_CGAL)
+  set(FLBC_LICENSE "GPL-3.0-or-later, because of CGAL")
+endif()
+if(FLBC_WITH_TETGEN)
+  set(FLBC_LICENSE "AGPL-3.0-or-later, because of TetGen")
+endif()
 set(CMAKE_CXX_EXTENSIONS OFF)
 include(${CMAKE_CURRENT_LIST_DIR}/warnings.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/unity.cmake)

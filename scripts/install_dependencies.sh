@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs missing Debian packages, and the named ones. Returns immediately if all are installed.
-# "openfoam" also brings MPI and the headers of OpenFOAM; "web" brings what scripts/web.sh needs.
+# "openfoam" also brings MPI and the headers of OpenFOAM. "web", "windows", and "aarch64" bring what
+# scripts/web.sh and these presets need.
 set -euo pipefail
 
 packages=(
@@ -16,7 +17,14 @@ packages=(
   clang-format codespell                  # test of sources
 )
 headers=/usr/src/openfoam
-needs_headers= needs_sources=
+needs_headers=
+sources=()  # source packages
+needs_sources() {
+  local package
+  for package in "$@"; do
+    [ -d "/usr/src/$package" ] || sources+=("$package")
+  done
+}
 for package in "$@"; do
   case $package in
     openfoam)
@@ -25,7 +33,15 @@ for package in "$@"; do
       ;;
     web)
       packages+=(emscripten nodejs libboost-dev libfast-float-dev)
-      [ -e /usr/src/tetgen/tetgen.cxx ] && [ -e /usr/src/pugixml/src/pugixml.cpp ] || needs_sources=yes
+      needs_sources tetgen pugixml
+      ;;
+    windows)
+      packages+=(g++-mingw-w64-x86-64-posix wine64 libboost-dev googletest)
+      needs_sources tetgen pugixml zlib libpng1.6
+      ;;
+    aarch64)
+      packages+=(g++-aarch64-linux-gnu qemu-user libboost-dev googletest)
+      needs_sources tetgen pugixml zlib libpng1.6
       ;;
     *) packages+=("$package") ;;
   esac
@@ -36,7 +52,7 @@ for package in "${packages[@]}"; do
   status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
   [ "$status" = installed ] || missing+=("$package")
 done
-[ ${#missing[@]} -gt 0 ] || [ "$needs_headers$needs_sources" ] || exit 0
+[ $((${#missing[@]} + ${#sources[@]})) -gt 0 ] || [ "$needs_headers" ] || exit 0
 
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
@@ -54,7 +70,7 @@ if [ ${#missing[@]} -gt 0 ]; then
 fi
 
 # Source packages of the same versions have what the packages lack: headers of OpenFOAM, and sources
-# to compile for the web. A list of our own leaves the lists of the system as they are.
+# to compile for other systems. A list of our own leaves the lists of the system as they are.
 get_sources() {
   mkdir -p "$work/sources" "$work/lists/partial"
   sed 's/^Types:.*/Types: deb-src/' /etc/apt/sources.list.d/debian.sources >"$work/sources/a.sources"
@@ -62,9 +78,12 @@ get_sources() {
     -o Dir::Etc::sourceparts="$work/sources" -o Dir::State::lists="$work/lists"
     -o APT::Sandbox::User=root)
   "${from_sources[@]}" update
-  "${from_sources[@]}" source --download-only "$@"
+  # Of the release itself: only the original archive is used, which updates do not change.
+  local release
+  release=$(. /etc/os-release && echo "$VERSION_CODENAME")
+  "${from_sources[@]}" source --download-only "${@/%//$release}"
 }
-[ "$needs_headers$needs_sources" ] || exit 0
+[ ${#sources[@]} -gt 0 ] || [ "$needs_headers" ] || exit 0
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
@@ -77,10 +96,10 @@ if [ "$needs_headers" ]; then
   "${as_root[@]}" mkdir -p $headers
   "${as_root[@]}" cp -a src wmake $headers
 fi
-if [ "$needs_sources" ]; then
-  get_sources tetgen pugixml
-  for package in tetgen pugixml; do
-    "${as_root[@]}" mkdir -p /usr/src/$package
-    "${as_root[@]}" tar -xf ${package}_*.orig.tar.* --strip-components=1 -C /usr/src/$package
+if [ ${#sources[@]} -gt 0 ]; then
+  get_sources "${sources[@]}"
+  for package in "${sources[@]}"; do
+    "${as_root[@]}" mkdir -p "/usr/src/$package"
+    "${as_root[@]}" tar -xf "${package}"_*.orig.tar.* --strip-components=1 -C "/usr/src/$package"
   done
 fi

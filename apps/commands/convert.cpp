@@ -5,10 +5,10 @@
 
 #include "commands/commands.h"
 #include "files/convert_weights.h"
-#include "files/held_signals.h"
 #include "files/load.h"
 #include "files/movable_model.h"
 #include "flbc/errors.h"
+#include "system/held_signals.h"
 
 namespace flbc::app {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "commands/commands.h"
 #include "files/deform_points.h"
-#include "files/held_signals.h"
 #include "files/load.h"
 #include "files/movable_model.h"
 #include "flbc/bounding_box.h"
@@ -22,6 +21,7 @@
 #include "solve/cage_solver.h"
 #include "solve/domain_jacobians.h"
 #include "solve/weights_of_model.h"
+#include "system/held_signals.h"
 
 namespace flbc::app {
 namespace {

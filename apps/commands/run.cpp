@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "commands/commands.h"
+#include "draw/canvas.h"
 #include "files/load.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
@@ -75,9 +76,9 @@ template <int Dim>
 void take_other_steps(Run<Dim>& run, std::future<void> deformed) {
   omp_set_num_threads(1);
   take(run, "check", check_weights_of_mesh);
-  take(run, "pictures", draw_function);
+  if (draw::can_draw()) take(run, "pictures", draw_function);
   deformed.get();
-  take(run, "pictures", draw_shape);
+  if (draw::can_draw()) take(run, "pictures", draw_shape);
   take(run, "page", write_page);
 }
 

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.h"
-#include "files/held_signals.h"
 #include "files/load.h"
 #include "flbc/bounding_box.h"
 #include "flbc/gradients.h"
@@ -17,6 +16,7 @@
 #include "poses/outside.h"
 #include "report/report_json.h"
 #include "solve/cage_solver.h"
+#include "system/held_signals.h"
 
 namespace flbc::app {
 namespace {

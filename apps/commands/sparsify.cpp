@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.h"
-#include "files/held_signals.h"
 #include "files/load.h"
 #include "files/movable_model.h"
 #include "flbc/domain_mesh.h"
@@ -26,6 +25,7 @@
 #include "report/sparsify_report.h"
 #include "solve/progress_bar.h"
 #include "solve/weights_of_model.h"
+#include "system/held_signals.h"
 
 namespace flbc::app {
 namespace {

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "commands/commands.h"
-#include "files/held_signals.h"
 #include "files/load.h"
 #include "files/model_facets.h"
 #include "flbc/bounding_box.h"
@@ -14,6 +13,7 @@
 #include "flbc/quality.h"
 #include "solve/cage_solver.h"
 #include "solve/weights_of_model.h"
+#include "system/held_signals.h"
 
 namespace flbc::app {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compare/comparison.h"
+#include "draw/canvas.h"
 #include "draw/model_picture.h"
 #include "draw/plane_picture.h"
 #include "flbc/deform.h"
@@ -87,6 +88,7 @@ std::vector<std::string> names_of_grids(const CompareArguments& arguments) {
 template <int Dim>
 void draw_grids(Comparison<Dim>& all) {
   all.control_point = choose_control_point(all);
+  if (!draw::can_draw()) return;
   const auto names = names_of_grids(all.arguments);
   const bool has_surface = all.shape.surface.triangles.cols() > 0;
   // On the boundary of a mesh in 3D, all functions are the same.

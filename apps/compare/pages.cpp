@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "compare/comparison.h"
+#include "draw/canvas.h"
 #include "flbc/io/files.h"
 #include "report/properties.h"
 #include "text/text_writer.h"
@@ -129,7 +130,8 @@ std::string comparison_page(const Comparison<Dim>& all, const std::vector<std::s
     page << "<p>" << column.name << " failed: " << io::escaped(column.failure) << "</p>\n";
   }
   for (const auto& name : pictures) {
-    if (all.arguments.pictures == "pdf") continue;  // no image of a page
+    // A PDF is no image of a page.
+    if (!draw::can_draw() || all.arguments.pictures == "pdf") continue;
     page << "<p><img src=\"" << name << "\" alt=\"all coordinates next to each other\"></p>\n";
   }
   std::string menu;

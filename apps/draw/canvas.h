@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A picture drawn by Cairo, in any format.
+// A picture drawn by Cairo, in any format. Builds without Cairo refuse to make one.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
-#include <cairo.h>
-
 #include "draw/picture_options.h"
 #include "draw/raster.h"
 
+struct _cairo;
+struct _cairo_surface;
+
 namespace flbc::draw {
+
+//! Whether this program was built with Cairo.
+bool can_draw();
 
 //! Coordinates are pixels from the top left corner with y downwards, so that the center of pixel
 //! (i, j) is (i + 0.5, j + 0.5).
 class Canvas {
  public:
-  //! A white picture. \throws OptionError if it has no pixels or too many
+  //! A white picture. \throws OptionError if it has no pixels or too many, or unless can_draw()
   Canvas(int width, int height, PictureFormat format);
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
@@ -47,8 +51,8 @@ class Canvas {
   int height_;
   PictureFormat format_;
   std::string bytes_;
-  std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface_;
-  std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo_;
+  std::unique_ptr<_cairo_surface, void (*)(_cairo_surface*)> surface_;
+  std::unique_ptr<_cairo, void (*)(_cairo*)> cairo_;
 };
 
 double text_width(const std::string& text, double height);

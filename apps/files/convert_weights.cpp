@@ -3,13 +3,13 @@
 
 #include <iostream>
 
-#include "files/held_signals.h"
 #include "files/load.h"
 #include "files/movable_model.h"
 #include "flbc/errors.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/io/weights_triplets.h"
 #include "solve/weights_of_model.h"
+#include "system/held_signals.h"
 
 namespace flbc::app {
 namespace {

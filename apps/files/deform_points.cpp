@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <sstream>
 
-#include "files/held_signals.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "solve/progress_bar.h"
+#include "system/held_signals.h"
 
 namespace flbc::app {
 namespace {

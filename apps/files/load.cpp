@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "files/load.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <set>
 
-#include "files/held_signals.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/meshing.h"
+#include "system/held_signals.h"
+#include "system/system.h"
 
 namespace flbc::app {
 namespace {
@@ -123,9 +120,9 @@ void require_writable_folder(const std::string& path) {
   if (path.empty()) return;
   auto folder = std::filesystem::path(path).parent_path();
   if (folder.empty()) folder = ".";
-  if (access(folder.c_str(), W_OK) != 0) {
-    throw IoError(path + ": cannot write in folder " + folder.string() + ": " +
-                  std::strerror(errno));
+  const auto reason = why_not_writable(folder.string());
+  if (!reason.empty()) {
+    throw IoError(path + ": cannot write in folder " + folder.string() + ": " + reason);
   }
 }
 

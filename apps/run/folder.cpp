@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/folder.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "files/held_signals.h"
 #include "files/load.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "help/options.h"
 #include "report/report_json.h"
 #include "run/inputs.h"
+#include "system/held_signals.h"
+#include "system/system.h"
 
 namespace flbc::app {
 namespace {
@@ -49,35 +44,13 @@ constexpr int kNameColumn = 20;
 
 }  // namespace
 
-// Nobody has to remove it: the system drops it with the process.
-class RunFolder::Lock {
- public:
-  Lock(const std::string& path, const std::string& command)
-      : descriptor_(open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    if (descriptor_ < 0) {
-      throw IoError(path + ": cannot open this folder: " + std::strerror(errno));
-    }
-    if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-    close(descriptor_);
-    throw IoError(path + ": another flbc " + command +
-                  " is writing to this folder; wait for it, or use another folder");
-  }
-  ~Lock() { close(descriptor_); }
-  Lock(const Lock&) = delete;
-  Lock& operator=(const Lock&) = delete;
-
- private:
-  int descriptor_;
-};
-
 RunFolder::RunFolder(std::string path, const RunFiles& files)
     : path_(std::move(path)), report_(files.report), quiet_(files.quiet), names_(files.names) {
   check_results(files, names_in_report(path_of(report_), files.command));
   make_folder(path_);
-  if (access(path_.c_str(), W_OK | X_OK) != 0) {
-    throw IoError(path_ + ": cannot write in this folder: " + std::strerror(errno));
-  }
-  lock_ = std::make_shared<Lock>(path_, files.command);
+  const auto reason = why_not_writable(path_);
+  if (!reason.empty()) throw IoError(path_ + ": cannot write in this folder: " + reason);
+  lock_ = std::make_shared<FolderLock>(path_, files.command);
   const auto old = names_in_report(path_of(report_), files.command);
   check_results(files, old);  // again: another run may have ended just now
   remove_old(files, old);
@@ -137,11 +110,10 @@ void RunFolder::print(const std::string& name, const std::string& facts) const {
 
 void RunFolder::print_line(const std::string& name, const std::string& facts) const {
   if (quiet_) return;
-  const bool is_terminal = isatty(STDERR_FILENO) != 0;
   const auto indent = "\n" + std::string(2 + kNameColumn, ' ');
   // On a terminal a progress line may be there.
-  std::cerr << (is_terminal ? "\r\033[K  " : "  ") << std::left << std::setw(kNameColumn) << name
-            << (is_terminal ? wrapped(facts, 77 - kNameColumn, indent) : facts) << '\n';
+  std::cerr << (is_terminal() ? "\r\033[K  " : "  ") << std::left << std::setw(kNameColumn) << name
+            << (is_terminal() ? wrapped(facts, 77 - kNameColumn, indent) : facts) << '\n';
 }
 
 void RunFolder::add_report(nlohmann::ordered_json& report, const std::string& facts) {

@@ -12,6 +12,8 @@
 
 namespace flbc::app {
 
+class FolderLock;
+
 struct RunFiles {
   std::vector<std::string> inputs{};  //!< paths; they are neither replaced nor removed
   std::vector<std::string> names{};   //!< of all files that may be made
@@ -55,11 +57,9 @@ class RunFolder {
   void print_line(const std::string& name, const std::string& facts) const;
   void write_report(const nlohmann::ordered_json& report) const;
 
-  class Lock;
-
   std::string path_;
   std::string report_;
-  std::shared_ptr<Lock> lock_;  // while it lives, no other run writes here
+  std::shared_ptr<FolderLock> lock_;  // while it lives, no other run writes here
   bool quiet_;
   std::vector<std::string> names_;  // that may be made
   mutable std::mutex mutex_;        // of the next, of writing, and of printing

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/progress_bar.h"
 
-#include <unistd.h>
-
 #include <exception>
 #include <sstream>
 #include <utility>
 
+#include "system/system.h"
+
 namespace flbc::app {
-namespace {
-
-// Past the library's buffers, which a mesher's child process would inherit half filled.
-void write_to_terminal(const std::string& text) {
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, text.data(), text.size());
-}
-
-}  // namespace
 
 std::string meshing_stage(double limit) {
   std::ostringstream text;
@@ -25,7 +17,7 @@ std::string meshing_stage(double limit) {
 
 ProgressBar::ProgressBar(bool quiet, std::string stage, const SolverOptions& options)
     : stage_(std::move(stage)), estimate_(options) {
-  if (quiet || isatty(STDERR_FILENO) == 0) return;
+  if (quiet || !is_terminal()) return;
   drawer_ = std::thread([this] {
     try {
       draw_until_ended();

@@ -235,6 +235,11 @@ ProcessOutcome run_isolated(const std::function<void(const ByteSink&)>& work, do
   return outcome;
 }
 
+ProcessOutcome run_isolated(IsolatedFunction function, const std::vector<char>& input,
+                            double time_limit) {
+  return run_isolated([&](const ByteSink& send) { function(input, send); }, time_limit);
+}
+
 std::string describe_signal(int signal) {
   return "signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
 }

@@ -27,6 +27,14 @@ struct ProcessOutcome {
   std::vector<char> output;  //!< output of the sink; may be incomplete unless kFinished
 };
 
+//! Appends to what another process is to read.
+inline ByteSink sink_into(std::vector<char>& bytes) {
+  return [&bytes](const void* data, std::size_t size) {
+    const char* const first = static_cast<const char*>(data);
+    bytes.insert(bytes.end(), first, first + size);
+  };
+}
+
 //! Parses the output of a sink, in the order in which it was written.
 class ByteSource {
  public:
@@ -54,6 +62,14 @@ class ByteSource {
 //! 0 \throws Error if the system cannot create a process or pipe; std::bad_alloc if `work` throws
 //! it
 ProcessOutcome run_isolated(const std::function<void(const ByteSink&)>& work, double time_limit);
+
+//! A function that is called in the other process, with a copy of `input`.
+using IsolatedFunction = void (*)(const std::vector<char>& input, const ByteSink& send);
+
+//! The same without a copy of the memory, for systems that cannot fork. These have only this one:
+//! there the other process is the same program, and the function runs before main().
+ProcessOutcome run_isolated(IsolatedFunction function, const std::vector<char>& input,
+                            double time_limit);
 
 //! "signal 11 (Segmentation fault)".
 std::string describe_signal(int signal);

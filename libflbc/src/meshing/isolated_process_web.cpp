@@ -105,6 +105,11 @@ ProcessOutcome run_isolated(const Work& work, double) {
   return outcome;
 }
 
+ProcessOutcome run_isolated(IsolatedFunction function, const std::vector<char>& input,
+                            double time_limit) {
+  return run_isolated([&](const ByteSink& send) { function(input, send); }, time_limit);
+}
+
 std::string describe_signal(int) {
   return "a trap";
 }

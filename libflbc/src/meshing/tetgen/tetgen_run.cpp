@@ -46,8 +46,46 @@ void fill_facets(const FacetList<3>& triangles, tetgenio& io) {
   }
 }
 
+// Sizes of the input, before its arrays.
+struct InputHeader {
+  std::int64_t num_points;
+  std::int64_t num_triangles;
+  std::int64_t num_holes;
+  std::int64_t num_switches;
+};
+
+std::vector<char> packed(const TetgenInput& input, const std::string& switches) {
+  std::vector<char> bytes;
+  const auto append = sink_into(bytes);
+  const InputHeader header{input.points.cols(), input.triangles.cols(), input.holes.cols(),
+                           static_cast<std::int64_t>(switches.size())};
+  append(&header, sizeof header);
+  append(input.points.data(), sizeof(double) * static_cast<std::size_t>(input.points.size()));
+  append(input.triangles.data(), sizeof(Index) * static_cast<std::size_t>(input.triangles.size()));
+  append(input.holes.data(), sizeof(double) * static_cast<std::size_t>(input.holes.size()));
+  append(switches.data(), switches.size());
+  return bytes;
+}
+
+std::string unpack(const std::vector<char>& bytes, TetgenInput& input) {
+  ByteSource source(bytes, [] { throw InputError("TetGen received an incomplete input"); });
+  InputHeader header{};
+  source.take(&header, 1);
+  input.points.resize(3, header.num_points);
+  input.triangles.resize(3, header.num_triangles);
+  input.holes.resize(3, header.num_holes);
+  std::string switches(static_cast<std::size_t>(header.num_switches), ' ');
+  source.take(input.points.data(), 3 * static_cast<std::size_t>(header.num_points));
+  source.take(input.triangles.data(), 3 * static_cast<std::size_t>(header.num_triangles));
+  source.take(input.holes.data(), 3 * static_cast<std::size_t>(header.num_holes));
+  source.take(switches.data(), switches.size());
+  return switches;
+}
+
 // Runs in the child, because a failing TetGen frees memory twice and crashes the process.
-void tetrahedralize_and_send(const TetgenInput& input, std::string switches, const ByteSink& send) {
+void tetrahedralize_and_send(const std::vector<char>& bytes, const ByteSink& send) {
+  TetgenInput input;
+  std::string switches = unpack(bytes, input);
   tetgenio in, out;
   in.firstnumber = 0;
   in.numberofpoints = static_cast<int>(input.points.cols());
@@ -101,9 +139,7 @@ ProcessOutcome run_with_fallbacks(const TetgenInput& input, const std::string& s
   double left = time_limit;
   ProcessOutcome outcome;
   for (const char* order : {"", "b0/0", "lb0/0"}) {
-    outcome = run_isolated(
-        [&](const ByteSink& send) { tetrahedralize_and_send(input, switches + order, send); },
-        left);
+    outcome = run_isolated(tetrahedralize_and_send, packed(input, switches + order), left);
     if (outcome.end != ProcessEnd::kCrashed && outcome.end != ProcessEnd::kThrew) break;
     left -= watch.lap();
     if (left <= 0) break;
