@@ -434,6 +434,8 @@ async function testButtons(name, theme) {
     await tab.screenshot({ path: join(work, `${name}_${theme}_${coloring}.png`) });
   }
   await tab.select("#mirror", "0");
+  assert.match(await tab.$eval("#note", (note) => note.textContent),
+               /have an image$|have an image; the others move alone. .* --symmetric x\)$/);
   await page.press("fold");
   await page.press("fold");
   for (const key of ["?", "Escape", "f", "1", "2", "3", "g", "r", "s", "x", "x", "b", "b", "m", "a",

@@ -42,8 +42,9 @@ function mirror(viewer, axis) {
   element("mirror").value = String(axis);
   const total = viewer.editor.size;
   if (axis < 0) return;
-  const cure = count < total ? `; the others move alone. For a symmetric cage, make it with the symmetry ${kAxisNames[axis]} (--symmetry ${kAxisNames[axis]})` : "";
-  tell(`Mirror ${kAxisNames[axis]}: ${count} of ${total} control points have an image${cure}`);
+  const name = kAxisNames[axis];
+  const cure = count < total ? `; the others move alone. Make the cage with the symmetry ${name} (flbc cage --symmetric ${name})` : "";
+  tell(`Mirror ${name}: ${count} of ${total} control points have an image${cure}`);
 }
 
 async function loadPose(viewer, file) {

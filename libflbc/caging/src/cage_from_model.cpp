@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -227,15 +228,16 @@ class Caging {
       options_.control_points =
           surface.facets.cols() > 0 ? number_by_shape(surface, size_) : kUsualNumber<2>;
     } else {
-      // A model with thin limbs gets a finer wrap, unless it would take too many control points:
-      // then it is boxed in.
+      // Edges no longer than the wrap is thick leave three rings at a limb; longer ones take fewer
+      // control points. A model with thin limbs gets a finer wrap, unless it would take too many
+      // control points: then it is boxed in.
       constexpr double kUnlimited = std::numeric_limits<double>::infinity();
       const double most = 0.97 * kMaxCageVolume * volume_;
       options_.control_points = kMostByShape;
-      for (const auto& [fineness, limit] :
-           {std::pair(kUsualNumber<3>, most), std::pair(kMostByShape, most),
-            std::pair(kUsualNumber<3>, kUnlimited)}) {
-        if (auto made = make_close(size_at(fineness), limit)) return made;
+      for (const auto& [fineness, limit, edge] :
+           {std::tuple(kUsualNumber<3>, most, 1.0), std::tuple(kUsualNumber<3>, most, 1.4),
+            std::tuple(kMostByShape, most, 1.4), std::tuple(kUsualNumber<3>, kUnlimited, 1.4)}) {
+        if (auto made = make_close(size_at(fineness), limit, edge)) return made;
       }
       options_.control_points = kUsualNumber<3>;
     }
@@ -244,7 +246,9 @@ class Caging {
 
   // As few control points as possible in a volume that is not much larger than that of the wrap. A
   // nearly convex model may have few; others need some to bend limbs.
-  std::optional<ModelCage<3>> make_close(const WrapSize& size, double most_volume) const {
+  // \param edge  maximum length of edges, relative to thickness
+  std::optional<ModelCage<3>> make_close(const WrapSize& size, double most_volume,
+                                         double edge) const {
     constexpr double kGrowth = 1.3, kFreeVolume = 2, kConvex = 0.65;
     constexpr Index kLeast = 40, kLeastOfConvex = 8;
     const auto surface = wrap_of(size);
@@ -253,21 +257,19 @@ class Caging {
     auto limits = limits_;
     limits.growth =
         std::min(std::max(kGrowth * volume, kFreeVolume * volume_), most_volume) / volume;
-    limits.lengths = edge_lengths(surface);
+    limits.lengths = edge_lengths(surface, edge);
     const bool is_convex = volume > kConvex * hull_volume(surface);
     const auto cage = reduced(surface, size.offset, is_convex ? kLeastOfConvex : kLeast, limits);
     if (!cage) return {};
     return describe(*cage, size.offset);
   }
 
-  // Edges not much longer than the surface is thick leave control points along limbs,
-  // at which these bend.
-  std::vector<double> edge_lengths(const Cage<3>& surface) const {
-    constexpr double kLengthOfThickness = 1.4;
+  // At every vertex; they leave control points along limbs, at which these bend.
+  std::vector<double> edge_lengths(const Cage<3>& surface, double edge) const {
     const auto whole = plane_.is_there() ? join_halves(surface, plane_) : surface;
     auto lengths = thickness_of(whole);
     lengths.resize(static_cast<std::size_t>(surface.size()));
-    for (double& length : lengths) length *= kLengthOfThickness;
+    for (double& length : lengths) length *= edge;
     return lengths;
   }
 
