@@ -21,7 +21,7 @@ struct PlotArguments {
 };
 
 double largest_residual(const RunHistory&, const HistoryEntry& entry) {
-  return std::max(entry.primal_residual, entry.dual_residual);
+  return std::max(entry.relative_primal_residual, entry.relative_dual_residual);
 }
 
 double estimated_error(const RunHistory&, const HistoryEntry& entry) {

@@ -23,11 +23,12 @@ struct Quantity {
   double HistoryEntry::*value;
 };
 
-constexpr Quantity kQuantities[] = {{"seconds", &HistoryEntry::seconds},
-                                    {"estimated_error", &HistoryEntry::estimated_error},
-                                    {"primal_residual", &HistoryEntry::primal_residual},
-                                    {"dual_residual", &HistoryEntry::dual_residual},
-                                    {"objective", &HistoryEntry::objective}};
+constexpr Quantity kQuantities[] = {
+    {"seconds", &HistoryEntry::seconds},
+    {"estimated_error", &HistoryEntry::estimated_error},
+    {"relative_primal_residual", &HistoryEntry::relative_primal_residual},
+    {"relative_dual_residual", &HistoryEntry::relative_dual_residual},
+    {"objective", &HistoryEntry::objective}};
 
 double number_or_none(const Json& value) {
   return value.is_null() ? kNone : value.get<double>();
@@ -75,8 +76,8 @@ void HistoryRecorder::note(const Progress& progress) {
   }
   const bool has_objective = progress.objective && progress.finer_levels == 0;
   entries_.push_back({earlier_ + progress.iteration, progress.finer_levels, seconds_until(now),
-                      tolerance_ > 0 ? progress.primal_residual * tolerance_ : kNone,
-                      progress.primal_residual, progress.dual_residual,
+                      tolerance_ > 0 ? progress.relative_primal_residual * tolerance_ : kNone,
+                      progress.relative_primal_residual, progress.relative_dual_residual,
                       has_objective ? progress.objective() : kNone});
   start_ += std::chrono::steady_clock::now() - now;
 }
@@ -92,8 +93,9 @@ std::vector<HistoryEntry> HistoryRecorder::finished(const SolveReport& report) {
   const double seconds = seconds_until(std::chrono::steady_clock::now()) - report.seconds.recover -
                          report.seconds.certify;
   entries_.push_back({earlier_ + report.iterations, 0, seconds,
-                      tolerance_ > 0 ? report.primal_residual * tolerance_ : kNone,
-                      report.primal_residual, report.dual_residual, report.objective});
+                      tolerance_ > 0 ? report.relative_primal_residual * tolerance_ : kNone,
+                      report.relative_primal_residual, report.relative_dual_residual,
+                      report.objective});
   return std::move(entries_);
 }
 

@@ -18,9 +18,9 @@ struct HistoryEntry {
   int finer_levels = 0;  //!< meshes still to come
   double seconds = 0;    //!< since the start, set-up included
   double estimated_error = 0;
-  double primal_residual = 0;  //!< divided by its threshold
-  double dual_residual = 0;    //!< divided by its threshold
-  double objective = 0;        //!< on the finest mesh
+  double relative_primal_residual = 0;  //!< divided by its threshold
+  double relative_dual_residual = 0;    //!< divided by its threshold
+  double objective = 0;                 //!< on the finest mesh
 };
 
 //! Records what a progress callback receives. The time that the objective takes does not count.

@@ -77,7 +77,7 @@ std::string describe_iterations(const SolveReport& report) {
   text.precision(2);
   text << (report.parts.empty() ? "" : "at most ") << report.iterations << " iterations";
   if (report.criterion == Criterion::kGap) {
-    text << ", ended by the certified gap, at " << report.primal_residual
+    text << ", ended by the certified gap, at " << report.relative_primal_residual
          << " times the tolerance of the weights";
   }
   return text.str();
@@ -116,8 +116,8 @@ nlohmann::ordered_json report_json(const SolveReport& report, const SolveSetting
   json["converged"] = report.status == SolveStatus::kConverged;
   json["status"] = name_of(report.status);
   json["criterion"] = name_of(report.criterion);
-  json["primal_residual"] = report.primal_residual;
-  json["dual_residual"] = report.dual_residual;
+  json["relative_primal_residual"] = report.relative_primal_residual;
+  json["relative_dual_residual"] = report.relative_dual_residual;
   json["objective"] = report.objective;
   add_certificate(report, json);
   json["seconds"] = {{"mesh", context.mesh_seconds},

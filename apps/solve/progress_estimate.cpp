@@ -56,7 +56,8 @@ ProgressEstimate::ProgressEstimate(const SolverOptions& options) {
 
 void ProgressEstimate::update(const Progress& progress, double seconds) {
   stage_.clear();
-  const double excess = std::log(std::max({progress.primal_residual, progress.dual_residual, 1.0}));
+  const double excess =
+      std::log(std::max({progress.relative_primal_residual, progress.relative_dual_residual, 1.0}));
   const bool is_new = !started_ || progress.finer_levels != last_.finer_levels;
   if (is_new) first_excess_ = std::max(excess, 1e-9);
   if (!started_) {
@@ -98,8 +99,8 @@ std::string ProgressEstimate::line(const std::string& stage, double seconds) con
   }
   std::string text = "solving " + bar(done_, last_seconds_ - first_seconds_);
   text += ", iteration " + std::to_string(last_.iteration);
-  const double residual = std::max(last_.primal_residual, last_.dual_residual);
-  text += tolerance_ > 0 ? ", error " + two_digits(last_.primal_residual * tolerance_)
+  const double residual = std::max(last_.relative_primal_residual, last_.relative_dual_residual);
+  text += tolerance_ > 0 ? ", error " + two_digits(last_.relative_primal_residual * tolerance_)
                          : ", residual " + two_digits(residual);
   return text.substr(0, kColumns);
 }

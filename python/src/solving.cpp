@@ -293,9 +293,9 @@ void bind_solving(py::module_& module) {
 
   py::class_<Progress>(module, "Progress", "Progress of a solve, for callbacks.")
       .def_readonly("iteration", &Progress::iteration, "int: counted from 1")
-      .def_readonly("primal_residual", &Progress::primal_residual,
+      .def_readonly("relative_primal_residual", &Progress::relative_primal_residual,
                     "float: residual or estimated error, divided by its threshold")
-      .def_readonly("dual_residual", &Progress::dual_residual,
+      .def_readonly("relative_dual_residual", &Progress::relative_dual_residual,
                     "float: divided by its threshold; 0 if the method has none")
       .def_readonly("finer_levels", &Progress::finer_levels,
                     "int: meshes or parts that follow this one")

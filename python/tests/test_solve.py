@@ -130,7 +130,7 @@ def test_callbacks_follow_stop_and_raise(flat):
     seen = []
 
     def follow(progress):
-        seen.append((progress.iteration, progress.primal_residual, progress.objective()))
+        seen.append((progress.iteration, progress.relative_primal_residual, progress.objective()))
 
     solution = flbc.solve(flat.cage, flat.mesh, callback=follow)
     assert np.array_equal(solution.weights, flbc.solve(flat.cage, flat.mesh).weights)

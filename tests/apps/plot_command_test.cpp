@@ -39,7 +39,7 @@ TEST_F(PlotCommand, AHistoryEndsAsTheReportSays) {
       int coarse = 0;
       for (const auto& level : report["coarse_levels"]) coarse += level["iterations"].get<int>();
       EXPECT_EQ(last, coarse + report["iterations"].get<int>());
-      EXPECT_EQ(history["primal_residual"].back(), report["primal_residual"]);
+      EXPECT_EQ(history["relative_primal_residual"].back(), report["relative_primal_residual"]);
       EXPECT_EQ(history["objective"].back(), report["objective"]);
       EXPECT_GE(history["objective"].back(), report["lower_bound"]);
       EXPECT_EQ(history["estimated_error"].back().is_number(), method != "lbc2014");

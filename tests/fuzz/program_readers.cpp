@@ -38,7 +38,8 @@ std::string picture(int format, const std::string& pixels) {
 const char* const kReport =
     "{\"method\": \"value\", \"lower_bound\": 1.5, \"history\": {\"iterations\": [10, 20], "
     "\"finer_levels\": [1, 0], \"seconds\": [0.1, 0.2], \"estimated_error\": [null, 1e-3], "
-    "\"primal_residual\": [1, 2], \"dual_residual\": [3, 4], \"objective\": [null, 2.5]}}";
+    "\"relative_primal_residual\": [1, 2], \"relative_dual_residual\": [3, 4], \"objective\": "
+    "[null, 2.5]}}";
 const char* const kReportOfRun =
     "{\"solve\": {\"history\": {\"iterations\": [], \"finer_levels\": []}}}";
 

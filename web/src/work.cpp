@@ -277,8 +277,8 @@ Json Work<Dim>::solve(const Json& options, const Report& report) {
   double first = 0;
   Observer observer;
   observer.progress = [&](const Progress& progress) {
-    const double excess =
-        std::log(std::max({progress.primal_residual, progress.dual_residual, 1.0}));
+    const double excess = std::log(
+        std::max({progress.relative_primal_residual, progress.relative_dual_residual, 1.0}));
     first = std::max(first, excess);
     report("solving", first > 0 ? 1 - excess / first : 0);
     return true;
@@ -338,7 +338,7 @@ Json Work<Dim>::move(const Json& request) {
   const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
   return {{"converged", report.status == SolveStatus::kConverged},
           {"iterations", report.iterations},
-          {"residual", std::max(report.primal_residual, report.dual_residual)},
+          {"residual", std::max(report.relative_primal_residual, report.relative_dual_residual)},
           {"milliseconds", taken.count()}};
 }
 

@@ -9,10 +9,10 @@ namespace flbc {
 
 //! Progress of a run.
 struct Progress {
-  int iteration;           //!< counted from 1
-  double primal_residual;  //!< |r_p| or estimated error, divided by its threshold
-  double dual_residual;    //!< |r_d| divided by its threshold; 0 if the method has none
-  int finer_levels = 0;    //!< number of meshes or parts that follow this one
+  int iteration;                    //!< counted from 1
+  double relative_primal_residual;  //!< |r_p| or estimated error, divided by its threshold
+  double relative_dual_residual;    //!< |r_d| divided by its threshold; 0 if the method has none
+  int finer_levels = 0;             //!< number of meshes or parts that follow this one
   //! Computes the objective of the current weights, in the units of SolveReport::objective. A call
   //! takes as long as one or two iterations. Valid only during the callback.
   std::function<double()> objective{};

@@ -72,9 +72,9 @@ struct SolveReport {
   Index vertices = 0;                            //!< V
   Index cells = 0;                               //!< F
   int iterations = 0;                            //!< 0 for compute_coordinates()
-  double primal_residual = 0;    //!< |r_p| or estimated error, divided by its threshold
-  double dual_residual = 0;      //!< |r_d| divided by its threshold
-  double penalty = 0;            //!< final penalty, in the unit of SolverOptions::penalty
+  double relative_primal_residual = 0;  //!< |r_p| or estimated error, divided by its threshold
+  double relative_dual_residual = 0;    //!< |r_d| divided by its threshold
+  double penalty = 0;                   //!< final penalty, in the unit of SolverOptions::penalty
   double published_penalty = 0;  //!< the same in the scale of the literature (published_penalty())
   //! Objective of the weights, sum_s sum_i phi A |grad w_i|, in units of the mesh^(dim - 1). NaN
   //! for compute_coordinates().

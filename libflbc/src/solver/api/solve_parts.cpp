@@ -118,8 +118,10 @@ void add(const SolveReport& part, SolveReport& whole) {
   whole.control_points += part.control_points;
   whole.vertices += part.vertices;
   whole.cells += part.cells;
-  whole.primal_residual = std::max(whole.primal_residual, part.primal_residual);
-  whole.dual_residual = std::max(whole.dual_residual, part.dual_residual);
+  whole.relative_primal_residual =
+      std::max(whole.relative_primal_residual, part.relative_primal_residual);
+  whole.relative_dual_residual =
+      std::max(whole.relative_dual_residual, part.relative_dual_residual);
   whole.objective += part.objective;
   whole.distances.source = std::max(whole.distances.source, part.distances.source);
   whole.distances.vertices += part.distances.vertices;

@@ -20,7 +20,8 @@ namespace {
 template <int Dim>
 Progress progress_of(const Iteration<Dim>& iteration, const LbcProblem<Dim>& problem,
                      const SolveReport& report) {
-  Progress progress{report.iterations, report.primal_residual, report.dual_residual};
+  Progress progress{report.iterations, report.relative_primal_residual,
+                    report.relative_dual_residual};
   progress.objective = [&] {
     return unscaled(problem, objective(problem, iteration.weights().to_sparse()));
   };
@@ -32,7 +33,7 @@ Progress progress_of(const Iteration<Dim>& iteration, const LbcProblem<Dim>& pro
 template <int Dim>
 bool is_finished(const Iteration<Dim>& iteration, RunState<Dim>& state,
                  const RunContext<Dim>& context, bool last, SolveReport& report) {
-  const bool converged = report.primal_residual <= 1 && report.dual_residual <= 1;
+  const bool converged = report.relative_primal_residual <= 1 && report.relative_dual_residual <= 1;
   const bool due = converged ? state.made >= std::max(plan::kFewestIterations, state.earliest)
                              : state.made % plan::kCheckInterval == 0;
   if (!due && !last) return false;
@@ -40,7 +41,8 @@ bool is_finished(const Iteration<Dim>& iteration, RunState<Dim>& state,
   report.criterion = Criterion::kTolerance;
   if (converged) return true;
   report.criterion = Criterion::kGap;
-  if (state.gap.is_met(context.settings, iteration, state.made, last, report.primal_residual)) {
+  if (state.gap.is_met(context.settings, iteration, state.made, last,
+                       report.relative_primal_residual)) {
     return true;
   }
   report.criterion = Criterion::kNone;
@@ -94,8 +96,8 @@ void run(Iteration<Dim>& iteration, RunState<Dim>& state, const RunContext<Dim>&
       continue;
     }
     const auto [primal, dual] = state.stop->judge(step, iteration, state.made, tolerance);
-    report.primal_residual = primal;
-    report.dual_residual = dual;
+    report.relative_primal_residual = primal;
+    report.relative_dual_residual = dual;
     require_finite(std::isfinite(primal) && std::isfinite(dual), report);
     const bool ends = is_finished(iteration, state, context, state.made == limit, report);
     const bool converged = ends && report.status == SolveStatus::kConverged;
