@@ -5,8 +5,12 @@ import re
 import shutil
 import signal
 import subprocess
+import tempfile
 import time
 
+# In zips that contain the program.
+OWN = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'bin',
+                   'flbc.exe' if os.name == 'nt' else 'flbc')
 DONE, NOT_CONVERGED = 0, 3  # exit status; after 3 the result is written
 
 
@@ -15,10 +19,14 @@ class Refusal(Exception):
 
 
 def find(path):
-    """Returns the program: `path` if it is set, else `flbc` of the search path.
+    """Returns the program: `path` if it is set, else the add-on's own, else `flbc` of the search path.
 
     Raises Refusal if there is none.
     """
+    if not path and os.path.exists(OWN):
+        if not os.access(OWN, os.X_OK):  # Blender unzips files without permissions
+            os.chmod(OWN, 0o755)
+        return OWN
     found = shutil.which(os.path.expanduser(path) or 'flbc')
     if found:
         return found
@@ -36,12 +44,18 @@ class Command:
 
 
 class _Process:
-    # The program shows its progress only on a terminal, so it gets one.
+    # The program shows its progress only on a terminal, so it gets one. Windows has none: a file
+    # takes its place.
     def __init__(self, command):
         self._names = command.names
         self._text = ''
-        self._terminal, theirs = os.openpty()
-        os.set_blocking(self._terminal, False)
+        self._file = None
+        if hasattr(os, 'openpty'):
+            self._terminal, theirs = os.openpty()
+            os.set_blocking(self._terminal, False)
+        else:
+            theirs, self._file = tempfile.mkstemp()
+            self._terminal = os.open(self._file, os.O_RDONLY)
         try:
             self._process = subprocess.Popen(
                 command.arguments, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
@@ -49,7 +63,7 @@ class _Process:
                 # Threads that wait actively would slow down Blender, and be slowed down by it.
                 env={**os.environ, 'OMP_WAIT_POLICY': 'passive'})
         except OSError as error:
-            os.close(self._terminal)
+            self._close()
             raise Refusal(f'{command.arguments[0]}: {error.strerror}') from error
         finally:
             os.close(theirs)
@@ -85,9 +99,17 @@ class _Process:
 
     def stop(self):
         if self._process.poll() is None:
-            os.killpg(self._process.pid, signal.SIGTERM)
+            if hasattr(os, 'killpg'):
+                os.killpg(self._process.pid, signal.SIGTERM)
+            else:
+                self._process.terminate()
             self._process.wait()
+        self._close()
+
+    def _close(self):
         os.close(self._terminal)
+        if self._file:
+            os.unlink(self._file)
 
 
 class Job:

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The add-on runs programs in the background, shows their progress, and stops them."""
 import os
+import shutil
 import stat
 import sys
 import tempfile
 import time
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).parents[2] / 'blender' / 'local_barycentric_cage'))
@@ -61,6 +63,23 @@ class ProgramTest(unittest.TestCase):
                 events.append('handled')
         Job(steps()).run()
         self.assertEqual(events, ['handled'])
+
+    def test_a_zip_may_contain_the_program(self):
+        own = self.folder / 'flbc'
+        own.write_text('#!/bin/sh\n')
+        with mock.patch.object(program, 'OWN', str(own)):
+            self.assertEqual(program.find(''), str(own))
+            self.assertTrue(os.access(own, os.X_OK))
+            self.assertEqual(program.find('sh'), shutil.which('sh'))
+
+    def test_systems_without_terminals_have_messages(self):
+        terminal, killpg = os.openpty, os.killpg
+        del os.openpty, os.killpg
+        try:
+            self.assertEqual(
+                self.run_one('echo "flbc: not converged" >&2; exit 3'), 'not converged. ')
+        finally:
+            os.openpty, os.killpg = terminal, killpg
 
     def test_progress_is_that_of_the_terminal(self):
         slow = self.script(r'test -t 2 && printf "\rsolving [##..] 40%%, 8 s left\033[K" >&2'
