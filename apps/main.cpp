@@ -138,6 +138,7 @@ int run(int argc, char** argv) {
       "5 out of memory.",
       "flbc"};
   app.formatter(help_formatter());
+  app.allow_windows_style_options(false);  // a path may begin with a slash
   app.set_help_flag("-h,--help", "print this help and exit");
   app.set_version_flag("--version", version(), "print version, components, and license, and exit");
   app.require_subcommand(1);

@@ -8,6 +8,7 @@ if(TetGen_FOUND AND NOT TARGET TetGen::TetGen)
   add_library(TetGen::TetGen UNKNOWN IMPORTED)
   set_target_properties(TetGen::TetGen PROPERTIES
     IMPORTED_LOCATION ${TetGen_LIBRARY}
+    INTERFACE_COMPILE_DEFINITIONS TETLIBRARY
     INTERFACE_INCLUDE_DIRECTORIES ${TetGen_INCLUDE_DIR})
 endif()
 mark_as_advanced(TetGen_INCLUDE_DIR TetGen_LIBRARY)

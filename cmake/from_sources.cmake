@@ -62,6 +62,10 @@ flbc_compile_library(png PNG::PNG "${from}/libpng1.6;${png}" ${sources})
 target_link_libraries(png PUBLIC zlib)
 target_compile_definitions(png PRIVATE PNG_ARM_NEON_OPT=0)
 
+file(GLOB_RECURSE sources ${from}/openmesh/src/OpenMesh/Core/*.cc)
+flbc_compile_library(OpenMeshCore OpenMesh::Core ${from}/openmesh/src ${sources})
+target_compile_definitions(OpenMeshCore PUBLIC _USE_MATH_DEFINES NOMINMAX)
+
 set(from ${from}/googletest)
 flbc_compile_library(gtest_main GTest::gtest_main
   "${from}/googletest/include;${from}/googlemock/include"

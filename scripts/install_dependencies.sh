@@ -37,7 +37,7 @@ for package in "$@"; do
       ;;
     windows)
       packages+=(g++-mingw-w64-x86-64-posix wine64 libboost-dev googletest)
-      needs_sources tetgen pugixml zlib libpng1.6
+      needs_sources tetgen pugixml zlib libpng1.6 openmesh
       ;;
     aarch64)
       packages+=(g++-aarch64-linux-gnu qemu-user libboost-dev googletest)

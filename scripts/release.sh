@@ -83,8 +83,11 @@ if wants wheel; then
 cage = flbc.read_cage('$cage')
 assert flbc.solve(cage, flbc.mesh(cage, vertices=1000)).converged"
   # Nothing but the libraries that every Linux has comes from this machine.
-  ! ldd environment/lib/python3*/site-packages/flbc/_core.*.so | grep -v "$PWD" |
-    grep -E '=> /' | grep -vE '/lib(c|m|dl|stdc\+\+|gcc_s)\.so'
+  if ldd environment/lib/python3*/site-packages/flbc/_core.*.so | grep -v "$PWD" |
+    grep -E '=> /' | grep -vE '/lib(c|m|dl|stdc\+\+|gcc_s)\.so'; then
+    echo "The wheel needs these libraries of this machine"
+    exit 1
+  fi
 fi
 
 # make_addon SYSTEM: zips the add-on with the program in its folder bin.

@@ -4,10 +4,9 @@
     bundle_libraries.py LIBRARIES FILE...
     bundle_libraries.py --wheel WHEEL OUTPUT_FOLDER
 
-Copies the shared libraries that the files need into the folder LIBRARIES, next to them or above
-them, and lets the files find them there. Libraries that every Linux has stay out. The second form
-does the same for a wheel, and gives it the manylinux tag of the C library of this machine, which the
-wheel may need.
+Copies the shared libraries that the files need into the folder LIBRARIES, with their licenses, and
+lets the files find them there. Libraries that every Linux has stay out. The second form does the
+same for a wheel, and gives it the manylinux tag of the C library of this machine.
 """
 import os
 import platform
@@ -36,16 +35,27 @@ def needed(file):
     return {name: path for name, path in found if not OF_THE_SYSTEM.fullmatch(name)}
 
 
+def copy_license(library, folder):
+    """Copies the license of Debian's package of this library, if it is of one."""
+    path = str(Path(library).resolve())
+    owner = subprocess.run(['dpkg-query', '-S', path, path.removeprefix('/usr')],
+                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    for package in re.findall(r'^([^:,]+)', owner.stdout):
+        shutil.copy(f'/usr/share/doc/{package}/copyright', folder / f'{package}.txt')
+
+
 def bundle(libraries, files):
     libraries = Path(libraries)
     copies = {}
     for file in files:
         for name, path in needed(file).items():
             copies[name] = path
-    libraries.mkdir(parents=True, exist_ok=True)
+    licenses = libraries / 'licenses'
+    licenses.mkdir(parents=True, exist_ok=True)
     for name, path in copies.items():
         shutil.copy(path, libraries / name)
         os.chmod(libraries / name, 0o644)
+        copy_license(path, licenses)
         subprocess.run(['patchelf', '--set-rpath', '$ORIGIN', libraries / name], check=True)
     for file in files:
         place = os.path.relpath(libraries, Path(file).parent)

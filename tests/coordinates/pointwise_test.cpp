@@ -238,7 +238,9 @@ TEST(PointwiseTest2D, BlendHasFewWeightsAndNoKinks) {
 TEST(PointwiseTest2D, TriangulationsFillThePolygonAndAreDelaunay) {
   for (const auto& sample : cages<2>()) {
     const auto& points = sample.cage.points;
-    const auto [triangles, opposite] = triangulate_polygon(sample.cage);
+    const auto triangulation = triangulate_polygon(sample.cage);
+    const auto& triangles = triangulation.triangles;
+    const auto& opposite = triangulation.opposite;
     double area = 0;
     for (Index t = 0; t < triangles.cols(); ++t) {
       const Vector<2> a = points.col(triangles(0, t)), b = points.col(triangles(1, t)),

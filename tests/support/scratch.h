@@ -5,9 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <stdexcept>
+#include <random>
 #include <string>
 #include <system_error>
 
@@ -16,11 +15,13 @@ namespace flbc::testing {
 //! An empty folder of nobody else's, removed with all that is in it.
 class ScratchFolder {
  public:
-  //! \throws std::runtime_error if it cannot be made
+  //! \throws std::filesystem::filesystem_error if it cannot be made
   ScratchFolder() {
-    std::string name = ::testing::TempDir() + "/flbc_test_XXXXXX";
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
-    path_ = name;
+    std::random_device random;
+    do {
+      path_ =
+          std::filesystem::path(::testing::TempDir()) / ("flbc_test_" + std::to_string(random()));
+    } while (!std::filesystem::create_directory(path_));  // false if it was there already
   }
   ~ScratchFolder() {
     std::error_code ignored;

@@ -5,7 +5,9 @@
 // over before main().
 #include "meshing/isolated_process.h"
 
+#ifndef NOMINMAX
 #define NOMINMAX
+#endif
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
 
@@ -98,9 +100,16 @@ DWORD WINAPI run_task(void* data) {
   return 0;
 }
 
+// Without a dialog, and without a debugger that the system may start.
+LONG WINAPI end_crashed_process(EXCEPTION_POINTERS* crash) {
+  TerminateProcess(GetCurrentProcess(), crash->ExceptionRecord->ExceptionCode);
+  return EXCEPTION_EXECUTE_HANDLER;
+}
+
 // Meshers recurse deeply. Nothing of the program has begun, so none of it is ended either.
 [[noreturn]] void run_and_exit(Task task) {
   SetErrorMode(SEM_FAILCRITICALERRORS | SEM_NOGPFAULTERRORBOX);
+  SetUnhandledExceptionFilter(end_crashed_process);
   constexpr SIZE_T kStack = 64 << 20;
   DWORD status = kOutOfMemory;
   const HANDLE thread =

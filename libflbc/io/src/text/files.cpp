@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/io/files.h"
 
+#ifdef _WIN32
+#include <fcntl.h>
+#include <io.h>
+#include <sys/stat.h>
+#endif
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -46,13 +52,22 @@ fs::path resolve_links(fs::path path) {
   return path;
 }
 
+// Makes an empty file. Fails if there is one, so that names of several programs do not collide.
+// Unlike mkstemp() it gives default permissions.
+bool create_exclusively(const fs::path& path) {
+#ifdef _WIN32  // whose fopen() does not have "x"
+  const int file = _wopen(path.c_str(), _O_CREAT | _O_EXCL | _O_WRONLY, _S_IREAD | _S_IWRITE);
+  return file >= 0 && _close(file) == 0;
+#else
+  return FileHandle(std::fopen(path.c_str(), "wbx"), &std::fclose) != nullptr;
+#endif
+}
+
 // A new empty file that is removed unless it is renamed.
 class TemporaryFile {
  public:
   TemporaryFile(const fs::path& folder, const std::string& final_path) {
-    // Opening exclusively ("x") resolves name collisions between programs, and unlike mkstemp() it
-    // gives default permissions. The name does not contain the final name, which may already have
-    // the maximum length.
+    // The name does not contain the final name, which may already have the maximum length.
     constexpr int kMaxAttempts = 100;
     std::random_device random;
     for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
@@ -60,8 +75,7 @@ class TemporaryFile {
       std::snprintf(name, sizeof name, ".flbc-%08x.tmp", static_cast<unsigned>(random()));
       path_ = folder / name;
       errno = 0;
-      const FileHandle file(std::fopen(path_.string().c_str(), "wbx"), &std::fclose);
-      if (file) return;
+      if (create_exclusively(path_)) return;
       if (errno != EEXIST) break;
     }
     fail("write", final_path, reason_of(errno));
@@ -120,7 +134,11 @@ std::string read_file(const std::string& path) {
   errno = 0;
   const FileHandle opened(path == "-" ? nullptr : std::fopen(path.c_str(), "rb"), &std::fclose);
   std::FILE* const file = path == "-" ? stdin : opened.get();
-  if (!file) fail("read", path, reason_of(errno));
+  if (!file) {
+    const int error = errno;
+    std::error_code ignored;  // of folders, Windows says that permission is denied
+    fail("read", path, reason_of(fs::is_directory(path, ignored) ? EISDIR : error));
+  }
 
   // The length is only a hint, because a pipe has none; one extra byte detects the end immediately.
   const std::size_t room = path == "-" ? 0 : size_hint(path) + 1;

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <new>
 
-#define TETLIBRARY
 #include <tetgen.h>
 
 #include "base/stopwatch.h"
