@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.h"
+#include "files/certificate_file.h"
 #include "files/load.h"
 #include "flbc/bounding_box.h"
 #include "flbc/gradients.h"
@@ -26,6 +27,7 @@ struct SolveArguments {
   std::string output;
   std::string save_domain;
   std::string gradients;
+  std::string certificate;
   std::string report;
   bool quiet = false;
 };
@@ -34,10 +36,11 @@ void check_outputs(const SolveArguments& arguments) {
   const auto& settings = arguments.settings;
   require_writable(arguments.output, {io::Content::kWeights});
   require_writable(arguments.gradients, {io::Content::kWeights});
+  require_writable(arguments.certificate, "npz");
   if (arguments.report != "-") require_writable(arguments.report, "json");
-  require_distinct(
-      {settings.cage, settings.domain, settings.model},
-      {arguments.output, arguments.save_domain, arguments.gradients, arguments.report});
+  require_distinct({settings.cage, settings.domain, settings.model},
+                   {arguments.output, arguments.save_domain, arguments.gradients,
+                    arguments.certificate, arguments.report});
 }
 
 template <int Dim>
@@ -108,6 +111,10 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
 
   CageSolver<Dim> solver(cage, model, settings);
   solver.make_domain(arguments.quiet);
+  if (!arguments.certificate.empty() && count_parts(solver.domain()) > 1) {
+    throw InputError(settings.cage +
+                     ": a certificate needs a cage in one part; solve each part by itself");
+  }
   solver.solve(arguments.quiet);
   const auto& rows = solver.rows();
   const auto delivered = measure_quality(cage.points, solver.points(), rows);
@@ -118,6 +125,9 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
     if (!arguments.save_domain.empty()) save_domain(arguments.save_domain, solver);
     if (!arguments.gradients.empty()) {
       save_gradients(arguments.gradients, solver, !settings.model.empty());
+    }
+    if (!arguments.certificate.empty()) {
+      write_certificate(arguments.certificate, cage, solver.domain(), solver.solution());
     }
     if (!arguments.report.empty()) {
       io::write_file(arguments.report, [&](std::ostream& file) { file << json; });
@@ -143,6 +153,9 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   command->add_option("--gradients", a.gradients,
                       "write the gradients of the weights, one row per vertex and a column per "
                       "control point and axis (x, y, z of the first, then of the second)");
+  command->add_option("--certificate", a.certificate,
+                      "write what others need to prove by how much the objective can exceed "
+                      "its minimum: .npz, for scripts/check_certificate.py");
   command->add_option("--report", a.report,
                       "write a report of the solve to this .json file, or to standard output (-)");
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
@@ -167,9 +180,13 @@ void add_solve_command(CLI::App& app, int& exit_status) {
           ->needs(model);
   domain->excludes(vertices)->excludes(embed);
   command->callback([arguments, command, &exit_status] {
+    if (!arguments->certificate.empty()) arguments->settings.options.certify = true;
     validate_settings(arguments->settings);
     arguments->settings.needs_domain = !arguments->save_domain.empty();
     refuse_unread_options(*command, arguments->settings);
+    if (!arguments->certificate.empty() && arguments->settings.coordinates) {
+      throw OptionError("--certificate: this method minimizes nothing; leave out this option");
+    }
     check_outputs(*arguments);
     const auto cage = load_cage(arguments->settings.cage);
     exit_status = std::visit([&](const auto& any) { return solve_cage(any, *arguments); }, cage);

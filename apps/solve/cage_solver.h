@@ -53,6 +53,7 @@ class CageSolver {
   const Cage<Dim>& cage() const { return cage_; }
   const DomainMesh<Dim>& domain() const { return domain_; }
   const SparseWeights& domain_weights() const { return solution_.weights; }
+  const Solution& solution() const { return solution_; }
   const SolveReport& report() const { return solution_.report; }
   double mesh_seconds() const { return mesh_seconds_; }
   Mesher mesher() const { return mesher_; }

@@ -11,7 +11,7 @@ _Offsets = NDArray[np.int64]
 _Polygons = Tuple[_Ints, _Offsets]
 _Shape = Tuple[_Floats, _Ints]
 _Weights = Union[_Floats, Tuple[_Floats, _Ints, _Offsets, int]]
-_Solved = Tuple[_Weights, Dict[str, Any]]
+_Solved = Tuple[_Weights, Dict[str, Any], Optional[Dict[str, Any]]]
 _Callback = Optional[Callable[[Progress], Optional[bool]]]
 
 version: str

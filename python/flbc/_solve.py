@@ -2,6 +2,7 @@
 """Meshing, solving, and solving on."""
 from __future__ import annotations
 
+import os
 import warnings
 from typing import (
     TYPE_CHECKING,
@@ -18,7 +19,7 @@ from typing import (
 import numpy as np
 
 from . import _core
-from ._errors import InputError, NotConverged, OptionError, TooFewVertices
+from ._errors import Error, InputError, NotConverged, OptionError, TooFewVertices
 from ._shapes import (
     DomainMesh,
     as_array,
@@ -171,13 +172,16 @@ class Solution:
     certificate : Certificate or None
     """
 
-    __slots__ = ("cage", "mesh", "report", "_parts", "_dense")
+    __slots__ = ("cage", "mesh", "report", "_parts", "_dense", "_proof")
     cage: Cage
     mesh: DomainMesh
     report: Dict[str, Any]
 
-    def __init__(self, parts: Any, cage: Cage, mesh: DomainMesh, report: Dict[str, Any]) -> None:
+    def __init__(
+        self, parts: Any, cage: Cage, mesh: DomainMesh, report: Dict[str, Any], proof: Any = None
+    ) -> None:
         self._parts, self.cage, self.mesh, self.report = parts, cage, mesh, report
+        self._proof = proof
         self._dense: Optional[Floats] = None
 
     @property
@@ -200,6 +204,34 @@ class Solution:
             return None
         names = "certified_objective", "lower_bound", "relative_gap"
         return Certificate(*(self.report[name] for name in names))
+
+    def save_certificate(self, path: "str | os.PathLike[str]") -> None:
+        """Writes what others need to check the certificate, for scripts/check_certificate.py.
+
+        Parameters
+        ----------
+        path : str or path
+            Of an archive of NumPy arrays (.npz): cage, mesh, weights, phi, and duals.
+
+        Raises
+        ------
+        Error
+            If the solution has no proof: it needs ``certify=True``, and a cage in one part.
+        """
+        if self._proof is None or self.certificate is None:
+            raise Error("no proof to save; solve with certify=True, and a cage in one part")
+        bounds = self.certificate
+        with open(path, "wb") as file:
+            np.savez(
+                file,
+                control_points=self.cage.points,
+                facets=self.cage.facets,
+                points=self.mesh.points,
+                cells=self.mesh.cells,
+                weights=self.weights,
+                claimed=np.array([bounds.objective, bounds.lower_bound]),
+                **self._proof,
+            )
 
     def at(self, points: ArrayLike, outside: str = "fail") -> Floats:
         """Evaluates the coordinates at points.
@@ -258,7 +290,7 @@ class Solution:
         return f"<flbc.Solution: {shape} weights, {self.report['status']}>"
 
     def __reduce__(self) -> Any:
-        return Solution, (self._parts, self.cage, self.mesh, self.report)
+        return Solution, (self._parts, self.cage, self.mesh, self.report, self._proof)
 
 
 def evaluate(solution: Solution, points: Floats, outside: str) -> Any:
@@ -316,8 +348,8 @@ def mesh(
 
 
 def _solution(found: Any, cage: Cage, domain: DomainMesh, warn: bool) -> Solution:
-    parts, report = found
-    solution = Solution(parts, cage, domain, report)
+    parts, report, proof = found
+    solution = Solution(parts, cage, domain, report, proof)
     if warn and report["status"] == "iteration limit":
         warnings.warn(
             f"not converged within {report['iterations']} iterations; increase max_iterations or "

@@ -159,9 +159,24 @@ Options here(Options options) {
   return options;
 }
 
+// The arrays of a proof, a row per cell or vertex; None without one.
+py::object arrays_of(const std::shared_ptr<const Proof>& proof) {
+  if (!proof) return py::none();
+  const auto cells = proof->phi.cols(), n = proof->phi.rows(), axes = proof->multipliers.rows();
+  const auto phi = proof->phi.dense();
+  py::dict arrays;
+  arrays["phi"] = py::array_t<double>({cells, n}, phi.data());
+  arrays["flux"] = py::array_t<float>({cells, axes, n}, proof->flux.data());
+  arrays["multipliers"] =
+      py::array_t<double>({proof->multipliers.cols(), axes}, proof->multipliers.data());
+  arrays["smoothness"] = proof->smoothness;
+  return std::move(arrays);
+}
+
 py::tuple solved(Solution solution, const std::optional<Coordinates>& coordinates = {}) {
   const auto report = as_dict(solution.report, coordinates);
-  return py::make_tuple(as_python(std::move(solution.weights)), report);
+  const auto proof = arrays_of(solution.report.certificate.proof);
+  return py::make_tuple(as_python(std::move(solution.weights)), report, proof);
 }
 
 py::tuple solve(const Doubles& points, const Indices& facets, const Doubles& vertices,

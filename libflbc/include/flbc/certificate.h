@@ -3,16 +3,32 @@
 //! Bounds the distance of weights from the optimum by duality.
 #pragma once
 
+#include <memory>
+
 #include "flbc/lbc_problem.h"
 #include "flbc/sparse_weights.h"
 
 namespace flbc {
 
+//! What others need to check the certificate of weights, next to cage, mesh, and weights: for these
+//! vectors they compute the bound again (scripts/check_certificate.py). Lengths are those of the
+//! mesh.
+struct Proof {
+  //! p / A, without a unit: a row per cell and axis (row s Dim + d), a column per control point.
+  Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> flux;
+  //! Dim x V: y of an interior vertex, for which its linear program is at least
+  //! min_i D p_i(v) - y . (c_i - x_v); zero on the boundary.
+  Eigen::MatrixXd multipliers;
+  WeightFunctions phi;    //!< n x F
+  double smoothness = 0;  //!< epsilon, a length
+};
+
 //! Bound on the optimality gap of weights, by weak duality.
 struct Certificate {
-  double objective = 0;     //!< of the weights after projection onto the feasible set
-  double lower_bound = 0;   //!< on the objective of all feasible, non-negative weights
-  double relative_gap = 0;  //!< (objective - lower_bound) / objective
+  double objective = 0;                  //!< of the weights after projection onto the feasible set
+  double lower_bound = 0;                //!< on the objective of all feasible, non-negative weights
+  double relative_gap = 0;               //!< (objective - lower_bound) / objective
+  std::shared_ptr<const Proof> proof{};  //!< with SolverOptions::certify
 };
 
 //! The Lagrangian dual function, a lower bound on the objective. For every cell field p, the
@@ -45,10 +61,11 @@ double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, D
 //! \param problem  mesh, phi and boundary values
 //! \param flux  p, as for lower_bound()
 //! \param weights  n x V, finite
+//! \param proof  receives flux and multipliers, in the units of the problem
 //! \return objective and bound in the units of phi times the mesh^(Dim - 1), and their relative gap
 //! \throws InputError if sizes do not fit or weights are not finite
 template <class Scalar, int Dim>
 Certificate certify(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,
-                    const WeightMatrix& weights);
+                    const WeightMatrix& weights, Proof* proof = nullptr);
 
 }  // namespace flbc

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.h"
@@ -189,11 +190,10 @@ SparseWeights made_feasible(const LbcProblem<Dim>& problem, const WeightMatrix& 
                               });
 }
 
-}  // namespace
-
+// \param multipliers  receives those of the interior vertices
 template <class Scalar, int Dim>
-double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,
-                   const SparseWeights& weights) {
+double bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,
+             const SparseWeights& weights, PointList<Dim>* multipliers) {
   check_flux(problem, flux);
   check_size(weights, problem.num_control_points(), problem.mesh.num_vertices());
   const AdmissibleFlux<Scalar, Dim> admissible(problem, flux);
@@ -213,6 +213,7 @@ double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, D
           vertex_costs(admissible, v, sums, costs);
           start = weights.at(v);
           block.add(program.lower_bound(problem.mesh.points.col(v), costs, start));
+          if (multipliers != nullptr) multipliers->col(v) = program.multipliers();
         }
         progress.add(end - begin);
         return block;
@@ -225,22 +226,45 @@ double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, D
       return block;
     });
   }
-  const auto bound = static_cast<double>(sum.rounded_down(problem.mesh.num_vertices()) +
+  const auto total = static_cast<double>(sum.rounded_down(problem.mesh.num_vertices()) +
                                          conjugate.rounded_down(problem.mesh.num_cells()));
   // Every objective is at least 0, and a non-finite bound proves nothing more.
-  if (!(bound > 0) || !std::isfinite(bound)) return 0;
-  return std::nextafter(bound, 0);
+  if (!(total > 0) || !std::isfinite(total)) return 0;
+  return std::nextafter(total, 0);
+}
+
+// p / A.
+template <class Scalar, int Dim>
+auto densities(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux) {
+  decltype(Proof::flux) result(problem.mesh.num_cells() * Dim, flux.n);
+  parallel_for(problem.mesh.num_cells(), [&](Index s) {
+    const double measure = cell_geometry(problem.mesh, s).measure;
+    result.template middleRows<Dim>(s * Dim) = (flux.cell(s) / measure).template cast<float>();
+  });
+  return result;
+}
+
+}  // namespace
+
+template <class Scalar, int Dim>
+double lower_bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,
+                   const SparseWeights& weights) {
+  return bound<Scalar, Dim>(problem, flux, weights, nullptr);
 }
 
 template <class Scalar, int Dim>
 Certificate certify(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& flux,
-                    const WeightMatrix& weights) {
+                    const WeightMatrix& weights, Proof* proof) {
   check_flux(problem, flux);
   check_size(weights, problem.num_control_points(), problem.mesh.num_vertices());
   const auto feasible = made_feasible(problem, weights);
   Certificate certificate;
   certificate.objective = flbc::objective(problem, feasible);
-  certificate.lower_bound = lower_bound(problem, flux, feasible);
+  PointList<Dim> multipliers = PointList<Dim>::Zero(Dim, problem.mesh.num_vertices());
+  certificate.lower_bound = bound(problem, flux, feasible, &multipliers);
+  if (proof != nullptr) {
+    *proof = {densities(problem, flux), std::move(multipliers), problem.phi, problem.smoothness};
+  }
   if (certificate.objective > 0) {
     certificate.relative_gap =
         (certificate.objective - certificate.lower_bound) / certificate.objective;
@@ -252,7 +276,7 @@ Certificate certify(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, 
   template double lower_bound(const LbcProblem<Dim>&, const CellFieldView<Scalar, Dim>&,  \
                               const SparseWeights&);                                      \
   template Certificate certify(const LbcProblem<Dim>&, const CellFieldView<Scalar, Dim>&, \
-                               const WeightMatrix&);
+                               const WeightMatrix&, Proof*);
 FLBC_INSTANTIATE(float, 2)
 FLBC_INSTANTIATE(float, 3)
 FLBC_INSTANTIATE(double, 2)

@@ -172,7 +172,7 @@ void VertexLinearProgram<Dim>::factor() {
 // The error of each operation is at most half an epsilon of its result; there are 3 Dim + 1
 // operations.
 template <int Dim>
-double VertexLinearProgram<Dim>::rigorous_bound(const Eigen::VectorXd& costs) const {
+double VertexLinearProgram<Dim>::rigorous_bound(const Eigen::VectorXd& costs) {
   constexpr double kErrorOfSum = (3 * Dim + 4) * std::numeric_limits<double>::epsilon();
   const auto bound_with = [&](const Sums& multipliers) {
     double least = std::numeric_limits<double>::infinity();
@@ -187,8 +187,8 @@ double VertexLinearProgram<Dim>::rigorous_bound(const Eigen::VectorXd& costs) co
     }
     return least;
   };
-  const double bound = bound_with(best_multipliers_);
-  return best_multipliers_.allFinite() ? bound : bound_with(Sums::Zero());
+  if (!best_multipliers_.allFinite()) best_multipliers_.setZero();
+  return bound_with(best_multipliers_);
 }
 
 template class VertexLinearProgram<2>;

@@ -25,6 +25,9 @@ class VertexLinearProgram {
   double lower_bound(const Vector<Dim>& point, const Eigen::VectorXd& costs,
                      const Eigen::VectorXd& start);
 
+  //! y of the last bound.
+  Vector<Dim> multipliers() const { return best_multipliers_.template tail<Dim>() / scale_; }
+
  private:
   static constexpr int kRows = Dim + 1;
   using Sums = Eigen::Matrix<double, kRows, 1>;
@@ -38,7 +41,7 @@ class VertexLinearProgram {
   int choose_leaving(const Sums& column, bool first) const;
   void factor();
   Sums basic_costs(const Eigen::VectorXd& costs) const { return costs(basis_); }
-  double rigorous_bound(const Eigen::VectorXd& costs) const;
+  double rigorous_bound(const Eigen::VectorXd& costs);
 
   const PointList<Dim>& points_;
   double scale_;

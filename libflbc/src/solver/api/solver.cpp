@@ -85,12 +85,16 @@ SparseWeights made_non_negative(const LbcProblem<Dim>& problem, const Weights& w
 
 template <int Dim>
 Certificate certify(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run,
-                    const WeightMatrix& weights) {
-  auto certificate = run.certify(weights);
+                    const WeightMatrix& weights, Proof* proof) {
+  auto certificate = run.certify(weights, proof);
   certificate.objective = unscaled(problem, certificate.objective);
   // Rounding in the division by the power of the scale must not increase the bound.
   constexpr double kRoundings = 4 * std::numeric_limits<double>::epsilon();
   certificate.lower_bound = unscaled(problem, certificate.lower_bound) * (1 - kRoundings);
+  if (proof != nullptr) {
+    proof->multipliers *= std::pow(problem.scale, 2 - Dim);
+    proof->smoothness /= problem.scale;
+  }
   return certificate;
 }
 
@@ -117,7 +121,9 @@ Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weigh
   report.seconds.recover += watch.lap();
   if (settings.certify || report.criterion == Criterion::kGap) {
     const StageScope scope(reporter.stage(Stage::kCertificate));
-    report.certificate = certify(problem, run, solution.weights.dense());
+    const auto proof = settings.certify ? std::make_shared<Proof>() : nullptr;
+    report.certificate = certify(problem, run, solution.weights.dense(), proof.get());
+    report.certificate.proof = proof;
   }
   report.seconds.certify = watch.lap();
   report.objective = unscaled(problem, objective(problem, solution.weights));

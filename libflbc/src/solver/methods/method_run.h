@@ -38,7 +38,9 @@ class MethodRun {
                 WarmStart<Dim> start = {});
 
   //! Certificate of weights (n x V) from the current duals.
-  Certificate certify(const WeightMatrix& weights) const { return iteration_->certify(weights); }
+  Certificate certify(const WeightMatrix& weights, Proof* proof) const {
+    return iteration_->certify(weights, proof);
+  }
 
   //! Whether the next solve resumes an iteration.
   bool has_begun() const { return bool(iteration_); }

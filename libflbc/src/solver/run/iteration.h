@@ -67,8 +67,8 @@ class Iteration {
   //! if not supported.
   virtual Start<Dim> state() const { return {}; }
 
-  //! Certificate of weights (n x V) from the current duals.
-  virtual Certificate certify(const WeightMatrix& weights) const = 0;
+  //! Certificate of weights (n x V) from the current duals. \param proof  receives them, if given
+  virtual Certificate certify(const WeightMatrix& weights, Proof* proof) const = 0;
 
   //! Lets the iteration change its penalty, its precision, or the pairs it works on.
   //! \return iterations to make before the run may end; 0 for none

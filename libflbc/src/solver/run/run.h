@@ -26,7 +26,7 @@ class GapCriterion {
     const bool due = made >= next_;
     if (*settings.gap == 0 || !(due || (last && made >= plan::kFirstCertified))) return false;
     if (due) next_ = static_cast<int>(plan::kCertifiedGrowth * made);
-    const double gap = iteration.certify(iteration.weights().to_dense()).relative_gap;
+    const double gap = iteration.certify(iteration.weights().to_dense(), nullptr).relative_gap;
     const bool waits = settings.gap_settles && error > plan::kSettled;
     return gap <= (waits ? plan::kSmallGap : *settings.gap);
   }

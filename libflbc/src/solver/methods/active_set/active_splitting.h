@@ -29,7 +29,7 @@ class ActiveSplitting final : public splitting::Splitting<Scalar, Dim> {
   Weights weights() const override;
 
   //! None, because duals are known only for active pairs.
-  Certificate certify(const WeightMatrix&) const override { return {}; }
+  Certificate certify(const WeightMatrix&, Proof*) const override { return {}; }
 
   void describe(SolveReport& report) const override;
 

@@ -65,8 +65,8 @@ class GradientIteration final : public Iteration<Dim> {
     Eigen::Map<Eigen::VectorXd>(weights, all.rows()) = all.col(vertex);
   }
 
-  Certificate certify(const WeightMatrix& weights) const override {
-    return flbc::certify(problem_, admm_.flux(), weights);
+  Certificate certify(const WeightMatrix& weights, Proof* proof) const override {
+    return flbc::certify(problem_, admm_.flux(), weights, proof);
   }
 
   void describe(SolveReport& report) const override {

@@ -245,9 +245,10 @@ AlignedArray<Scalar> CompactSplitting<Scalar, Dim>::flux() const {
 }
 
 template <class Scalar, int Dim>
-Certificate CompactSplitting<Scalar, Dim>::certify(const WeightMatrix& weights) const {
+Certificate CompactSplitting<Scalar, Dim>::certify(const WeightMatrix& weights,
+                                                   Proof* proof) const {
   const auto p = flux();
-  return flbc::certify(problem_, CellFieldView<Scalar, Dim>{p.data(), stride_, n_}, weights);
+  return flbc::certify(problem_, CellFieldView<Scalar, Dim>{p.data(), stride_, n_}, weights, proof);
 }
 
 template <class Scalar, int Dim>

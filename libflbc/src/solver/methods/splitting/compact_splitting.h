@@ -72,7 +72,7 @@ class CompactSplitting final : public splitting::Splitting<Scalar, Dim> {
   //! n x V.
   WeightMatrix all_weights() const;
 
-  Certificate certify(const WeightMatrix& weights) const override;
+  Certificate certify(const WeightMatrix& weights, Proof* proof) const override;
 
   //! p = rho m times the new P: the dual of the objective, without smoothness |p_s^i| <= phi A up
   //! to rounding. F x Dim rows of padded(n) numbers.
