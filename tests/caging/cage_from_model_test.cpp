@@ -291,6 +291,34 @@ TEST(CageLimitsTest, VolumesOfModels) {
   EXPECT_EQ(make(without_facet(box, 3), {}).volume_ratio, 0);
 }
 
+// What is between them is not in the cage, so that each bends on its own.
+TEST(CageLimitsTest, LegsOnBothSidesOfTheMirrorPlaneStayApart) {
+  auto model = box_cage<3>(Vector<3>(-0.3, 0.9, -0.15), Vector<3>(0.3, 1.6, 0.15));
+  const auto leg = box_cage<3>(Vector<3>(0.05, 0, -0.08), Vector<3>(0.2, 1, 0.13));
+  auto other = leg;
+  other.points.row(0).array() -= 0.25;
+  model = join(join(model, leg), other);
+  const auto made = make(model, {});
+  EXPECT_EQ(made.symmetry_axis, 0);
+  for (double height = 0.1; height < 0.75; height += 0.1) {
+    EXPECT_NEAR(winding_number<3>(made.cage, Vector<3>(0, height, 0)), 0, 1e-6) << height;
+    EXPECT_NEAR(winding_number<3>(made.cage, Vector<3>(0.12, height, 0)), 1, 1e-6) << height;
+  }
+}
+
+// A detail of one side, such as a buckle, is in the cage of both sides.
+TEST(CageLimitsTest, DetailsOfOneSideDoNotHideASymmetry) {
+  auto model = box_cage<3>(1);
+  for (const int corner : {0, 1}) model.points.col(corner).tail<2>().array() -= 2;
+  model = subdivided(model, 3);
+  const auto detail = box_cage<3>(Vector<3>(0.3, 0.2, 0.9), Vector<3>(0.6, 0.5, 1.3));
+  const auto made = make(join(model, detail), {});
+  EXPECT_EQ(made.symmetry_axis, 0);
+  for (const double side : {-1, 1}) {
+    EXPECT_NEAR(winding_number<3>(made.cage, Vector<3>(side * 0.45, 0.35, 1.2)), 1, 1e-6);
+  }
+}
+
 // A box that is wider at one side, in which another one is not centered along x.
 TEST(CageLimitsTest, ModelsThatMirrorWithinAPercentGetSymmetricCages) {
   for (const double deviation : {0.008, 0.02}) {

@@ -33,18 +33,21 @@ namespace {
 // Maximum distance of a mirror image from the model, relative to model size.
 constexpr double kSymmetryTolerance = 0.01;
 
-// The maximum distance of mirrored vertices from the model.
+// The maximum distance of mirrored vertices from the model, except for those of small details.
 template <int Dim>
 double asymmetry(const Enclosure<Dim>& model, const PointList<Dim>& points,
                  const MirrorPlane& plane, double limit) {
   constexpr Index kMostVertices = 4000;
   const Index step = std::max<Index>(1, static_cast<Index>(points.cols()) / kMostVertices);
-  double largest = 0;
-  for (Index v = 0; v < points.cols() && largest < limit; v += step) {
+  constexpr double kDetails = 0.03;
+  std::vector<double> distances;
+  for (Index v = 0; v < points.cols(); v += step) {
     const Vector<Dim> image = plane.mirrored(Vector<Dim>(points.col(v)));
-    largest = std::max(largest, model.distance(image, limit));
+    distances.push_back(model.distance(image, limit));
   }
-  return largest;
+  const auto most = distances.begin() + static_cast<Index>((1 - kDetails) * distances.size());
+  std::nth_element(distances.begin(), most, distances.end());
+  return *most;
 }
 
 // The requested plane through the center of the model. For kAuto, the plane of best symmetry if the
@@ -169,7 +172,7 @@ class Caging {
       is_closed_ = is_closed(points, facets);
     }
     // Adding the mirror image makes the model symmetric.
-    if (plane_.is_there()) model = with_mirror_image(model, plane_);
+    if (plane_.is_there()) model = whole_ = with_mirror_image(model, plane_);
     model_.emplace(model.points, model.facets);
   }
 
@@ -206,9 +209,12 @@ class Caging {
   // Closed, or its half; no facets if wrapping failed.
   Cage<Dim> wrap_of(const WrapSize& size) const {
     report(CagingStage::kWrap);
-    const Cage<Dim> surface = wrap(*model_, size);
-    if (surface.facets.cols() == 0 || !plane_.is_there()) return surface;
-    return cut_half(surface, plane_, 1e-2 * size.offset);
+    if (!plane_.is_there()) return wrap(*model_, size);
+    const Parting parting{plane_, 2 * size.alpha, 1e-2 * size.offset, 0.3 * size.offset};
+    const auto apart = parting.part(whole_);
+    const Cage<Dim> surface = wrap(Enclosure<Dim>(apart.points, apart.facets), size);
+    if (surface.facets.cols() == 0) return surface;
+    return parting.joined_half(surface);
   }
 
   std::optional<ModelCage<Dim>> make_in_limits(const CageLimits& limits) const {
@@ -322,6 +328,7 @@ class Caging {
   double size_;
   CageLimits limits_{kMaxCageValence, kMaxCageDistance* size_};
   MirrorPlane plane_{};
+  Cage<Dim> whole_{};  // the model with its mirror image, if there is a plane
   double volume_ = 0;  // of the model, in 3D; an estimate if it is open
   bool is_closed_ = false;
   std::optional<Enclosure<Dim>> model_{};

@@ -15,7 +15,7 @@ namespace flbc {
 
 namespace {
 
-// Facets on one side of the plane, with a new point where an edge crosses it.
+// Facets on one side of the plane or on both, with a new point where an edge crosses it.
 template <int Dim>
 class Cut {
  public:
@@ -23,12 +23,27 @@ class Cut {
       : surface_(surface), plane_(plane), points_(surface.points) {}
 
   Cage<Dim> half() {
-    for (Index f = 0; f < surface_.facets.cols(); ++f) cut_facet(surface_.facets.col(f));
+    cut_facets();
     return compact<Dim>(points_, facets_);
   }
 
+  Cage<Dim> both() {
+    cut_facets();
+    keeps_larger_ = false;
+    cut_facets();
+    FacetList<Dim> facets(Dim, facets_.size());
+    for (std::size_t f = 0; f < facets_.size(); ++f) facets.col(static_cast<Index>(f)) = facets_[f];
+    return {points_, facets};
+  }
+
  private:
-  bool is_kept(Index vertex) const { return points_(plane_.axis, vertex) > plane_.position; }
+  void cut_facets() {
+    for (Index f = 0; f < surface_.facets.cols(); ++f) cut_facet(surface_.facets.col(f));
+  }
+
+  bool is_kept(Index vertex) const {
+    return (points_(plane_.axis, vertex) > plane_.position) == keeps_larger_;
+  }
 
   // The crossing of the edge between two vertices on different sides.
   Index crossing(Index a, Index b) {
@@ -63,7 +78,8 @@ class Cut {
   }
 
   const Cage<Dim>& surface_;
-  const MirrorPlane& plane_;
+  const MirrorPlane plane_;
+  bool keeps_larger_ = true;
   PointList<Dim> points_;
   std::vector<FacetCorners<Dim>> facets_;
   std::map<std::pair<Index, Index>, Index> crossings_;
@@ -97,6 +113,42 @@ Cage<Dim> cut_half(const Cage<Dim>& surface, const MirrorPlane& plane, double ne
   return Cut<Dim>(moved, plane).half();
 }
 
+// Facets are cut where the stretched part ends, because they would have to bend there.
+template <int Dim>
+Cage<Dim> Parting::part(const Cage<Dim>& shape) const {
+  Cage<Dim> parted = shape;
+  for (const double end : {-nearest, nearest}) {
+    parted = Cut<Dim>(parted, {plane.axis, plane.position + end}).both();
+  }
+  for (double& x : parted.points.row(plane.axis)) {
+    const double distance = x - plane.position;
+    const double stretch = std::min(1.0, std::abs(distance) / nearest);
+    x += std::copysign(stretch * width, distance);
+  }
+  return parted;
+}
+
+template <int Dim>
+Cage<Dim> Parting::joined_half(const Cage<Dim>& surface) const {
+  const MirrorPlane end{plane.axis, plane.position + nearest + width};
+  PointList<Dim> normals = PointList<Dim>::Zero(Dim, surface.size());
+  for (const auto& facet : surface.facets.colwise()) {
+    const Eigen::Matrix<double, Dim, Dim> corners = surface.points(Eigen::all, facet);
+    for (const Index v : facet) normals.col(v) += facet_normal<Dim>(corners);
+  }
+  Cage<Dim> lifted = surface;
+  for (Index v = 0; v < surface.size(); ++v) {
+    double& x = lifted.points(plane.axis, v);
+    const bool faces_plane = normals(plane.axis, v) < -0.5 * normals.col(v).norm();
+    if (faces_plane && x > end.position - overlap) x = std::max(x, end.position + nearest);
+  }
+  Cage<Dim> half = cut_half(lifted, end, nearest);
+  for (double& x : half.points.row(plane.axis)) {
+    x = x == end.position ? plane.position : x - (end.position - plane.position);
+  }
+  return half;
+}
+
 template <int Dim>
 Cage<Dim> join_halves(const Cage<Dim>& half, const MirrorPlane& plane) {
   const Cage<Dim> both = with_mirror_image(half, plane);
@@ -112,6 +164,10 @@ Cage<Dim> join_halves(const Cage<Dim>& half, const MirrorPlane& plane) {
   return compact<Dim>(both.points, facets);
 }
 
+template Cage<2> Parting::part(const Cage<2>&) const;
+template Cage<3> Parting::part(const Cage<3>&) const;
+template Cage<2> Parting::joined_half(const Cage<2>&) const;
+template Cage<3> Parting::joined_half(const Cage<3>&) const;
 FLBC_INSTANTIATE_FUNCTION(with_mirror_image)
 FLBC_INSTANTIATE_FUNCTION(cut_half)
 FLBC_INSTANTIATE_FUNCTION(join_halves)

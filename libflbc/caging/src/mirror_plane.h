@@ -29,6 +29,21 @@ struct MirrorPlane {
 template <int Dim>
 Cage<Dim> with_mirror_image(const Cage<Dim>& shape, const MirrorPlane& plane);
 
+//! A model with both halves moved apart, so that a wrap does not join what is on both sides of the
+//! plane, such as legs. What crosses the plane is stretched.
+struct Parting {
+  MirrorPlane plane;
+  double width;    //!< by which each side moves
+  double nearest;  //!< minimum distance of vertices from the plane unless they are in it
+  double overlap;  //!< parts of a wrap are joined if they cross the plane by more than this
+
+  template <int Dim>
+  Cage<Dim> part(const Cage<Dim>& shape) const;
+  //! The half of a closed surface around the parted shape, moved back to the plane.
+  template <int Dim>
+  Cage<Dim> joined_half(const Cage<Dim>& surface) const;
+};
+
 //! The half of a closed surface with larger coordinates; its border is in the plane. \param nearest
 //! minimum distance of vertices from the plane unless they are in it
 template <int Dim>
