@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "files/up_axis.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <Eigen/Geometry>
 
 #include "flbc/errors.h"
@@ -36,6 +39,25 @@ int up_axis(UpAxis up, const PointList<3>& points) {
 int up_axis(UpAxis up, const PointList<2>&) {
   if (up != UpAxis::kAuto && up != UpAxis::kY) throw OptionError("--up is for models in 3D");
   return 1;
+}
+
+double front_azimuth(int up, const PointList<3>& points) {
+  constexpr double kFeet = 0.04, kAnkles = 0.1, kShins = 0.15, kLeastStep = 0.02;
+  if (!stands(points, up)) return 0;
+  const PointList<3> upright = turn_upright(up) * points;
+  const double low = upright.row(1).minCoeff(), height = upright.row(1).maxCoeff() - low;
+  Eigen::AlignedBox3d feet, ankles;
+  for (const auto& point : upright.colwise()) {
+    const double level = (point.y() - low) / height;
+    if (level <= kFeet) feet.extend(Vector<3>(point));
+    if (level >= kAnkles && level <= kShins) ankles.extend(Vector<3>(point));
+  }
+  if (ankles.isEmpty()) return 0;
+  const Vector<3> step = (feet.center() - ankles.center()) / height;
+  const double x = step.x(), z = step.z();
+  if (std::max(std::abs(x), std::abs(z)) < kLeastStep) return 0;
+  if (std::abs(x) > std::abs(z)) return x > 0 ? 90 : -90;
+  return z > 0 ? 0 : 180;
 }
 
 Eigen::Matrix3d turn_upright(int axis) {

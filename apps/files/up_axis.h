@@ -19,6 +19,11 @@ int up_axis(UpAxis up, const PointList<3>& points);
 //! In the plane y points up. \throws OptionError if another axis is requested
 int up_axis(UpAxis up, const PointList<2>& points);
 
+//! The azimuth in degrees from which a standing model is seen from the front, 0, 90, 180, or -90:
+//! that to which its feet point from the ankles. 0 if it does not stand, or its feet point nowhere.
+//! \param up  axis, 0 to 2 \param points  3 x P
+double front_azimuth(int up, const PointList<3>& points);
+
 //! The rotation that takes an axis to y, by 90 degrees or not at all.
 Eigen::Matrix3d turn_upright(int axis);
 

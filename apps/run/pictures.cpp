@@ -64,7 +64,9 @@ std::string function_image(const Run<3>& run, Index control_point) {
 }
 
 draw::ObliqueView usual_view(const Run<3>& run) {
-  return draw::before_turn(draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation),
+  const auto& points = run.shape().points;
+  const double front = front_azimuth(up_axis(run.arguments.up, points), points);
+  return draw::before_turn(draw::view_by_angles(front + draw::kUsualAzimuth, draw::kUsualElevation),
                            upright_turn(run));
 }
 

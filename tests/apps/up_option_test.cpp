@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "files/up_axis.h"
 #include "support/command_line.h"
 #include "support/glb_file.h"
 
@@ -48,6 +49,30 @@ class UpOption : public CommandLineTest {
            " --weights " + weights + " --cage " + tetrahedron(vertices(cage, axis));
   }
 };
+
+// Feet, ankles, and a head, as points, in all positions.
+TEST_F(UpOption, FeetPointToTheFront) {
+  const auto figure = [](double toes) {
+    PointList<3> points(3, 10);
+    points << -0.2, 0.2, -0.2, 0.2, -0.2, 0.2, -0.2, 0.2, -0.2, 0.2,  //
+        0, 0, 0, 0, 0.12, 0.12, 0.12, 0.12, 1, 1,                     //
+        -0.05, -0.05, toes, toes, -0.05, -0.05, 0.05, 0.05, 0, 0;
+    return points;
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int quarter : {-1, 0, 1, 2}) {
+      const Eigen::AngleAxisd around(quarter * M_PI / 2, Vector<3>::UnitY());
+      const PointList<3> points = from_y(axis) * around.toRotationMatrix() * figure(0.2);
+      EXPECT_EQ(app::front_azimuth(axis, points), 90 * quarter) << axis;
+    }
+    EXPECT_EQ(app::front_azimuth(axis, from_y(axis) * figure(0.05)), 0);
+  }
+  PointList<3> lying = figure(-0.2);
+  lying.row(1).tail(2).setConstant(0.12);
+  lying.row(0) *= 0.01;
+  lying(0, 8) = 3;
+  EXPECT_EQ(app::front_azimuth(1, lying), 0);
+}
 
 TEST_F(UpOption, PicturesShowTheModelUpright) {
   const auto picture = [&](int axis, const std::string& up) {
