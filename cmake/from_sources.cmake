@@ -65,6 +65,8 @@ target_compile_definitions(png PRIVATE PNG_ARM_NEON_OPT=0)
 file(GLOB_RECURSE sources ${from}/openmesh/src/OpenMesh/Core/*.cc)
 flbc_compile_library(OpenMeshCore OpenMesh::Core ${from}/openmesh/src ${sources})
 target_compile_definitions(OpenMeshCore PUBLIC _USE_MATH_DEFINES NOMINMAX)
+file(WRITE ${modules}/OpenMeshConfig.cmake "")
+set(OpenMesh_DIR ${modules} CACHE PATH "")
 
 set(from ${from}/googletest)
 flbc_compile_library(gtest_main GTest::gtest_main

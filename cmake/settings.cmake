@@ -31,6 +31,11 @@ if(FLBC_WITH_TETGEN)
   set(FLBC_LICENSE "AGPL-3.0-or-later, because of TetGen")
 endif()
 set(CMAKE_CXX_EXTENSIONS OFF)
+# Outside of kernels a * b + c is rounded twice, so that a formula gives the same result wherever it
+# is inlined. Without -mfma, x86-64 knows nothing else.
+if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  add_compile_options(-ffp-contract=off)
+endif()
 include(${CMAKE_CURRENT_LIST_DIR}/warnings.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/unity.cmake)
 

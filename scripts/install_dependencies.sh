@@ -41,7 +41,7 @@ for package in "$@"; do
       ;;
     aarch64)
       packages+=(g++-aarch64-linux-gnu qemu-user libboost-dev googletest)
-      needs_sources tetgen pugixml zlib libpng1.6
+      needs_sources tetgen pugixml zlib libpng1.6 openmesh
       ;;
     *) packages+=("$package") ;;
   esac

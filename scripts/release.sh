@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Makes everything that a release has in dist/, and tries each piece where nothing else is:
 #   scripts/release.sh [PIECE...]
-# Pieces: source, packages, wheel, addon, windows, web; without an argument all, which takes TIME on
-# two cores. All are built from the source archive. Needs Debian 12, and root for the clean
+# Pieces: source, packages, wheel, addon, windows, web; without an argument all. They are built from
+# the source archive of the last commit. Needs Debian 12, and root for the clean
 # installation in which the packages are tried. Nothing is published.
 #
 # The version is that of cmake/version.cmake; the changelog must have a section for it, and the tag
