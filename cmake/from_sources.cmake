@@ -64,7 +64,7 @@ target_compile_definitions(png PRIVATE PNG_ARM_NEON_OPT=0)
 
 file(GLOB_RECURSE sources ${from}/openmesh/src/OpenMesh/Core/*.cc)
 flbc_compile_library(OpenMeshCore OpenMesh::Core ${from}/openmesh/src ${sources})
-target_compile_definitions(OpenMeshCore PUBLIC _USE_MATH_DEFINES NOMINMAX)
+target_compile_definitions(OpenMeshCore PUBLIC OM_STATIC_BUILD _USE_MATH_DEFINES PRIVATE NOMINMAX)
 file(WRITE ${modules}/OpenMeshConfig.cmake "")
 set(OpenMesh_DIR ${modules} CACHE PATH "")
 

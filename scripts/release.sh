@@ -2,8 +2,8 @@
 # Makes everything that a release has in dist/, and tries each piece where nothing else is:
 #   scripts/release.sh [PIECE...]
 # Pieces: source, packages, wheel, addon, windows, web; without an argument all. They are built from
-# the source archive of the last commit. Needs Debian 12, and root for the clean
-# installation in which the packages are tried. Nothing is published.
+# the source archive of the last commit. Needs Debian 12, and root for the clean installation in
+# which the packages are tried. Nothing is published.
 #
 # The version is that of cmake/version.cmake; the changelog must have a section for it, and the tag
 # of the commit must be v and the version. Otherwise the script says that this is a preview.
