@@ -125,7 +125,11 @@ export function makeCommands(viewer) {
     savePicture: () => savePicture(viewer),
     copyCommand: () => copyCommand(viewer),
     theme: () => setTheme(viewer, viewer.theme === "light" ? "dark" : "light"),
-    help: () => (help.open ? help.close() : help.showModal()),
+    help: () => {
+      if (help.open) return help.close();
+      help.showModal();
+      help.scrollTop = 0;  // the focus is on the button below
+    },
     closeHelp: () => help.close(),
     picture: () => element("file").click(),
     fold: () => document.body.classList.toggle("folded"),
