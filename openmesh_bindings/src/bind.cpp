@@ -68,9 +68,11 @@ template <int Dim>
 SparseWeights reduce_inside(const BindInput<Dim>& input, const DomainMesh<Dim>& domain,
                             const SparseWeights& weights, const Evaluation<Dim>& evaluation,
                             const BindOptions& options) {
+  SparsifyOptions few{options.max_influences};
+  if (options.observer.poll) few.progress = [&](double) { options.observer.poll(); };
   const auto reduced = [&](const Evaluation<Dim>& all) {
-    return reduce<Dim>(input.cage.points, all.points, input.edges, all.weights,
-                       options.max_influences, options.reduction, 0);
+    return reduce<Dim>(input.cage.points, all.points, input.edges, all.weights, options.reduction,
+                       few);
   };
   if (options.outside != OutsidePoints::kExtend || evaluation.outside.empty())
     return reduced(evaluation);

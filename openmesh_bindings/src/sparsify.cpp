@@ -5,11 +5,8 @@ namespace flbc::openmesh::internal {
 
 template <int Dim>
 SparseWeights reduce(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                     const EdgeList& edges, const SparseWeights& weights, Index most,
-                     Reduction reduction, double threshold) {
-  SparsifyOptions options;
-  options.max_influences = most;
-  options.threshold = threshold;
+                     const EdgeList& edges, const SparseWeights& weights, Reduction reduction,
+                     const SparsifyOptions& options) {
   if (reduction == Reduction::kQuadratic) {
     return flbc::sparsify<Dim>(control_points, points, weights, options);
   }
@@ -23,8 +20,8 @@ void require_rest_cage(const Eigen::MatrixXd& cage, const std::string& weights) 
 }
 
 template SparseWeights reduce(const PointList<2>&, const PointList<2>&, const EdgeList&,
-                              const SparseWeights&, Index, Reduction, double);
+                              const SparseWeights&, Reduction, const SparsifyOptions&);
 template SparseWeights reduce(const PointList<3>&, const PointList<3>&, const EdgeList&,
-                              const SparseWeights&, Index, Reduction, double);
+                              const SparseWeights&, Reduction, const SparsifyOptions&);
 
 }  // namespace flbc::openmesh::internal

@@ -136,6 +136,9 @@ py::tuple as_python(DomainMesh<Dim> mesh) {
 //! that do not exist.
 void use_threads_of_this_process();
 
+//! Throws if Ctrl-C was pressed; for work that runs without the GIL, which may call it very often.
+std::function<void()> interruption();
+
 //! Does work while other Python threads run.
 template <class Work>
 auto without_gil(const Work& work) {

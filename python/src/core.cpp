@@ -274,6 +274,7 @@ py::object sparsify(const Doubles& control_points, const Doubles& points, const 
   SparsifyOptions options;
   options.max_influences = max_influences;
   options.threshold = threshold;
+  options.progress = [poll = interruption()](double) { poll(); };
   const auto given = weights_of(weights);
   return by_dimension(control_points, [&](auto dim) {
     constexpr int kDim = decltype(dim)::value;

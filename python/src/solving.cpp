@@ -122,16 +122,8 @@ py::tuple mesh(const Doubles& points, const Indices& facets, Index vertices,
 // The observer of a solve that runs without the GIL.
 // \param callback  a Python function or None; outlives the solve
 Observer observer_of(const py::object& callback) {
-  using Clock = std::chrono::steady_clock;
   Observer observer;
-  // Waiting for the GIL takes up to 5 ms while other Python threads compute.
-  observer.poll = [last = Clock::now()]() mutable {
-    constexpr std::chrono::milliseconds kInterval(100);
-    const auto now = Clock::now();
-    if (now - last < kInterval) return;
-    last = now;
-    throw_if_interrupted();
-  };
+  observer.poll = interruption();
   if (callback.is_none()) return observer;
   observer.progress = [handle = py::handle(callback)](const Progress& progress) {
     const py::gil_scoped_acquire gil;
@@ -293,6 +285,18 @@ class AnySolver {
 };
 
 }  // namespace
+
+std::function<void()> interruption() {
+  using Clock = std::chrono::steady_clock;
+  // Waiting for the GIL takes up to 5 ms while other Python threads compute.
+  return [last = Clock::now()]() mutable {
+    constexpr std::chrono::milliseconds kInterval(100);
+    const auto now = Clock::now();
+    if (now - last < kInterval) return;
+    last = now;
+    throw_if_interrupted();
+  };
+}
 
 void use_threads_of_this_process() {
   // Also in CHOLMOD, which has its own number of threads.

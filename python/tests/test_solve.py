@@ -159,8 +159,23 @@ flbc.solve(cage, mesh, tolerance=1e-30, gap=0, max_iterations=10**6, coarse_to_f
 """
 
 
-def test_ctrl_c_stops_a_solve():
-    code = SLOW.format(cage=str(MESHES / "3d/limb_cage.obj"))
+REDUCTION = """
+import flbc, numpy
+cage = flbc.read_cage({cage!r})
+points, faces = flbc.read_model({model!r})
+count = 400
+many = numpy.concatenate([points] * count)
+polygons = numpy.concatenate([faces + k * len(points) for k in range(count)])
+weights = flbc.mean_value(cage, points)
+print("ready", flush=True)
+flbc.sparsify(numpy.concatenate([weights] * count), cage, many, 6, faces=polygons)
+"""
+
+
+@pytest.mark.parametrize("code", [SLOW, REDUCTION], ids=["solve", "reduction"])
+def test_ctrl_c_stops_work(code):
+    code = code.format(cage=str(MESHES / "3d/limb_cage.obj"),
+                       model=str(MESHES / "3d/limb_model.obj"))
     process = subprocess.Popen(
         [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )

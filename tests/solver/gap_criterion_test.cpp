@@ -100,7 +100,7 @@ struct Certified : Iteration<2> {
   Step iterate(int, int, bool) override { return {}; }
   Weights weights() const override { return {WeightMatrix::Zero(3, 1), {}}; }
   void read_weights(Index, double*) const override {}
-  Certificate certify(const WeightMatrix&) const override { return {1, 1 - gap, gap}; }
+  Certificate certify(const WeightMatrix&, Proof*) const override { return {1, 1 - gap, gap, {}}; }
   void describe(SolveReport&) const override {}
 };
 

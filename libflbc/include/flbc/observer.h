@@ -31,11 +31,11 @@ struct Observer {
   //! exception leaves the solve.
   std::function<bool(const Progress&)> progress{};
 
-  //! Called before every iteration of Method::kValue, and at least every ten iterations of other
-  //! methods. Throw to cancel the solve without a result.
+  //! Called before every iteration of Method::kValue, at least every ten iterations of other
+  //! methods, and very often during stages. Throw to cancel the solve without a result.
   std::function<void()> poll{};
 
-  //! Called repeatedly during a stage with its progress in [0, 1]. Must not throw.
+  //! Called repeatedly during a stage with its progress in [0, 1]. May throw, as poll().
   std::function<void(Stage stage, double done)> stage{};
 };
 

@@ -20,7 +20,8 @@ struct SparsifyOptions {
   //! Threshold in [0, 1). Smaller weights are dropped first, if the rest can still reproduce the
   //! point. The adjusted remaining weights may end up below the threshold.
   double threshold = 0;
-  //! Called on the calling thread with the progress in [0, 1]; must not throw.
+  //! Called on the calling thread with the progress in [0, 1]. What it throws leaves the
+  //! reduction.
   std::function<void(double done)> progress{};
 };
 

@@ -5,6 +5,7 @@
 #include <omp.h>
 
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <utility>
 
@@ -12,7 +13,7 @@
 
 namespace flbc {
 
-//! Receives the progress of a stage in [0, 1]; may be empty.
+//! Receives the progress of a stage in [0, 1]; may be empty. What it throws leaves the stage.
 using StageCallback = std::function<void(double done)>;
 
 //! During its lifetime, loops on this thread report progress to `callback`; afterwards, the
@@ -53,8 +54,9 @@ class LoopProgress {
  public:
   //! \param rounds  number of loop iterations, > 0
   explicit LoopProgress(Index rounds) : callback_(StageScope::present()), rounds_(rounds) {}
-  ~LoopProgress() {
-    if (callback_ && *callback_) (*callback_)(1);  // other threads may have finished the loop
+  // Other threads may have finished the loop. A loop that ends by an exception is not done.
+  ~LoopProgress() noexcept(false) {
+    if (callback_ && *callback_ && std::uncaught_exceptions() == exceptions_) (*callback_)(1);
   }
   LoopProgress(const LoopProgress&) = delete;
   LoopProgress& operator=(const LoopProgress&) = delete;
@@ -69,6 +71,7 @@ class LoopProgress {
  private:
   const StageCallback* callback_;
   Index rounds_;
+  int exceptions_ = std::uncaught_exceptions();
   std::atomic<Index> done_{0};
 };
 

@@ -57,9 +57,11 @@ class Reporter {
 
   //! The callback of a stage, for its loops (StageScope).
   StageCallback stage(Stage stage) const {
-    if (!observer_.stage) return {};
+    if (!observer_.stage && !observer_.poll) return {};
     return [stage, reporter = *this](double done) {
-      reporter.observer_.stage(stage, reporter.before_ + reporter.share_ * done);
+      reporter.poll();
+      const double all = reporter.before_ + reporter.share_ * done;
+      if (reporter.observer_.stage) reporter.observer_.stage(stage, all);
     };
   }
 

@@ -42,7 +42,9 @@ struct BindOptions {
 
   //! Method, tolerance, threads. If the smoothness is not set, it is kDeformationSmoothness.
   SolverOptions solver{};
-  Observer observer{};  //!< of the solve; what it throws leaves bind(), and the model is unchanged
+  //! Of the solve; poll() also during the reduction. What it throws leaves bind(), and the model is
+  //! unchanged.
+  Observer observer{};
   Index max_influences = 8;                      //!< per vertex; 0 = keep all weights
   Reduction reduction = Reduction::kPoisson;     //!< how influences are reduced
   OutsidePoints outside = OutsidePoints::kFail;  //!< vertices outside the cage

@@ -32,11 +32,10 @@ struct ReductionOptions {
 
 namespace internal {
 
-//! \param most  maximum influences per point
 template <int Dim>
 SparseWeights reduce(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                     const EdgeList& edges, const SparseWeights& weights, Index most,
-                     Reduction reduction, double threshold);
+                     const EdgeList& edges, const SparseWeights& weights, Reduction reduction,
+                     const SparsifyOptions& options);
 
 void require_rest_cage(const Eigen::MatrixXd& cage, const std::string& weights);
 
@@ -56,8 +55,8 @@ Quality sparsify(Mesh& mesh, const PointList<Dim>& cage, Index most,
   const PointList<Dim> rest = cage * weights;
   // Edge lengths are those of the rest mesh.
   const auto edges = internal::edge_list_at<Dim>(mesh, rest);
-  const auto reduced = internal::reduce(cage, rest, edges, SparseWeights(weights), most,
-                                        options.reduction, options.threshold);
+  const auto reduced = internal::reduce(cage, rest, edges, SparseWeights(weights),
+                                        options.reduction, {most, options.threshold});
   const std::string& into = options.into.empty() ? options.weights : options.into;
   const auto offset = internal::offsets_of(mesh, options.weights);
   set_influences(mesh, reduced, static_cast<std::size_t>(std::min<Eigen::Index>(most, cage.cols())),
