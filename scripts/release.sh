@@ -90,10 +90,11 @@ assert flbc.solve(cage, flbc.mesh(cage, vertices=1000)).converged"
   fi
 fi
 
-# make_addon SYSTEM: zips the add-on with the program in its folder bin.
+# make_addon SYSTEM BUILD: zips the add-on with the program in its folder bin.
 make_addon() {
+  cmake --build "$2" --target blender_addon
   fresh
-  cmake -E tar xf "$work/$name/build/package/blender/local_barycentric_cage.zip"
+  cmake -E tar xf "$2/blender/local_barycentric_cage.zip"
   cp -r "$work/bin-$1" local_barycentric_cage/bin
   cmake -E tar cf "$dist/local_barycentric_cage-$version-$1.zip" --format=zip local_barycentric_cage
 }
@@ -103,7 +104,7 @@ if wants addon; then
   mkdir "$work/bin-linux"
   cp "$work/installed/bin/flbc" "$work/bin-linux"
   bundle "$work/bin-linux/lib" "$work/bin-linux/flbc"
-  make_addon linux
+  make_addon linux "$build"
   fresh
   cmake -E tar xf "$dist/local_barycentric_cage-$version-linux.zip"
   try_program env -i ./local_barycentric_cage/bin/flbc
@@ -123,6 +124,7 @@ if wants windows; then
   fresh
   cmake -E tar xf "$dist/flbc-$version-windows.zip"
   try_program /usr/lib/wine/wine64 flbc/flbc.exe
+  make_addon windows "$work/$name/build/windows"
 fi
 
 if wants web; then
