@@ -30,6 +30,20 @@ function linesOf(bytes, word) {
     .map((line) => line.split(/\s+/).slice(1).map(Number));
 }
 
+// Rounding differs between processors, and may change the order of control points.
+function expectSameCage(own, native) {
+  const [points, others] = [own, native].map((file) => linesOf(file, "v"));
+  const numbers = points.map((point) => 1 + others.findIndex((other) => largestDifference(point, other) < 1e-12));
+  assert.equal(new Set(numbers).size, others.length);
+  assert.ok(!numbers.includes(0), "a control point is elsewhere");
+  const inOrder = (facets) => facets.map((facet) => {
+    const first = facet.indexOf(Math.min(...facet));
+    return [...facet.slice(first), ...facet.slice(0, first)].join(" ");
+  }).sort();
+  const named = ["f", "l"].map((word) => linesOf(own, word).map((facet) => facet.map((i) => numbers[i - 1])));
+  assert.deepEqual(inOrder(named.flat()), inOrder(["f", "l"].flatMap((word) => linesOf(native, word))));
+}
+
 const kSame = ["--distances", "exact", "--precision", "single", "--smoothness", "0.003"];
 
 for (const [name, dim] of [["2d/figure_model.obj", 2], ["3d/limb_model.obj", 3]]) {
@@ -43,8 +57,7 @@ for (const [name, dim] of [["2d/figure_model.obj", 2], ["3d/limb_model.obj", 3]]
   put("cage.obj", await flbc.cageFile());
   run("cage", "model.obj", "--control-points", "40", "-o", "native.obj");
   const [own, native] = ["cage.obj", "native.obj"].map((file) => readFileSync(join(work, file)));
-  assert.deepEqual(linesOf(own, "f"), linesOf(native, "f"));
-  assert.ok(largestDifference(linesOf(own, "v").flat(), linesOf(native, "v").flat()) < 1e-12);
+  expectSameCage(own, native);
   assert.equal(linesOf(own, "v").length, made.controlPoints);
 
   const domain = dim === 2 ? "domain.obj" : "domain.mesh";
