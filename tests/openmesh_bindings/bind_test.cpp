@@ -197,6 +197,15 @@ TEST(BindCage, DoubledVerticesOfACageAreNamed) {
   expect_refused<Error>("OpenMesh doubles vertices", [&] { openmesh::bind(model, cage); });
 }
 
+TEST(BindCage, CrossingFacetsAreNamed) {
+  if (!openmesh::internal::kLinksCgal) GTEST_SKIP() << "without CGAL";
+  OpenMesh::TriMesh_ArrayKernelT<> model;
+  model.add_vertex({0, 1.7F, 0});  // in one of the boxes
+  const Cage<3> cage = join(box_cage<3>(Vector<3>(-1, -2, -1), Vector<3>(1, 2, 1)),
+                            box_cage<3>(Vector<3>(-2, -1, -2), Vector<3>(2, 1, 2)));
+  expect_refused<InputError>("facets ", [&] { openmesh::bind(model, cage); });
+}
+
 // The vertex at `index` is put before the middle of a facet, at a tenth of the cage's size.
 template <int Dim, class Mesh>
 Vector<Dim> put_outside(Mesh& model, const Cage<Dim>& cage, int index, Index facet) {

@@ -6,11 +6,8 @@
 #include <functional>
 
 #include "flbc/coarse_to_fine.h"
+#include "flbc/errors.h"
 #include "flbc/meshing.h"
-#ifdef FLBC_LINKS_TETGEN
-#endif
-#ifdef FLBC_LINKS_CGAL
-#endif
 
 namespace flbc::openmesh {
 
@@ -39,16 +36,25 @@ constexpr bool kLinksMesher = Dim == 2 ? kLinksCgal : kLinksTetgen;
 template <int Dim>
 CoarseMesher<Dim> coarse_mesher(Mesher<Dim> mesher);
 
-//! The linked mesher; empty if no component is linked.
-//! \tparam kLinked  whether a mesher is linked; distinguishes parts of a program with different
-//! components
-template <int Dim, bool kLinked = kLinksMesher<Dim>>
+//! The linked mesher; empty if no component is linked. With CGAL, facets that cross are named, of
+//! which TetGen only says that they are there, or crashes.
+//! \tparam kLinked, kNames  whether the mesher and CGAL are linked; they distinguish parts of a
+//! program with different components
+template <int Dim, bool kLinked = kLinksMesher<Dim>, bool kNames = kLinksCgal>
 Mesher<Dim> linked_mesher() {
 #ifdef FLBC_LINKS_CGAL
   if constexpr (Dim == 2 && kLinked) return triangulate;
 #endif
 #ifdef FLBC_LINKS_TETGEN
-  if constexpr (Dim == 3 && kLinked) return tetrahedralize;
+  if constexpr (Dim == 3 && kLinked) {
+    return [](const Cage<3>& cage, const MeshingOptions<3>& options) {
+#ifdef FLBC_LINKS_CGAL
+      if (const auto defects = find_self_intersections(cage, 1); !defects.empty())
+        throw InputError(defects.front().message);
+#endif
+      return tetrahedralize(cage, options);
+    };
+  }
 #endif
   return {};
 }
