@@ -68,6 +68,7 @@ file(GLOB openmesh openmesh_bindings/include/flbc/openmesh/*.h)
 flbc_list_exports(4flbc "${core}")
 flbc_list_exports(4flbc2io "${io}")
 flbc_list_exports(4flbc8openmesh "${openmesh}")
+flbc_list_exports(4flbc8openmesh8internal "${openmesh}")  # what templates in headers call
 file(CONFIGURE OUTPUT exports.map CONTENT "{\n  global:\n@exports@  local: *;\n};\n" @ONLY)
 
 foreach(target IN LISTS shared_libraries)
