@@ -10,6 +10,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
+#include "weights/npy_header.h"
 
 namespace flbc::app {
 namespace {
@@ -30,8 +31,8 @@ class NpzWriter {
 
   // \param data  of an array of this shape in C order
   template <class Scalar>
-  void add(const std::string& name, const Scalar* data, const std::vector<Eigen::Index>& shape) {
-    std::string head = header(kType<Scalar>, shape);
+  void add(const std::string& name, const Scalar* data, const std::vector<std::int64_t>& shape) {
+    const auto head = io::npy_header(kType<Scalar>, shape);
     std::size_t bytes = sizeof(Scalar);
     for (const auto size : shape) bytes *= static_cast<std::size_t>(size);
     // Larger files would need another version of the format.
@@ -73,18 +74,6 @@ class NpzWriter {
     }
   }
   static const Bytef* bytes_of(const void* data) { return static_cast<const Bytef*>(data); }
-
-  static std::string header(const char* type, const std::vector<Eigen::Index>& shape) {
-    constexpr std::size_t kAlignment = 64, kBegin = 10;
-    std::string text = std::string("{'descr': '") + type + "', 'fortran_order': False, 'shape': (";
-    for (const auto size : shape) text += std::to_string(size) + ",";
-    text += "), }";
-    text.resize((kBegin + text.size()) / kAlignment * kAlignment + kAlignment - kBegin - 1, ' ');
-    text += '\n';
-    std::string result("\x93NUMPY\x01\x00", 8);
-    put(result, {{text.size(), 2}});
-    return result + text;
-  }
 
   void write(const char* data, std::size_t size) {
     out_.write(data, static_cast<std::streamsize>(size));

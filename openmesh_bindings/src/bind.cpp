@@ -49,7 +49,7 @@ Evaluation<Dim> evaluate(const BindInput<Dim>& input, const DomainMesh<Dim>& dom
   auto placement = place_points(input.cage, domain, input.points, outside);
   Evaluation<Dim> evaluation{
       weights_at(input.cage, domain, weights, placement), std::move(placement.points), {}, {}};
-  for (const auto& beside : placement.outside) evaluation.outside.push_back(beside.point);
+  for (const auto& vertex : placement.outside) evaluation.outside.push_back(vertex.point);
   if (placement.outside.empty() || outside == OutsidePoints::kExtend) return evaluation;
   evaluation.offsets = RowBlock<double>(1, Dim);
   evaluation.offsets.resize(placement.places.size());

@@ -40,14 +40,18 @@ double asymmetry(const Enclosure<Dim>& model, const PointList<Dim>& points,
   constexpr Index kMostVertices = 4000;
   const Index step = std::max<Index>(1, static_cast<Index>(points.cols()) / kMostVertices);
   constexpr double kDetails = 0.03;
+  const auto count = static_cast<std::size_t>((points.cols() + step - 1) / step);
+  const auto most = static_cast<std::size_t>((1 - kDetails) * static_cast<double>(count));
   std::vector<double> distances;
+  std::size_t far = 0;
   for (Index v = 0; v < points.cols(); v += step) {
     const Vector<Dim> image = plane.mirrored(Vector<Dim>(points.col(v)));
     distances.push_back(model.distance(image, limit));
+    if (distances.back() >= limit && ++far >= count - most) return limit;
   }
-  const auto most = distances.begin() + static_cast<Index>((1 - kDetails) * distances.size());
-  std::nth_element(distances.begin(), most, distances.end());
-  return *most;
+  const auto place = distances.begin() + static_cast<std::ptrdiff_t>(most);
+  std::nth_element(distances.begin(), place, distances.end());
+  return *place;
 }
 
 // The requested plane through the center of the model. For kAuto, the plane of best symmetry if the

@@ -131,11 +131,7 @@ Cage<Dim> Parting::part(const Cage<Dim>& shape) const {
 template <int Dim>
 Cage<Dim> Parting::joined_half(const Cage<Dim>& surface) const {
   const MirrorPlane end{plane.axis, plane.position + nearest + width};
-  PointList<Dim> normals = PointList<Dim>::Zero(Dim, surface.size());
-  for (const auto& facet : surface.facets.colwise()) {
-    const Eigen::Matrix<double, Dim, Dim> corners = surface.points(Eigen::all, facet);
-    for (const Index v : facet) normals.col(v) += facet_normal<Dim>(corners);
-  }
+  const auto normals = vertex_normals(surface);
   Cage<Dim> lifted = surface;
   for (Index v = 0; v < surface.size(); ++v) {
     double& x = lifted.points(plane.axis, v);

@@ -43,6 +43,18 @@ Vector<Dim> facet_normal(const Eigen::Matrix<double, Dim, Dim>& corners) {
   }
 }
 
+//! The sum of the normals of the facets at every vertex.
+template <int Dim>
+PointList<Dim> vertex_normals(const Cage<Dim>& surface) {
+  PointList<Dim> normals = PointList<Dim>::Zero(Dim, surface.size());
+  for (const auto& facet : surface.facets.colwise()) {
+    const Eigen::Matrix<double, Dim, Dim> corners = surface.points(Eigen::all, facet);
+    const Vector<Dim> normal = facet_normal<Dim>(corners);
+    for (const Index v : facet) normals.col(v) += normal;
+  }
+  return normals;
+}
+
 //! Area (2D) or volume (3D) between the facets and the origin, positive for outward normals.
 template <int Dim>
 double signed_measure(const Cage<Dim>& surface, const Vector<Dim>& origin) {

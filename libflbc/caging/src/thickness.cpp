@@ -62,12 +62,7 @@ std::vector<Vector<3>> directions_around(const Vector<3>& inward) {
 }  // namespace
 
 std::vector<double> thickness_of(const Cage<3>& surface) {
-  PointList<3> normals = PointList<3>::Zero(3, surface.size());
-  for (const auto& facet : surface.facets.colwise()) {
-    const Eigen::Matrix3d corners = surface.points(Eigen::all, facet);
-    const Vector<3> normal = facet_normal<3>(corners);
-    for (const Index v : facet) normals.col(v) += normal;
-  }
+  const auto normals = vertex_normals(surface);
   const BoxTree<3> tree(boxes_of<3, 3>(surface.points, surface.facets));
   const double size = bounding_box_diagonal<3>(surface.points);
   std::vector<double> thickness(static_cast<std::size_t>(surface.size()));

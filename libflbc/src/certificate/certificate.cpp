@@ -260,8 +260,10 @@ Certificate certify(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, 
   const auto feasible = made_feasible(problem, weights);
   Certificate certificate;
   certificate.objective = flbc::objective(problem, feasible);
-  PointList<Dim> multipliers = PointList<Dim>::Zero(Dim, problem.mesh.num_vertices());
-  certificate.lower_bound = bound(problem, flux, feasible, &multipliers);
+  PointList<Dim> multipliers;
+  if (proof != nullptr) multipliers = PointList<Dim>::Zero(Dim, problem.mesh.num_vertices());
+  certificate.lower_bound =
+      bound(problem, flux, feasible, proof != nullptr ? &multipliers : nullptr);
   if (proof != nullptr) {
     *proof = {densities(problem, flux), std::move(multipliers), problem.phi, problem.smoothness};
   }

@@ -156,19 +156,4 @@ NpyHeader read_npy_header(const std::string& path, const std::string& content) {
   return header;
 }
 
-std::string npy_header(std::int64_t rows, std::int64_t columns) {
-  std::string text = "{'descr': '<f8', 'fortran_order': False, 'shape': (" + std::to_string(rows) +
-                     ", " + std::to_string(columns) + "), }";
-  constexpr std::size_t kAlignment = 64;
-  constexpr std::size_t kPrefix = 10;  // magic, version, length
-  const std::size_t unpadded = kPrefix + text.size() + 1;
-  text.append((kAlignment - unpadded % kAlignment) % kAlignment, ' ');
-  text += '\n';
-  std::string header(kMagic);
-  header += {'\x01', '\x00'};
-  header += static_cast<char>(text.size() & 0xff);
-  header += static_cast<char>(text.size() >> 8);
-  return header + text;
-}
-
 }  // namespace flbc::io

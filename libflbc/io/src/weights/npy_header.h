@@ -20,7 +20,23 @@ struct NpyHeader {
 //! \throws InputError naming file and byte
 NpyHeader read_npy_header(const std::string& path, const std::string& content);
 
-//! The header of a rows x columns array of float64 in C order: version 1, padded to 64 bytes.
-std::string npy_header(std::int64_t rows, std::int64_t columns);
+//! The header of an array in C order: version 1, padded to 64 bytes. Inline for programs, to which
+//! shared libraries do not export it.
+//! \param type  NumPy's name
+inline std::string npy_header(const std::string& type, const std::vector<std::int64_t>& shape) {
+  std::string text = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (";
+  for (std::size_t k = 0; k < shape.size(); ++k)
+    text += (k > 0 ? ", " : "") + std::to_string(shape[k]);
+  text += shape.size() == 1 ? ",), }" : "), }";
+  constexpr std::size_t kAlignment = 64;
+  constexpr std::size_t kPrefix = 10;  // magic, version, length
+  const std::size_t unpadded = kPrefix + text.size() + 1;
+  text.append((kAlignment - unpadded % kAlignment) % kAlignment, ' ');
+  text += '\n';
+  std::string header("\x93NUMPY\x01\x00", 8);
+  header += static_cast<char>(text.size() & 0xff);
+  header += static_cast<char>(text.size() >> 8);
+  return header + text;
+}
 
 }  // namespace flbc::io

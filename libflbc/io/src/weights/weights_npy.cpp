@@ -31,7 +31,7 @@ WeightMatrix read_npy(const std::string& path, std::string content) {
 
 void write_npy(std::ostream& out, const WeightMatrix& weights) {
   // In memory the numbers of a point are contiguous, which is C order for #points x n.
-  const std::string header = npy_header(weights.cols(), weights.rows());
+  const std::string header = npy_header("<f8", {weights.cols(), weights.rows()});
   out.write(header.data(), static_cast<std::streamsize>(header.size()));
   out.write(reinterpret_cast<const char*>(weights.data()),
             static_cast<std::streamsize>(sizeof(double)) * weights.size());
