@@ -2,6 +2,9 @@
 """Checks that pages are short and their sentences plain, by the rules of docs/contributing/style.md.
 
 check_prose.py [PAGE...]   default: every page of the repository
+check_prose.py FOLDER      only the "Next" links of its pages
+
+From index.md, the "Next" links of the pages in docs/ lead to every one of them.
 
 A page has at most 12 kB. Its sentences have at most 20 words on average and none more than 35. Tables,
 code, formulas on lines of their own, and titles are not sentences. Files named in backticks exist.
@@ -100,18 +103,34 @@ def check(path, text):
                 yield f"'{match[0]}' (better: {instead}): {sentence}"
 
 
+def unreached(folder):
+    """Pages of a folder to which no chain of "Next" links from its index.md leads."""
+    page, reached = folder / "index.md", []
+    while page.is_file() and page not in reached:
+        reached.append(page)
+        found = re.findall(r"^Next: \[[^]]*\]\(([^)#]*)", page.read_text(), flags=re.M)
+        page = (page.parent / found[-1]).resolve() if found else folder
+    for missed in sorted(set(folder.rglob("*.md")) - set(reached)):
+        yield f"{missed}: the \"Next\" links from {folder.name}/index.md end at {reached[-1].name} without this page"
+
+
 def main():
     pages = [pathlib.Path(page) for page in sys.argv[1:]]
-    if not pages:
+    chains = [page.resolve() for page in pages if page.is_dir()] if pages else [ROOT / "docs"]
+    pages = [page for page in pages if not page.is_dir()]
+    if not pages and len(sys.argv) == 1:
         listed = subprocess.run(["git", "ls-files", "*.md"], cwd=ROOT, capture_output=True, text=True)
         pages = [ROOT / line for line in listed.stdout.split("\n") if line]
     wrong = 0
+    for line in (line for folder in chains for line in unreached(folder)):
+        print(line)
+        wrong += 1
     for page in pages:
         for line in check(page, page.read_text()):
             print(f"{page}: {line}")
             wrong += 1
     print(f"{len(pages)} pages, {wrong} findings")
-    return 1 if wrong or not pages else 0
+    return 1 if wrong or not (pages or chains) else 0
 
 
 if __name__ == "__main__":

@@ -167,6 +167,11 @@ SOLVERS = {"value": "**libflbc**, default method", "lbc2014-tuned": "2014 splitt
            "paper": "2019 gradient ADMM, as published"}
 
 
+AUTHORS2014 = [*SIZE, ("authors' program: penalty", "lbc_penalty"), ("iterations", "lbc_iterations"),
+               ("s", "lbc_seconds:.2f"), ("libflbc: iterations", "flbc_iterations"), ("s", "flbc_seconds:.2f"),
+               ("ratio", "lbc_over_flbc:.0f")]
+
+
 def solvers(rows):
     """Seconds to the error, from the same rows as race: a line per method, the best of each model bold."""
     models = results.in_order(row["model"] for row in rows)
@@ -256,6 +261,7 @@ def time_to_error(rows):
 
 
 TABLES = {"models": lines(*MODELS), "harmonic": lines(*HARMONIC), "race": race, "solvers": solvers,
+          "authors2014": lines(*AUTHORS2014),
           "speed": lines(*SPEED), "growth": curves(GROWTH, "total_seconds", "peak_mebibytes"),
           "many": lines(*MANY), "tolerance": tolerance, "smoothness": grouped(sized, *SMOOTHNESS),
           "cages": lines(*CAGES), "pipeline": lines(*PIPELINE), "sparsify": grouped(sparsified, *SPARSIFY), "table1": lines(*TABLE1),

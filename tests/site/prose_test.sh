@@ -13,3 +13,11 @@ for text in "A sentence of $long words." "It lies beside the cage." "See \`apps/
     exit 1
   fi
 done
+rm -rf "$work/chain"
+mkdir -p "$work/chain"
+printf '# A\n\nNext: [B](b.md)\n' >"$work/chain/index.md"
+printf '# B\n\nNext: [A](index.md)\n' >"$work/chain/b.md"
+/usr/bin/python3 -B "$repository/scripts/check_prose.py" "$work/chain"
+printf '# C\n\nNext: [B](b.md)\n' >"$work/chain/c.md"
+/usr/bin/python3 -B "$repository/scripts/check_prose.py" "$work/chain" | grep 'c\.md: the "Next" links' >/dev/null ||
+  { echo "a page outside of the chain was not noticed" >&2; exit 1; }
