@@ -115,8 +115,7 @@ template <int Dim>
 void sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments) {
   validate<Dim>(arguments.options);
   const auto model = load_connected_points<Dim>(arguments.points);
-  const auto method = reduction_for(arguments.reduction, arguments.points, model.edges, cage.size(),
-                                    model.points.cols());
+  const auto method = reduction_for(arguments.reduction, arguments.points, model.edges);
   const auto before = load_weights(arguments, cage.points, model.points);
   const auto poses = load_poses<Dim>(arguments);
   const ConnectedPoints<Dim> attached{attached_points(cage, model.points, before), model.edges};

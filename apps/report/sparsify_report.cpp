@@ -66,7 +66,7 @@ void add_reduction_option(CLI::App& command, std::string& reduction) {
 }
 
 std::string reduction_for(const std::string& asked, const std::string& points_file,
-                          const EdgeList& edges, Eigen::Index control_points, Eigen::Index points) {
+                          const EdgeList& edges) {
   const bool has_edges = !edges.ends.empty();
   if (asked == kPoisson && !has_edges) {
     throw InputError(points_file +
@@ -74,7 +74,7 @@ std::string reduction_for(const std::string& asked, const std::string& points_fi
                      "--reduction quadratic");
   }
   if (asked != kAutomatic) return asked;
-  return suits_poisson(edges, control_points, points) ? kPoisson : kQuadratic;
+  return has_edges ? kPoisson : kQuadratic;
 }
 
 template <int Dim>

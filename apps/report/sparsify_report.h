@@ -22,11 +22,10 @@ constexpr const char* kAutomatic = "auto";
 //! Adds --reduction to a command: of flbc run and flbc sparsify.
 void add_reduction_option(CLI::App& command, std::string& reduction);
 
-//! Which of the two to use: poisson where there are neighbors and the dense matrix that it needs
-//! is not huge, unless one was asked for.
+//! Which of the two to use: poisson where there are neighbors, unless one was asked for.
 //! \throws InputError if poisson was asked for without neighbors
 std::string reduction_for(const std::string& asked, const std::string& points_file,
-                          const EdgeList& edges, Eigen::Index control_points, Eigen::Index points);
+                          const EdgeList& edges);
 
 //! Weights before and after, and what they are measured with. All kept by reference.
 template <int Dim>

@@ -148,8 +148,7 @@ void reduce_influences(Run<Dim>& run) {
   const auto& model = run.arguments.settings.model;
   const auto& shape = run.shape();
   const auto file = model.empty() ? run.report["mesh"]["file"].template get<std::string>() : model;
-  const auto method = reduction_for(run.arguments.reduction, file, shape.edges, run.cage.size(),
-                                    shape.points.cols());
+  const auto method = reduction_for(run.arguments.reduction, file, shape.edges);
   run.reduced = naming(file, [&] { return reduce(run, method, poses); });
   run.moved = by_weights<Dim>(run.reduced, run.cage.points, shape.points);
   std::vector<std::string> pose_files;

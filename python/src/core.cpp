@@ -285,7 +285,7 @@ py::object sparsify(const Doubles& control_points, const Doubles& points, const 
     return as_python(without_gil([&] {
       validate<kDim>(options);
       const auto edges = edges_of_polygons(all, lists);
-      if (!suits_poisson(edges, cage.cols(), all.cols())) {
+      if (edges.ends.empty()) {
         return flbc::sparsify<kDim>(cage, all, given, options);
       }
       return reduce_by_poisson<kDim>(cage, all, edges, given, moved, options);

@@ -115,7 +115,7 @@ void expect_near_the_best(SupportSelection<Dim>& selection, const Eigen::MatrixX
     const Index most = Dim + 2;
     const double limited = cost_of(nearest_row<Dim>(metric, control_points, point, target, most));
     ASSERT_TRUE(selection.reduce(most, kNoBound, weights));
-    selection.exchange(most, 0, std::vector<bool>(n, true), weights);
+    selection.exchange(most, 0, everyone, weights);
     EXPECT_LE(static_cast<Index>(weights.support.size()), most);
     EXPECT_GE(weights.cost, limited - 1e-9);
     best += weights.cost <= limited + 1e-7;
@@ -128,12 +128,31 @@ TEST_IN_2D_AND_3D(PoissonOptimalityTest, OnePointsWeightsAreNearTheBestInAnyMetr
   Numbers numbers(33);
   const PointList<Dim> control_points = numbers.matrix(Dim, kControls, -1, 1);
   const std::vector<PointList<Dim>> poses{numbers.matrix(Dim, kControls, -2, 2)};
-  const auto matrix = pose_metric<Dim>(control_points, poses);
+  const auto matrix = pose_metric<Dim>(control_points, poses).matrix;
   SupportSelection<Dim> in_poses(Metric(matrix), control_points);
   expect_near_the_best<Dim>(in_poses, matrix, control_points);
   SupportSelection<Dim> euclidean(Metric(), control_points);
   expect_near_the_best<Dim>(euclidean, Eigen::MatrixXd::Identity(kControls, kControls),
                             control_points);
+}
+
+// Few numbers describe a pose: its metric differs from a multiple of the identity by a low rank.
+TEST_IN_2D_AND_3D(PoissonOptimalityTest, AMetricOfFewPosesHasALowRank) {
+  constexpr int kControls = 40;
+  Numbers numbers(34);
+  const PointList<Dim> control_points = numbers.matrix(Dim, kControls, -1, 1);
+  std::vector<PointList<Dim>> poses;
+  for (const int most : {0, 1, 3, kControls}) {
+    while (static_cast<int>(poses.size()) < most) {
+      poses.push_back(numbers.matrix(Dim, kControls, -2, 2));
+    }
+    const auto [identity, factor, matrix] = pose_metric<Dim>(control_points, poses);
+    const Eigen::MatrixXd whole =
+        identity * Eigen::MatrixXd::Identity(kControls, kControls) + factor.transpose() * factor;
+    EXPECT_LT((whole - matrix).cwiseAbs().maxCoeff(), 1e-12 * matrix.maxCoeff());
+    constexpr int kQuadratic = Dim * (Dim + 1) / 2;
+    EXPECT_EQ(factor.rows(), std::min(kControls, Dim + kQuadratic + Dim * most));
+  }
 }
 
 // The same problem in the identity as a special case and as a matrix.
@@ -156,7 +175,7 @@ TEST_IN_2D_AND_3D(PoissonOptimalityTest, TheIdentityIsAMetricLikeAnyOther) {
       constexpr double kNoBound = std::numeric_limits<double>::infinity();
       ASSERT_TRUE(selection->qp().solve(everyone, kNoBound, weights));
       ASSERT_TRUE(selection->reduce(Dim + 3, kNoBound, weights));
-      selection->exchange(Dim + 3, 1e-9, std::vector<bool>(kControls, true), weights);
+      selection->exchange(Dim + 3, 1e-9, everyone, weights);
     }
     EXPECT_EQ(found[0].support, found[1].support);
     EXPECT_NEAR(found[0].cost, found[1].cost, 1e-9);
@@ -173,7 +192,7 @@ struct Gains {
 template <int Dim>
 Gains find_gains(const PoissonProblem<Dim>& problem, const WeightMatrix& weights, Index most,
                  double noticeable) {
-  const auto metric = pose_metric<Dim>(problem.control_points, {});
+  const auto metric = pose_metric<Dim>(problem.control_points, {}).matrix;
   const double cost = problem.cost(weights);
   Gains gains;
   for (Index a = 0; a < static_cast<Index>(weights.cols()); ++a) {

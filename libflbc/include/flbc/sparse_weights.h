@@ -70,6 +70,9 @@ class SparseWeights {
     }
   }
 
+  //! The number of nonzero weights of a point. \param point  in [0, P)
+  Index count(Index point) const { return static_cast<Index>(starts_[point + 1] - starts_[point]); }
+
   //! Whether a point has weights other than zero. Points without weights do not move.
   //! \param point  in [0, P)
   bool has_weights(Index point) const;

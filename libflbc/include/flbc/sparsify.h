@@ -85,11 +85,7 @@ SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const Poin
                                 const std::vector<PointList<Dim>>& poses,
                                 const SparsifyOptions& options);
 
-//! Whether reduce_influences() uses reduce_by_poisson(): there are edges, and the dense weights,
-//! which it needs, have at most 2.5e8 numbers (2 GB).
-bool suits_poisson(const EdgeList& edges, Eigen::Index num_control_points, Eigen::Index num_points);
-
-//! Reduces influences by reduce_by_poisson() if suits_poisson(), otherwise by sparsify(). Weights
+//! Reduces influences by reduce_by_poisson() if there are edges, otherwise by sparsify(). Weights
 //! within the limits only pass sparsify().
 //! \param control_points  Dim x n, finite
 //! \param points  Dim x P, inside the convex hull of the control points, in the same units

@@ -55,6 +55,7 @@ bool ActiveSetQp<Dim>::solve(const std::vector<Index>& support, double bound,
     // With as many control points as constraints there is no choice.
     if (support.size() <= Dim + 1 || !start_in_hull(support)) return false;
   }
+  at_minimum_ = true;
   if (!left_.empty()) descend_to_minimum();
   return finish(weights);
 }
@@ -100,7 +101,6 @@ void ActiveSetQp<Dim>::descend(PointWeights& weights, Index newcomer) {
   left_.clear();
   if (newcomer >= 0) enter(newcomer, 0);
   descend_to_minimum();
-  weights.cost = cost_of(weights);
   if (finish(lower_) && lower_.cost < weights.cost) std::swap(weights, lower_);
 }
 
@@ -111,6 +111,7 @@ void ActiveSetQp<Dim>::descend_to_minimum() {
   // Far more iterations than needed, because rounding might cause cycles.
   const std::size_t rounds = 4 * (members_.size() + left_.size()) + 8;
   for (std::size_t round = 0; round < rounds; ++round) {
+    at_minimum_ = false;
     if (!free_.minimize(members_)) return;
     const std::size_t first = step_to_free_minimum();
     if (first < members_.size()) {
@@ -119,6 +120,7 @@ void ActiveSetQp<Dim>::descend_to_minimum() {
       erase_at(weights_, first);
       continue;
     }
+    at_minimum_ = true;
     const std::size_t back = most_wanted();
     if (back == left_.size()) return;
     enter(left_[back], 0);
@@ -159,15 +161,9 @@ std::size_t ActiveSetQp<Dim>::most_wanted() const {
   double steepest = -kFlat;
   std::size_t best = left_.size();
   for (std::size_t k = 0; k < left_.size(); ++k) {
-    const Index i = left_[k];
-    double slope = -free_.pull()[i] - free_.constraint(i).dot(free_.multipliers());
-    if (!metric().is_identity()) {
-      for (std::size_t l = 0; l < members_.size(); ++l) {
-        slope += metric()(members_[l], i) * weights_[l];
-      }
-    }
-    if (slope < steepest) {
-      steepest = slope;
+    const double slope_of_it = slope(members_, weights_, left_[k]);
+    if (slope_of_it < steepest) {
+      steepest = slope_of_it;
       best = k;
     }
   }
@@ -194,20 +190,25 @@ bool ActiveSetQp<Dim>::finish(PointWeights& weights) {
     weights.support.push_back(members_[k]);
     weights.values.push_back(weights_[k]);
   }
-  weights.cost = cost_of(weights);
+  weights.cost =
+      at_minimum_ && weights.support.size() == members_.size() ? free_.cost() : cost_of(weights);
   return true;
 }
 
 template <int Dim>
-const Eigen::VectorXd& ActiveSetQp<Dim>::slopes(const PointWeights& weights) {
-  if (!free_.minimize(weights.support)) {
-    return slopes_ = Eigen::VectorXd::Zero(free_.pull().size());
+double ActiveSetQp<Dim>::slope(const PointWeights& weights, Index newcomer) const {
+  return slope(weights.support, weights.values, newcomer);
+}
+
+template <int Dim>
+double ActiveSetQp<Dim>::slope(const std::vector<Index>& members,
+                               const std::vector<double>& weights, Index outside) const {
+  double slope = -free_.pull()[outside] - free_.constraint(outside).dot(free_.multipliers());
+  if (metric().is_identity()) return slope;
+  for (std::size_t l = 0; l < members.size(); ++l) {
+    slope += metric()(members[l], outside) * weights[l];
   }
-  slopes_ = -free_.pull() - free_.constraint_forces();
-  for (std::size_t k = 0; k < weights.support.size(); ++k) {
-    metric().add_column(weights.support[k], weights.values[k], slopes_);
-  }
-  return slopes_;
+  return slope;
 }
 
 template <int Dim>
@@ -216,7 +217,7 @@ const std::vector<double>& ActiveSetQp<Dim>::removal_costs(const PointWeights& w
     removal_costs_.assign(weights.support.size(), 0);
     return removal_costs_;
   }
-  free_.removal_costs(removal_costs_);
+  removal_costs_ = free_.removal_costs();
   for (std::size_t k = 0; k < removal_costs_.size(); ++k) {
     removal_costs_[k] *= weights.values[k] * weights.values[k];
   }

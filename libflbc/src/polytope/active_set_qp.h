@@ -32,7 +32,7 @@ class ActiveSetQp {
   const Metric& metric() const { return free_.metric(); }
 
   //! Sets the current point.
-  //! \return H t, n, to be filled by the caller
+  //! \return H t, n, to be filled by the caller for the control points of the supports
   Eigen::VectorXd& aim_at(const Vector<Dim>& point);
 
   //! (w - t) . H (w - t) - t . H t, independent of weights.cost.
@@ -42,21 +42,22 @@ class ActiveSetQp {
   //! \return false if x is not in the hull of the support, or if no weights cost less than `bound`
   bool solve(const std::vector<Index>& support, double bound, PointWeights& weights);
 
-  //! Moves from feasible weights to the nearest ones on their support, plus control point
-  //! `newcomer` if it is >= 0. The cost never increases.
+  //! Moves from feasible weights of known cost to the nearest ones on their support, plus control
+  //! point `newcomer` if it is >= 0. The cost never increases.
   void descend(PointWeights& weights, Index newcomer = -1);
 
-  //! Half the derivative of the cost with respect to each weight, minus the multipliers of sum and
-  //! reproduction. Negative if the cost decreases as the weight grows.
-  //! \param weights  from solve() or descend()
-  //! \return n, zeros if rounding hides them
-  const Eigen::VectorXd& slopes(const PointWeights& weights);
+  //! Half the derivative of the cost with respect to the weight of a control point outside the
+  //! support, minus the multipliers of sum and reproduction. Negative if the cost decreases as the
+  //! weight grows. Needs settle().
+  double slope(const PointWeights& weights, Index newcomer) const;
 
-  //! Decrease of the cost if a control point enters and weights may become negative. Call after
-  //! slopes().
-  double gain(Index newcomer) {
-    return slopes_[newcomer] * slopes_[newcomer] / free_.curvature(newcomer);
-  }
+  //! Decrease of the cost if a control point with this slope enters and weights may become
+  //! negative. Needs settle().
+  double gain(double slope, Index newcomer) { return slope * slope / free_.curvature(newcomer); }
+
+  //! Computes the multipliers of weights from solve() or descend().
+  //! \return false if rounding hides them
+  bool settle(const PointWeights& weights) { return free_.minimize(weights.support); }
 
   //! Lower bound on the increase of the cost if an influence is removed; exact if all others stay
   //! positive.
@@ -73,6 +74,8 @@ class ActiveSetQp {
   void enter(Index control_point, double weight);
   std::size_t step_to_free_minimum();
   std::size_t most_wanted() const;
+  double slope(const std::vector<Index>& members, const std::vector<double>& weights,
+               Index outside) const;
   bool is_feasible() const;
   bool finish(PointWeights& weights);
 
@@ -84,9 +87,9 @@ class ActiveSetQp {
   std::vector<Index> members_;  // ascending
   std::vector<double> weights_;
   std::vector<Index> left_;
+  bool at_minimum_ = false;  // whether the weights are the free minimum
 
   PointWeights lower_;
-  Eigen::VectorXd slopes_;
   std::vector<double> removal_costs_;
 };
 

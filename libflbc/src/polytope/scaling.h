@@ -13,6 +13,9 @@
 
 namespace flbc {
 
+//! Keeps the multipliers finite for control points in a line or plane.
+constexpr double kRidge = 1e-13;
+
 //! The bounding box diagonal of the control points, as a divisor: never 0.
 //! \param control_points  Dim x n, n >= 1, finite
 template <int Dim>

@@ -128,7 +128,10 @@ void PointSparsifier<Dim>::exchange(const Eigen::VectorXd& given, const std::vec
   work.best = work.reduced;
   // With a threshold, the exchange would reinsert dropped influences.
   if (count(support) <= most || options_.threshold > 0) return;
-  for (Eigen::Index i = 0; i < given.size(); ++i) work.may_enter[i] = given[i] >= kLeastInfluence;
+  work.may_enter.clear();
+  for (Index i = 0; i < static_cast<Index>(given.size()); ++i) {
+    if (given[i] >= kLeastInfluence) work.may_enter.push_back(i);
+  }
   work.selection.exchange(most, kLeastGain, work.may_enter, work.best);
 }
 

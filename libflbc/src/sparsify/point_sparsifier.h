@@ -16,9 +16,9 @@ class PointSparsifier {
  public:
   struct Workspace {
     explicit Workspace(const PointList<Dim>& control_points)
-        : selection(Metric(), control_points), may_enter(control_points.cols()) {}
+        : selection(Metric(), control_points) {}
     SupportSelection<Dim> selection;
-    std::vector<bool> may_enter;
+    std::vector<Index> may_enter;
     PointWeights reduced, best;
   };
 

@@ -66,7 +66,7 @@ void SupportSelection<Dim>::adopt(const std::vector<Index>& support, double leas
 
 template <int Dim>
 void SupportSelection<Dim>::exchange(Index count, double least_gain,
-                                     const std::vector<bool>& may_enter, PointWeights& weights) {
+                                     const std::vector<Index>& may_enter, PointWeights& weights) {
   do {
     find_newcomers(may_enter, weights);
   } while (exchange_one(count, least_gain, weights));
@@ -76,6 +76,8 @@ template <int Dim>
 bool SupportSelection<Dim>::exchange_one(Index count, double least_gain, PointWeights& weights) {
   const double bound = weights.cost - least_gain;
   for (const auto& newcomer : newcomers_) {
+    // The constraint w >= 0 and a removal can only decrease the gain.
+    if (weights.cost + newcomer.cost >= bound) break;
     exchanged_ = weights;
     qp_.descend(exchanged_, newcomer.number);
     // The cost is now minimal; a removal can only increase it.
@@ -88,14 +90,14 @@ bool SupportSelection<Dim>::exchange_one(Index count, double least_gain, PointWe
 
 // The control points that would decrease the cost most, ignoring w >= 0.
 template <int Dim>
-void SupportSelection<Dim>::find_newcomers(const std::vector<bool>& may_enter,
+void SupportSelection<Dim>::find_newcomers(const std::vector<Index>& may_enter,
                                            const PointWeights& weights) {
-  const Eigen::VectorXd& slopes = qp_.slopes(weights);
   newcomers_.clear();
-  for (Index i = 0; i < static_cast<Index>(slopes.size()); ++i) {
-    if (!(slopes[i] < -kLeastSlope) || !may_enter[i]) continue;
+  if (!qp_.settle(weights)) return;
+  for (const Index i : may_enter) {
     if (std::binary_search(weights.support.begin(), weights.support.end(), i)) continue;
-    newcomers_.push_back({-qp_.gain(i), i});
+    const double slope = qp_.slope(weights, i);
+    if (slope < -kLeastSlope) newcomers_.push_back({-qp_.gain(slope, i), i});
   }
   const std::size_t kept = std::min(kNewcomers, newcomers_.size());
   std::partial_sort(newcomers_.begin(), newcomers_.begin() + static_cast<std::ptrdiff_t>(kept),

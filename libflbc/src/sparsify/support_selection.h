@@ -34,8 +34,8 @@ class SupportSelection {
 
   //! Inserts single influences, in exchange for others if there are more than `count`, while the
   //! cost decreases by more than `least_gain`.
-  //! \param may_enter  n
-  void exchange(Index count, double least_gain, const std::vector<bool>& may_enter,
+  //! \param may_enter  control points
+  void exchange(Index count, double least_gain, const std::vector<Index>& may_enter,
                 PointWeights& weights);
 
  private:
@@ -49,7 +49,7 @@ class SupportSelection {
 
   bool remove_cheapest(double bound, PointWeights& weights);
   bool exchange_one(Index count, double least_gain, PointWeights& weights);
-  void find_newcomers(const std::vector<bool>& may_enter, const PointWeights& weights);
+  void find_newcomers(const std::vector<Index>& may_enter, const PointWeights& weights);
 
   ActiveSetQp<Dim> qp_;
   std::vector<Candidate> newcomers_, removals_;

@@ -2,6 +2,7 @@
 #include "sparsify/poisson/poisson_energy.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "base/instantiate.h"
@@ -29,35 +30,53 @@ double reach_of(const PointList<Dim>& points, const EdgeList& edges) {
 // Weight of the expectation relative to the given poses.
 constexpr double kGeneral = 0.1;
 
-// The sum of the expectations over all poses of both kinds, each of which displaces by about a
-// tenth of the size. In an independent pose the displacements u_i of the control points have no
-// correlation, so that |sum d_i u_i|^2 is |d|^2 on average. In a smooth one the displacement at
-// place p is A p + (p . B_k p)_k, all entries uniform in [-1, 1], of variance 1/3. The average is a
-// sum over products of places, and their products of degree two.
+// The expectation over poses of both kinds, without I, each of which displaces by about a tenth of
+// the size. In an independent pose the displacements u_i of the control points have no correlation,
+// so that |sum d_i u_i|^2 is |d|^2 on average. In a smooth one the displacement at place p is A p +
+// (p . B_k p)_k, all entries uniform in [-1, 1], of variance 1/3. The average is a sum over
+// products of places, and their products of degree two.
 template <int Dim>
-Eigen::MatrixXd expectation(const PointList<Dim>& control_points, double size) {
+Eigen::MatrixXd smooth_expectation(const PointList<Dim>& control_points, double size) {
   const PointList<Dim> places =
       2 / size * (control_points.colwise() - control_points.rowwise().mean());
   const Eigen::MatrixXd products = places.transpose().lazyProduct(places);
-  Eigen::MatrixXd metric = Dim / 3.0 * (products + products.cwiseProduct(products));
-  metric.diagonal().array() += 1;
-  return metric;
+  return Dim / 3.0 * (products + products.cwiseProduct(products));
+}
+
+// F with F^T F = G up to rounding, r x n, by a Cholesky decomposition that stops at the rank r of
+// G. The rank is small because few numbers describe a pose.
+Eigen::MatrixXd low_rank_factor(const Eigen::MatrixXd& gram) {
+  constexpr double kRounding = 1e-14;  // of the largest entry
+  Eigen::VectorXd rest = gram.diagonal();
+  const double least = kRounding * rest.maxCoeff();
+  Eigen::MatrixXd factor(gram.rows(), gram.cols());
+  Eigen::Index rank = 0;
+  for (Eigen::Index pivot; rank < gram.rows() && rest.maxCoeff(&pivot) > least; ++rank) {
+    const auto before = factor.topRows(rank);
+    const double root = std::sqrt(rest[pivot]);
+    factor.row(rank) =
+        (gram.row(pivot) - (before.col(pivot).transpose().lazyProduct(before))) / root;
+    rest -= factor.row(rank).cwiseAbs2().transpose();
+    rest[pivot] = 0;
+  }
+  return factor.topRows(rank);
 }
 
 }  // namespace
 
 template <int Dim>
-Eigen::MatrixXd pose_metric(const PointList<Dim>& control_points,
-                            const std::vector<PointList<Dim>>& poses) {
+PoseMetric pose_metric(const PointList<Dim>& control_points,
+                       const std::vector<PointList<Dim>>& poses) {
   const double size = scale_of<Dim>(control_points);
-  Eigen::MatrixXd metric = expectation<Dim>(control_points, size);
-  if (poses.empty()) return metric;
-  metric *= kGeneral;
+  const double general = poses.empty() ? 1 : kGeneral;
+  Eigen::MatrixXd gram = general * smooth_expectation<Dim>(control_points, size);
   for (const auto& pose : poses) {
     // Centers the pose. Its translation has no effect because sum d = 0, but would lose digits.
     const PointList<Dim> places = 10 / size * (pose.colwise() - pose.rowwise().mean());
-    metric += places.transpose().lazyProduct(places) / static_cast<double>(poses.size());
+    gram += places.transpose().lazyProduct(places) / static_cast<double>(poses.size());
   }
+  PoseMetric metric{general, low_rank_factor(gram), gram};
+  metric.matrix.diagonal().array() += general;
   return metric;
 }
 
@@ -72,13 +91,11 @@ PoissonEnergy make_poisson_energy(const PointList<Dim>& control_points,
 
 template <int Dim>
 double evaluate(const PoissonEnergy& energy, const PointList<Dim>& points, const EdgeList& edges,
-                const WeightMatrix& before, const WeightMatrix& after) {
-  const WeightMatrix difference = after - before;
-  const auto num_points = static_cast<Index>(difference.cols());
-  Eigen::MatrixXd potential(difference.rows(), num_points);
-  parallel_for(num_points,
-               [&](Index a) { potential.col(a).noalias() = energy.metric * difference.col(a); });
-  const auto square = [&](Index a) { return difference.col(a).dot(potential.col(a)); };
+                const SparseWeights& before, const SparseWeights& after) {
+  const auto& [identity, factor, matrix] = energy.metric;
+  const auto square = [&](const Eigen::VectorXd& difference) {
+    return identity * difference.squaredNorm() + (factor * difference).squaredNorm();
+  };
   return parallel_sum<double>(
       static_cast<Index>(edges.ends.size()), 0, [&](Index begin, Index end) {
         double sum = 0;
@@ -86,9 +103,9 @@ double evaluate(const PoissonEnergy& energy, const PointList<Dim>& points, const
           const auto [a, b] = edges.ends[e];
           const double weight = edges.weights.empty() ? 1 : edges.weights[e];
           const double pin = energy.pin * (points.col(a) - points.col(b)).squaredNorm() / 2;
-          const auto step = difference.col(a) - difference.col(b);
-          sum += weight *
-                 (step.dot(potential.col(a) - potential.col(b)) + pin * (square(a) + square(b)));
+          const Eigen::VectorXd at_a = after.at(a) - before.at(a),
+                                at_b = after.at(b) - before.at(b);
+          sum += weight * (square(at_a - at_b) + pin * (square(at_a) + square(at_b)));
         }
         return sum;
       });

@@ -5,19 +5,27 @@
 #include <vector>
 
 #include "flbc/domain_mesh.h"
+#include "flbc/sparse_weights.h"
 #include "flbc/types.h"
 
 namespace flbc {
 
-//! H, n x n, symmetric and positive definite, such that d . H d is, for differences d of weights
-//! with sum d = 0 and sum d c = 0, the squared distance by which d moves a point, in units of a
-//! tenth of the cage's size: the mean over the poses plus a tenth of the expectation over poses
-//! like those of independent_poses() and smooth_poses(). The second term controls control points
-//! that the given poses do not move. Without poses, H is that expectation.
+//! H = a I + F^T F, symmetric and positive definite.
+struct PoseMetric {
+  double identity;         //!< a
+  Eigen::MatrixXd factor;  //!< F, r x n, r the rank of F^T F
+  Eigen::MatrixXd matrix;  //!< H, n x n
+};
+
+//! The metric with d . H d, for differences d of weights with sum d = 0 and sum d c = 0, the
+//! squared distance by which d moves a point, in units of a tenth of the cage's size: the mean over
+//! the poses plus a tenth of the expectation over poses like those of independent_poses() and
+//! smooth_poses(). The second term controls control points that the given poses do not move.
+//! Without poses, H is that expectation.
 //! \param control_points  Dim x n \param poses  Dim x n each
 template <int Dim>
-Eigen::MatrixXd pose_metric(const PointList<Dim>& control_points,
-                            const std::vector<PointList<Dim>>& poses);
+PoseMetric pose_metric(const PointList<Dim>& control_points,
+                       const std::vector<PointList<Dim>>& poses);
 
 //! With d_a the new minus the given weights of point a, and x_a its position:
 //!
@@ -25,8 +33,8 @@ Eigen::MatrixXd pose_metric(const PointList<Dim>& control_points,
 //!
 //! over edges ab and points a, where m_a = sum_b k_ab |x_a - x_b|^2 / 2.
 struct PoissonEnergy {
-  Eigen::MatrixXd metric;  //!< H, n x n
-  double pin;              //!< weight of absolute displacements, 1 / length^2
+  PoseMetric metric;  //!< H
+  double pin;         //!< weight of absolute displacements, 1 / length^2
 };
 
 //! \param control_points  Dim x n \param points  Dim x P \param edges  validated
@@ -37,9 +45,9 @@ PoissonEnergy make_poisson_energy(const PointList<Dim>& control_points,
                                   const std::vector<PointList<Dim>>& poses);
 
 //! \param edges  validated
-//! \param before, after  n x P
+//! \param before, after  of P points
 template <int Dim>
 double evaluate(const PoissonEnergy& energy, const PointList<Dim>& points, const EdgeList& edges,
-                const WeightMatrix& before, const WeightMatrix& after);
+                const SparseWeights& before, const SparseWeights& after);
 
 }  // namespace flbc

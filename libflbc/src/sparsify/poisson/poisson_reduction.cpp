@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "base/instantiate.h"
@@ -22,7 +23,7 @@ namespace flbc {
 namespace {
 
 // Over-relaxation factor of the steps. Below 2, the energy never increases.
-constexpr double kOvershoot = 1.5;
+constexpr double kOvershoot = 1.7;
 // Number of neighbor supports that are tried at a point.
 constexpr std::size_t kSupports = 16;
 // Invisible gains in squared distance, in units of a tenth of cage size.
@@ -82,40 +83,56 @@ class PoissonDescent {
         stiffness_(points.cols()),
         fixed_(points.cols()),
         weights_(points.cols()),
-        potential_(control_points.cols(), points.cols()),
-        open_(points.cols()) {
-    for (Index a = 0; a < static_cast<Index>(points.cols()); ++a) {
+        moments_(energy.metric.factor.rows(), points.cols()),
+        open_(points.cols()),
+        workspaces_(omp_get_max_threads()) {
+    const auto num_points = static_cast<Index>(points.cols());
+    for (Index a = 0; a < num_points; ++a) {
       stiffness_[a] = energy.pin * graph.mass(a);
       for (const auto& neighbour : graph_.neighbours_of(a)) stiffness_[a] += neighbour.weight;
     }
+    rest_ = SparseWeights::of(given.num_control_points(), num_points, [&](Index a) {
+      Eigen::VectorXd rest = given.at(a);
+      for (const auto& [b, weight] : graph_.neighbours_of(a)) {
+        const double share = weight / stiffness_[a];
+        given_.visit(b, [&](Index i, double value) { rest[i] -= share * value; });
+      }
+      return rest;
+    });
+    rest_moments_.resize(moments_.rows(), moments_.cols());
+    parallel_for(num_points, [&](Index a) {
+      rest_moments_.col(a).setZero();
+      rest_.visit(a, [&](Index i, double value) {
+        rest_moments_.col(a) += value * energy_.metric.factor.col(i);
+      });
+    });
   }
 
   // Starts with one influence more than allowed, which lets neighbors agree on which one to drop:
-  // the first visit of a point removes the excess.
+  // the first visit of a point removes the excess. The points of the first color choose their
+  // influences, and the others get those of a neighbor.
   void start() {
     const auto num_points = static_cast<Index>(points_.cols());
     LoopProgress progress(num_points);
     const auto make_work = [&] {
       return typename PointSparsifier<Dim>::Workspace(control_points_);
     };
-    parallel_for_chunks(num_points, 64, make_work, [&](Index a, auto& work) {
-      progress.add(1);
-      const Eigen::VectorXd given = given_.at(a), projected = projected_.at(a);
-      // On the cage, weights are those of the facet.
-      fixed_[a] = given == projected && (given.array() != 0).count() <= Dim;
-      const auto more = sparsifier_.with_one_more(points_.col(a), given, projected, work);
-      gather(more, weights_[a]);
-      potential_.col(a).setZero();
-      const Eigen::VectorXd difference = more - given;
-      for (Eigen::Index i = 0; i < difference.size(); ++i) {
-        if (difference[i] != 0) potential_.col(a) += difference[i] * energy_.metric.col(i);
-      }
-    });
+    std::vector<char> started(num_points), changed(num_points);
+    for (const auto& color : graph_.colors()) {
+      const auto begin = [&](Index k, auto& work) {
+        const Index point = color[k];
+        progress.add(1);
+        changed[point] = start_like_neighbor(point, started, work) || start_alone(point, work);
+        moments_.col(point) = moments_of(weights_[point]);
+      };
+      parallel_for_chunks(static_cast<Index>(color.size()), 64, make_work, begin);
+      for (const Index point : color) started[point] = true;
+    }
     // If all differences are 0 there is nothing to gain, but influences may have to be removed.
     std::fill(open_.begin(), open_.end(), false);
     for (Index a = 0; a < num_points; ++a) {
       if (static_cast<Index>(weights_[a].support.size()) > options_.max_influences) open_[a] = true;
-      if (potential_.col(a).isZero(0)) continue;
+      if (!changed[a]) continue;
       open_[a] = true;
       for (const auto& neighbour : graph_.neighbours_of(a)) open_[neighbour.point] = true;
     }
@@ -124,7 +141,7 @@ class PoissonDescent {
   // Adopting the supports of neighbors gives most of the gain and costs little, so exchanges with
   // other control points come last.
   void run() {
-    constexpr int kAdoptions = 12, kExchanges = 4;
+    constexpr int kAdoptions = 7, kExchanges = 3;
     constexpr double kAdopted = 0.6;  // share of the time
     {
       const StagePart part(0, kAdopted);
@@ -153,9 +170,51 @@ class PoissonDescent {
   }
 
  private:
+  struct Workspace {
+    Workspace(const Eigen::MatrixXd& metric, const PointList<Dim>& control_points)
+        : selection(Metric(metric), control_points),
+          target(Eigen::VectorXd::Zero(control_points.cols())) {}
+    SupportSelection<Dim> selection;
+    PointWeights best;
+    std::vector<Index> may_enter;
+    std::vector<const std::vector<Index>*> supports;
+    Eigen::VectorXd target;          // t, n; zero between visits
+    Eigen::VectorXd target_moments;  // F t
+  };
+
   bool has_neighbours(Index point) const {
     const auto neighbours = graph_.neighbours_of(point);
     return neighbours.begin() != neighbours.end();
+  }
+
+  // \return whether the weights are not those given
+  bool start_alone(Index point, typename PointSparsifier<Dim>::Workspace& work) {
+    const Eigen::VectorXd given = given_.at(point), projected = projected_.at(point);
+    // On the cage, weights are those of the facet.
+    fixed_[point] = given == projected && (given.array() != 0).count() <= Dim;
+    const auto more = sparsifier_.with_one_more(points_.col(point), given, projected, work);
+    gather(more, weights_[point]);
+    return more != given;
+  }
+
+  // Takes the best support of the neighbors that have started, as with_one_more() would choose one.
+  // \return false if there is none, or no need
+  bool start_like_neighbor(Index point, const std::vector<char>& started,
+                           typename PointSparsifier<Dim>::Workspace& work) {
+    if (options_.threshold > 0 || projected_.count(point) <= options_.max_influences) return false;
+    auto& qp = work.selection.qp();
+    auto& pull = qp.aim_at(points_.col(point));
+    pull.setZero();
+    given_.visit(point, [&](Index i, double weight) { pull[i] = weight; });
+    PointWeights& best = weights_[point];
+    best.cost = std::numeric_limits<double>::infinity();
+    for (const auto& neighbour : graph_.neighbours_of(point)) {
+      if (!started[neighbour.point]) continue;
+      const auto& support = weights_[neighbour.point].support;
+      if (support == best.support || !qp.solve(support, best.cost, work.best)) continue;
+      if (work.best.cost < best.cost) std::swap(best, work.best);
+    }
+    return !best.support.empty();
   }
 
   // The weights that sparsify() gives a point.
@@ -164,20 +223,22 @@ class PoissonDescent {
     return sparsifier_.sparsify(points_.col(point), given_.at(point), projected, work);
   }
 
-  // The energy of the weights, d . (s P - sum k P_b) summed over the points, where P = H d.
+  // The energy of the weights, s d . H (w - t) summed over the points.
   double energy() const {
-    const auto force = [&](Index a, Index i) {
-      double sum = stiffness_[a] * potential_(i, a);
-      for (const auto& [b, weight] : graph_.neighbours_of(a)) sum -= weight * potential_(i, b);
-      return sum;
-    };
     return parallel_sum<double>(static_cast<Index>(points_.cols()), 0, [&](Index begin, Index end) {
+      Workspace& work = *workspace();
       double sum = 0;
       for (Index a = begin; a < end; ++a) {
         if (!has_neighbours(a)) continue;
-        given_.visit(a, [&](Index i, double weight) { sum -= weight * force(a, i); });
+        find_target(a, work);
         const auto& [support, values, cost] = weights_[a];
-        for (std::size_t k = 0; k < support.size(); ++k) sum += values[k] * force(a, support[k]);
+        for (std::size_t k = 0; k < support.size(); ++k) work.target[support[k]] -= values[k];
+        work.target_moments -= moments_.col(a);
+        const auto force = [&](Index i) { return -stiffness_[a] * pull(i, work); };
+        given_.visit(a, [&](Index i, double weight) { sum -= weight * force(i); });
+        for (std::size_t k = 0; k < support.size(); ++k) sum += values[k] * force(support[k]);
+        clear_target(a, work);
+        for (const Index i : support) work.target[i] = 0;
       }
       return sum;
     });
@@ -196,28 +257,26 @@ class PoissonDescent {
     }
   }
 
-  struct Workspace {
-    Workspace(const Eigen::MatrixXd& metric, const PointList<Dim>& control_points)
-        : selection(Metric(metric), control_points) {}
-    SupportSelection<Dim> selection;
-    PointWeights best;
-    std::vector<bool> may_enter;
-    std::vector<const std::vector<Index>*> supports;
-  };
+  // That of the thread, which keeps the factors of its supports.
+  Workspace* workspace() const {
+    auto& work = workspaces_[omp_get_thread_num()];
+    if (!work) work = std::make_unique<Workspace>(energy_.metric.matrix, control_points_);
+    return work.get();
+  }
 
   // Processes color by color. Points of one color are independent, so order and threads have no
   // effect.
   bool sweep() {
     std::atomic<bool> changes{false};
     LoopProgress progress(static_cast<Index>(points_.cols()));
-    const auto make_work = [&] { return Workspace(energy_.metric, control_points_); };
+    const auto make_work = [&] { return workspace(); };
     for (const auto& color : graph_.colors()) {
-      const auto visit = [&](Index k, Workspace& work) {
+      const auto visit = [&](Index k, Workspace* work) {
         const Index point = color[k];
         progress.add(1);
         if (!open_[point] || fixed_[point]) return;
         open_[point] = false;
-        if (!improve(point, work)) return;
+        if (!improve(point, *work)) return;
         changes = true;
         for (const auto& neighbour : graph_.neighbours_of(point)) open_[neighbour.point] = true;
       };
@@ -230,48 +289,86 @@ class PoissonDescent {
   bool improve(Index point, Workspace& work) {
     const double least = std::max(kInvisible, least_gain_ / stiffness_[point]);
     const Index most = options_.max_influences;
+    if (exchanges_ || options_.threshold > 0) find_allowed(point, work.may_enter);
+    find_supports_around(point, work);
     aim(point, work);
     const PointWeights& before = weights_[point];
     const bool too_many = static_cast<Index>(before.support.size()) > most;
     const double cost = work.selection.qp().cost_of(before);
     PointWeights& best = work.best;
     best = before;
+    best.cost = cost;
     work.selection.qp().descend(best);
-    if (!work.selection.reduce(most, std::numeric_limits<double>::infinity(), best)) {
+    if (work.selection.reduce(most, std::numeric_limits<double>::infinity(), best)) {
+      for (const auto* support : work.supports) work.selection.adopt(*support, least, best);
+      if (exchanges_) work.selection.exchange(most, least, work.may_enter, best);
+    } else {
       gather(alone(point, projected_.at(point)), best);
-      best.cost = work.selection.qp().cost_of(best);
     }
-    if (exchanges_ || options_.threshold > 0) find_allowed(point, work.may_enter);
-    find_supports_around(point, work);
-    for (const auto* support : work.supports) work.selection.adopt(*support, least, best);
-    if (exchanges_) work.selection.exchange(most, least, work.may_enter, best);
     if (!too_many) {
       if (!(best.cost < cost - least)) return false;
-      overshoot(before, best);
+      if (!exchanges_) overshoot(before, best);
     }
-    update(point, best);
+    weights_[point] = best;
+    moments_.col(point) = moments_of(best);
     return true;
   }
 
   // For fixed neighbors b, the energy is s (w - t) . H (w - t) and a constant, with the stiffness s
-  // = pin m_a + sum_b k_ab and t = given + sum_b k_ab d_b / s.
+  // = pin m_a + sum_b k_ab and t = given_a + sum_b k_ab (w_b - given_b) / s.
   void aim(Index point, Workspace& work) const {
-    Eigen::VectorXd& pull = work.selection.qp().aim_at(points_.col(point));
-    pull = -potential_.col(point);
-    const PointWeights& weights = weights_[point];
-    for (std::size_t k = 0; k < weights.support.size(); ++k) {
-      pull += weights.values[k] * energy_.metric.col(weights.support[k]);
-    }
+    find_target(point, work);
+    Eigen::VectorXd& pulls = work.selection.qp().aim_at(points_.col(point));
+    const auto fill = [&](const std::vector<Index>& some) {
+      for (const Index i : some) pulls[i] = pull(i, work);
+    };
+    fill(weights_[point].support);
+    for (const auto* support : work.supports) fill(*support);
+    if (exchanges_) fill(work.may_enter);
+    clear_target(point, work);
+  }
+
+  void find_target(Index point, Workspace& work) const {
+    rest_.visit(point, [&](Index i, double value) { work.target[i] = value; });
+    work.target_moments = rest_moments_.col(point);
     for (const auto& [neighbour, weight] : graph_.neighbours_of(point)) {
-      pull += weight / stiffness_[point] * potential_.col(neighbour);
+      const double share = weight / stiffness_[point];
+      const auto& [support, values, cost] = weights_[neighbour];
+      for (std::size_t k = 0; k < support.size(); ++k) work.target[support[k]] += share * values[k];
+      work.target_moments += share * moments_.col(neighbour);
     }
   }
 
-  void find_allowed(Index point, std::vector<bool>& may_enter) const {
+  void clear_target(Index point, Workspace& work) const {
+    rest_.visit(point, [&](Index i, double) { work.target[i] = 0; });
+    for (const auto& neighbour : graph_.neighbours_of(point)) {
+      for (const Index i : weights_[neighbour.point].support) work.target[i] = 0;
+    }
+  }
+
+  // An entry of H t = a t + F^T F t.
+  double pull(Index i, const Workspace& work) const {
+    return energy_.metric.identity * work.target[i] +
+           energy_.metric.factor.col(i).dot(work.target_moments);
+  }
+
+  // F w.
+  Eigen::VectorXd moments_of(const PointWeights& weights) const {
+    Eigen::VectorXd moments = Eigen::VectorXd::Zero(moments_.rows());
+    for (std::size_t k = 0; k < weights.support.size(); ++k) {
+      moments += weights.values[k] * energy_.metric.factor.col(weights.support[k]);
+    }
+    return moments;
+  }
+
+  void find_allowed(Index point, std::vector<Index>& may_enter) const {
     const double least = std::max(options_.threshold, kLeastInfluence);
-    may_enter.assign(control_points_.cols(), false);
-    given_.visit(point, [&](Index i, double weight) { may_enter[i] = weight >= least; });
-    for (const Index i : weights_[point].support) may_enter[i] = true;
+    may_enter = weights_[point].support;
+    given_.visit(point, [&](Index i, double weight) {
+      if (weight >= least) may_enter.push_back(i);
+    });
+    std::sort(may_enter.begin(), may_enter.end());
+    may_enter.erase(std::unique(may_enter.begin(), may_enter.end()), may_enter.end());
   }
 
   // The support of a neighbor often works here too, and then there is no seam between them.
@@ -283,23 +380,14 @@ class PoissonDescent {
       const auto& support = weights_[neighbour.point].support;
       // A point without weights does not move; see project_non_negative().
       if (support.empty() || static_cast<Index>(support.size()) > options_.max_influences) continue;
-      const auto may_enter = [&](Index i) { return work.may_enter[i]; };
-      if (options_.threshold > 0 && !std::all_of(support.begin(), support.end(), may_enter))
+      const auto& may_enter = work.may_enter;
+      if (options_.threshold > 0 &&
+          !std::includes(may_enter.begin(), may_enter.end(), support.begin(), support.end())) {
         continue;
+      }
       const auto is_same = [&](const std::vector<Index>* other) { return *other == support; };
       if (std::none_of(supports.begin(), supports.end(), is_same)) supports.push_back(&support);
     }
-  }
-
-  void update(Index point, const PointWeights& weights) {
-    const auto add = [&](const PointWeights& any, double sign) {
-      for (std::size_t k = 0; k < any.support.size(); ++k) {
-        potential_.col(point) += sign * any.values[k] * energy_.metric.col(any.support[k]);
-      }
-    };
-    add(weights_[point], -1);
-    add(weights, 1);
-    weights_[point] = weights;
   }
 
   const PoissonEnergy& energy_;
@@ -313,10 +401,13 @@ class PoissonDescent {
   std::vector<double> stiffness_;  // per point: the sum of k_ab and pin m_a
   std::vector<char> fixed_;
   std::vector<PointWeights> weights_;
-  Eigen::MatrixXd potential_;            // n x P: H (w - given)
+  SparseWeights rest_;                   // per point: given_a - sum_b k_ab given_b / s
+  Eigen::MatrixXd rest_moments_;         // r x P: F times these
+  Eigen::MatrixXd moments_;              // r x P: F w
   std::vector<std::atomic<bool>> open_;  // per point: whether it may gain
-  double least_gain_ = 0;                // of a change of one point
-  bool exchanges_ = false;               // whether influences may enter that no neighbor has
+  mutable std::vector<std::unique_ptr<Workspace>> workspaces_;  // per thread
+  double least_gain_ = 0;                                       // of a change of one point
+  bool exchanges_ = false;  // whether influences may enter that no neighbor has
 };
 
 }  // namespace
@@ -347,13 +438,6 @@ SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const Poin
                            [&](Index a) { return descent.weights_of(a); });
 }
 
-bool suits_poisson(const EdgeList& edges, Eigen::Index num_control_points,
-                   Eigen::Index num_points) {
-  constexpr double kMostNumbers = 2.5e8;
-  const double numbers = static_cast<double>(num_control_points) * static_cast<double>(num_points);
-  return !edges.ends.empty() && numbers <= kMostNumbers;
-}
-
 template <int Dim>
 SparseWeights reduce_influences(const PointList<Dim>& control_points, const PointList<Dim>& points,
                                 const EdgeList& edges, const SparseWeights& weights,
@@ -364,7 +448,7 @@ SparseWeights reduce_influences(const PointList<Dim>& control_points, const Poin
   for (std::size_t p = 1; p < starts.size(); ++p) {
     has_few = has_few && starts[p] - starts[p - 1] <= options.max_influences;
   }
-  if (has_few || !suits_poisson(edges, control_points.cols(), points.cols())) {
+  if (has_few || edges.ends.empty()) {
     return sparsify(control_points, points, weights, options);
   }
   return reduce_by_poisson(control_points, points, edges, weights, poses, options);
@@ -378,7 +462,7 @@ double poisson_cost(const PointList<Dim>& control_points, const PointList<Dim>& 
   check_size(after, control_points.cols(), points.cols());
   validate(edges, points.cols());
   return evaluate<Dim>(make_poisson_energy<Dim>(control_points, points, edges, poses), points,
-                       edges, before.dense(), after.dense());
+                       edges, before, after);
 }
 
 FLBC_INSTANTIATE_FUNCTION(reduce_by_poisson)
