@@ -398,9 +398,10 @@ void add_deform_command(CLI::App& app, int&) {
       "--pose", a.cages, "deformed cage: one or more files, or a pattern such as pose_%d.obj");
   command->add_option("--keyframes", a.keyframes, "poses as displacements of the rest cage")
       ->excludes(pose);
-  command->add_option("--rest", a.rest,
-                      "rest cage, to check that the weights belong to MODEL, and to move vertices "
-                      "outside of it (weights by --outside nearest)");
+  command->add_option(
+      "--rest", a.rest,
+      "rest cage, to check that the weights belong to MODEL; also needed to move vertices "
+      "outside of it (weights by --outside nearest)");
   auto* relative = command->add_flag(
       "--relative", a.is_relative,
       "add weighted displacements to MODEL, for weights that do not reproduce it (method bbw)");

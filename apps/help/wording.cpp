@@ -24,7 +24,7 @@ constexpr Wording kWordings[] = {
     {"are not negative, so non_negative does not", "are not negative, so --non-negative does not"},
     {"which compute_coordinates() does not return; use green_coordinates() in C++",
      "so they have no file of weights; use flbc deform --method green, or flbc compare"},
-    {"cannot use non_negative as a constraint;", "cannot use --non-negative constraint;"},
+    {"non_negative constraint is for the methods", "--non-negative constraint is for the methods"},
     {"coarse_to_fine cannot be on", "--coarse-to-fine cannot be on"},
     {"linear_solver none is for", "--linear-solver none is for"},
     {"gap must be positive", "--gap must be positive"},

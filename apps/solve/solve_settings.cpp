@@ -93,8 +93,8 @@ void add_phi(CLI::App& command, SolveSettings& settings) {
   command
       .add_option_function<std::string>(
           "--phi", take,
-          "growth of the variation weighting with distance (default: square), or a file of "
-          "weightings >= 0: a row per cell of --domain and a column per control point")
+          "how far weights reach, from square (nearest) to constant (farthest) (default: square), "
+          "or a file of phi >= 0: a row per cell of --domain and a column per control point")
       ->type_name(offered);
 }
 
@@ -109,9 +109,10 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
     settings.coordinates = value_named<Coordinates>(name);
     settings.options.method = value_named<Method>(name).value_or(Method::kAuto);
   };
-  auto* method =
-      add_choice(command, "--method", methods, take,
-                 "solver method (default: auto, which is value, the weight-splitting ADMM)");
+  auto* method = add_choice(
+      command, "--method", methods, take,
+      "coordinates and solver (default: auto, which is value). Local coordinates: value, "
+      "lbc2014, gradient, paper. All others are other coordinates, for comparison");
   // Green coordinates are refused with the reason, so help does not offer them.
   const auto offered = method->get_type_name();
   method->type_name(offered.substr(0, offered.find("|green")));
@@ -119,8 +120,9 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
                      "remove kinks of the weights at the cost of more influences: 0 (none) to 0.03 "
                      "(default: 0; flbc run: 0.003)");
   command.add_option("--tolerance", options.tolerance,
-                     "target for the estimated error of the weights (default: 1e-6 for gradient, "
-                     "1e-7 for other methods)");
+                     "target for the estimated mean squared error of the weights, or for the "
+                     "residuals of paper and lbc2014 (default: 1e-6 for gradient, 1e-7 for other "
+                     "methods)");
   command.add_flag("--certify", options.certify,
                    "prove by how much the objective can exceed its minimum");
   command.add_option("--threads", options.threads, "number of threads (default: all cores)");
@@ -148,7 +150,8 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
   command.add_option(
       "--gap", options.gap,
       "certified relative gap, 0 for none; the first of --gap and --tolerance that is "
-      "met ends the iteration (default: 1e-3, or 0 if --tolerance is given)");
+      "met ends the iteration (default: 0 if --tolerance is given, otherwise 1e-3 where the "
+      "estimated error is within ten tolerances and 1e-4 elsewhere)");
   command.add_option("--max-iterations", options.max_iterations,
                      "maximum number of iterations (default: 20000)");
   command.add_option("--penalty", settings.penalty,

@@ -74,7 +74,8 @@ Json pack_weights(const SparseWeights& weights) {
     if (count > kMostInfluences) {
       throw InputError("vertex " + std::to_string(p) + " has " + std::to_string(count) +
                        " influences, but a page holds " + std::to_string(kMostInfluences) +
-                       " at most");
+                       " at most; reduce them first with flbc sparsify -k " +
+                       std::to_string(kMostInfluences));
     }
     counts.push_back(static_cast<std::uint8_t>(count));
   }

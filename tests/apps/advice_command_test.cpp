@@ -193,7 +193,7 @@ flbc solve square.obj --domain d.obj -o x.npy
 1 flbc solve square.obj $V --gap 1e-3 --non-negative off -o x.npy
 flbc solve square.obj $V --gap 1e-3 --non-negative constraint -o x.npy
 flbc solve square.obj $V --gap 1e-3 --non-negative project -o x.npy
-# ; project the weights, or choose another method
+# lbc2014 only; choose project
 1 flbc solve square.obj $V --method gradient --non-negative constraint -o x.npy
 flbc solve square.obj $V --method gradient --non-negative project -o x.npy
 flbc solve square.obj $V --method value --non-negative constraint -o x.npy

@@ -59,7 +59,7 @@ TEST_IN_2D_AND_3D(CoordinatesTest, PointsOutsideAreCountedAndNamed) {
   points.col(2)[0] = points.col(2)[1] = 1.5;  // in the hole
   points.col(3).setConstant(100);
   expect_error<InputError>([&] { locate_points(sample.mesh, points); },
-                           {"2 of 4 points are outside", "vertex 2 at (1.5, 1.5"});
+                           {"2 of 4 points are outside", "point 2 at (1.5, 1.5"});
   points.col(2).setConstant(0.5);
   points.col(3) = points.col(0).array() - 1e-8;  // as much outside as a file's rounding makes it
   EXPECT_NO_THROW(locate_points(sample.mesh, points));

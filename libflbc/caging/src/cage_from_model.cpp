@@ -194,7 +194,7 @@ class Caging {
       plane_ = {};
     }
     throw InputError("no cage with at most " + std::to_string(options_.control_points) +
-                     " control points encloses the model");
+                     " control points encloses the model; allow more control points");
   }
 
  private:
@@ -346,8 +346,11 @@ void check_input(const PointList<Dim>& points, const FacetList<Dim>& facets,
     throw InputError("vertex " + std::to_string(v) + " at " + format_point(points.col(v)) +
                      " is not finite");
   }
-  if (facets.size() > 0 && (facets.minCoeff() < 0 || facets.maxCoeff() >= points.cols())) {
-    throw InputError("a facet of the model refers to a vertex that does not exist");
+  for (Index s = 0; s < facets.cols(); ++s) {
+    if (facets.col(s).minCoeff() >= 0 && facets.col(s).maxCoeff() < points.cols()) continue;
+    throw InputError("facet " + std::to_string(s) +
+                     " of the model refers to a vertex that does not exist; there are " +
+                     std::to_string(points.cols()));
   }
   const auto defect = extent_defect<Dim>(points, "model", "vertex 0");
   if (!defect.empty()) throw InputError(defect);

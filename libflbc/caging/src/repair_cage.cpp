@@ -34,9 +34,11 @@ void check_numbers_of(const Cage<Dim>& cage) {
     if (cage.points.col(v).allFinite()) continue;
     throw InputError(describe_control_point<Dim>(cage.points, v) + " is not finite");
   }
-  if (cage.facets.size() > 0 &&
-      (cage.facets.minCoeff() < 0 || cage.facets.maxCoeff() >= cage.size())) {
-    throw InputError("a facet refers to a control point that does not exist");
+  for (Index s = 0; s < cage.facets.cols(); ++s) {
+    if (cage.facets.col(s).minCoeff() >= 0 && cage.facets.col(s).maxCoeff() < cage.size()) continue;
+    throw InputError("facet " + std::to_string(s) +
+                     " refers to a control point that does not exist; there are " +
+                     std::to_string(cage.size()));
   }
 }
 

@@ -57,7 +57,7 @@ enum class ActiveSet {
 };
 
 //! Smoothness for deforming models, the default of flbc run and openmesh::bind(): poses crease a
-//! model no more than with harmonic coordinates, for 5 % to 30 % more influences
+//! model no more than with harmonic coordinates, for 1% to 42% more influences
 //! (docs/explanation/smooth_weights.md).
 constexpr double kDeformationSmoothness = 0.003;
 
@@ -99,7 +99,7 @@ struct SolverOptions {
 
   //! Tolerance, > 0.
   //! - kValue: estimated mean squared error of the weights (equation (5) of the paper). The
-  //!   estimate uses the change of the weights per iteration. Default: 1e-7.
+  //!   estimate extrapolates how far the weights move. Default: 1e-7.
   //! - kGradient: the same, relative to the optimum without non-negativity. The estimate uses
   //!   weights recovered every 40 iterations. Default: 1e-6.
   //! - kPaper, kLbc2014: section 5 of the paper: residual norms at most N_p * tolerance and 10 *

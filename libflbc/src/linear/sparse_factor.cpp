@@ -20,7 +20,8 @@ namespace {
 
 [[noreturn]] void fail(Eigen::Index size, const char* reason) {
   throw SolverError("a linear system with " + std::to_string(size) +
-                    " unknowns cannot be factored: it is " + reason);
+                    " unknowns cannot be factored: it is " + reason +
+                    "; nearly flat cells of the mesh are the usual cause");
 }
 
 #ifdef FLBC_WITH_CHOLMOD

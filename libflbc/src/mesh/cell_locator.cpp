@@ -171,7 +171,7 @@ std::vector<Location<Dim>> locate_points(const DomainMesh<Dim>& mesh,
     const auto p = static_cast<Index>(first - places.begin());
     throw InputError(std::to_string(std::count_if(first, places.end(), outside)) + " of " +
                      std::to_string(num_points) +
-                     " points are outside the cage; the first is vertex " + std::to_string(p) +
+                     " points are outside the cage; the first is point " + std::to_string(p) +
                      " at " + format_point(points.col(p)));
   }
   return places;

@@ -106,7 +106,8 @@ Cage<3> subdivide_surface(const Cage<3>& cage, double longest, std::size_t most_
   while (subdivision.divide_long_edges(longest)) {
     if (subdivision.num_points() <= most_points) continue;
     throw InputError("the cage surface needs more than " + std::to_string(most_points) +
-                     " points for triangles with edges of at most " + format_number(longest));
+                     " points for triangles with edges of at most " + format_number(longest) +
+                     "; move control points at thin places of the cage apart");
   }
   return subdivision.surface();
 }

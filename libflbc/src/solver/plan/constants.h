@@ -127,7 +127,7 @@ constexpr int kRecoveryInterval = 40;
 constexpr std::size_t kRecoveriesJudged = 3;
 constexpr double kErrorOfResidual = 2;
 
-//! The estimate (run/error_estimate.h), as measured on 35 cages and meshes with known optima (lab
+//! The estimate (run/error_estimate.h), as measured on 46 cages and meshes with known optima (lab
 //! book).
 namespace error_estimate {
 //! The weights of an iteration are compared with the latest kept ones of at most the first of these

@@ -43,9 +43,7 @@ void validate(const SolverOptions& options) {
                          options.method == Method::kLbc2014;
   if (options.non_negative == NonNegative::kConstraint && !splitting) {
     throw OptionError(
-        "this method cannot use non_negative as a constraint; project the weights, or choose "
-        "another "
-        "method");
+        "non_negative constraint is for the methods value and lbc2014 only; choose project");
   }
   validate_gap(options);
   if (options.active_set == ActiveSet::kOn && (options.certify || options.gap.value_or(0) > 0)) {
