@@ -28,12 +28,9 @@ function assetsOf(name) {
   };
 }
 
-// JSON that may be part of a script element.
-const toScript = (value) => JSON.stringify(value).replaceAll("<", "\\u003c");
-
 function module(assets, license) {
   const text = `// ${license}\n${read("js/flbc.mjs")}`;
-  return text.replace("/*{{assets}}*/ globalThis.flbcAssets", () => JSON.stringify(assets));
+  return text.replace("/*{{assets}}*/ {}", () => JSON.stringify(assets));
 }
 
 function page(assets) {
@@ -44,11 +41,13 @@ function page(assets) {
     `${name.slice(3)}.obj`, packed(readFileSync(at(`../meshes/${name}_model.obj`)))]));
   const source = address ? `<a href="${address}">source code</a>` : "whoever gave you this page offers its source code";
   const app = read("page/app.html").replace("{{version}}", version).replace("{{source}}", source);
-  const data = `<script>\nglobalThis.flbcAssets = ${toScript(assets)};\nglobalThis.flbcSamples = ${toScript(samples)};\n</script>\n`;
+  // Base64 has no "<". It comes last, and is read after the page has been drawn.
+  const late = `<script type="application/json" id="assets">${JSON.stringify({ ...assets, samples })}</script>\n`;
   const parts = { style: read(`${view}page.css`) + read("page/app.css"), data: "null", script };
   return read(`${view}page.html`)
     .replace("<!-- SPDX-License-Identifier: BSD-3-Clause -->", `<!-- ${kLicense} -->`)
-    .replace('<script type="application/json"', () => `${app}${data}<script type="application/json"`)
+    .replace('<script type="application/json"', () => `${app}<script type="application/json"`)
+    .replace("</body>", () => `${late}</body>`)
     .replace(/\{\{(style|data|script)\}\}/g, (_, part) => parts[part]);
 }
 

@@ -8,6 +8,7 @@
 
 #include "files/load.h"
 #include "flbc/bounding_box.h"
+#include "flbc/cage_facts.h"
 #include "flbc/io/cut_polygon.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
@@ -129,6 +130,15 @@ std::vector<bool> used_vertices(const io::PolygonSoup& soup) {
   return is_used;
 }
 
+template <int Dim>
+bool only_loose_are_outside(const Cage<Dim>& cage, const PointList<Dim>& points,
+                            const io::PolygonSoup& soup) {
+  if (soup.polygons.empty()) return false;
+  const auto is_used = used_vertices(soup);
+  const auto outside = points_outside(cage, points);
+  return std::none_of(outside.begin(), outside.end(), [&](Index p) { return is_used[p]; });
+}
+
 AnyModelFacets load_model_facets(const std::string& path) {
   if (io::extension_of(path) == "png") return load_silhouette(path);
   if (io::is_splat_file(path)) {
@@ -191,6 +201,8 @@ void require_cage_writable(const std::string& path) {
   require_writable(path, Dim == 2 ? Extensions{"obj"} : Extensions{"obj", "off", "ply"});
 }
 
+template bool only_loose_are_outside(const Cage<2>&, const PointList<2>&, const io::PolygonSoup&);
+template bool only_loose_are_outside(const Cage<3>&, const PointList<3>&, const io::PolygonSoup&);
 template ModelElements<2> load_model_elements(const std::string&);
 template ModelElements<3> load_model_elements(const std::string&);
 template io::PolygonSoup to_polygons(const Cage<2>&, double);

@@ -51,6 +51,12 @@ ModelFacets<2> outline_of(const Mask& mask, const std::string& path);
 //! By vertex: whether a polygon or polyline has it.
 std::vector<bool> used_vertices(const io::PolygonSoup& soup);
 
+//! Whether all vertices of a model with faces that are outside the cage belong to none of them, so
+//! that nobody sees them.
+template <int Dim>
+bool only_loose_are_outside(const Cage<Dim>& cage, const PointList<Dim>& points,
+                            const io::PolygonSoup& soup);
+
 //! A model as its triangles and segments, and points that belong to none of them.
 //! \throws IoError, InputError
 template <int Dim>

@@ -124,18 +124,6 @@ SparseWeights weights_of_points(const Cage<Dim>& cage, const DomainMesh<Dim>& do
   return weights_at(cage, domain, of_domain, placement);
 }
 
-// Whether all vertices outside the cage belong to no face, so that nobody sees them.
-template <int Dim>
-bool only_loose_are_outside(const Cage<Dim>& cage, const PointList<Dim>& model,
-                            const std::string& path) {
-  if (!io::holds(path, {io::Content::kModel})) return false;
-  const auto soup = io::read_polygons(path);
-  if (soup.polygons.empty()) return false;
-  const auto is_used = used_vertices(soup);
-  const auto outside = points_outside(cage, model);
-  return std::none_of(outside.begin(), outside.end(), [&](Index p) { return is_used[p]; });
-}
-
 template <int Dim>
 CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
                             const SolveSettings& settings)
@@ -176,7 +164,10 @@ void CageSolver<Dim>::place_in_cage(bool quiet) {
   try {
     place();
   } catch (const InputError&) {
-    if (settings_.embed || !only_loose_are_outside(cage_, model_, settings_.model)) throw;
+    if (settings_.embed || !io::holds(settings_.model, {io::Content::kModel}) ||
+        !only_loose_are_outside(cage_, model_, io::read_polygons(settings_.model))) {
+      throw;
+    }
     outside_ = OutsidePoints::kNearest;
     place();
   }

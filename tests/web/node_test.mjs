@@ -86,6 +86,15 @@ for (const [name, dim] of [["2d/figure_model.obj", 2], ["3d/limb_model.obj", 3]]
   const [posed, moved] = ["posed.obj", "moved.obj"].map((file) => linesOf(readFileSync(join(work, file)), "v").flat());
   assert.ok(largestDifference(posed, moved) < 1e-9);
 
+  // A new worker goes on with the solution.
+  const solution = await flbc.solution();
+  const before = await flbc.weightFile();
+  await flbc.cancel();
+  await flbc.readModel("model.obj", model);
+  await flbc.readCage("cage.obj", own);
+  await flbc.setSolution(solution);
+  assert.deepEqual(await flbc.weightFile(), before);
+
   const { rest: reshaped } = await flbc.move({ points: [...rest.map((place, k) => (k === 0 ? 1.00001 * place : place))] });
   assert.equal(reshaped[0], 1.00001 * rest[0]);
   put("rig.glb", await flbc.glb({ influences: 8, poses: [[...pose]] }));

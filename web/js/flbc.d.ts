@@ -18,6 +18,15 @@ export interface Weights {
   values: Float32Array;
 }
 
+/** A mesh, and the weights of its vertices. */
+export interface Solution {
+  points: Float64Array;
+  cells: Int32Array;
+  starts: Uint32Array;
+  controlPoints: Uint32Array;
+  values: Float64Array;
+}
+
 export interface CageFacts {
   controlPoints: number;
   facets: number;
@@ -61,6 +70,10 @@ export class Flbc {
   solve(options?: { smoothness?: number; tolerance?: number; distances?: "auto" | "exact" | "interpolated";
                     precision?: "auto" | "single" | "double" }, onProgress?: OnProgress):
     Promise<{ iterations: number; objective: number; converged: boolean }>;
+  /** What makeMesh() and solve() have computed. */
+  solution(): Promise<Solution>;
+  /** In place of both, for the same model and cage: in another worker, or after cancel(). */
+  setSolution(solution: Solution): Promise<void>;
   /** Fewer influences per vertex in all that follows. */
   reduce(options: { influences: number }, onProgress?: OnProgress): Promise<{ influences: number }>;
   /** Another shape of the rest cage; the model stays. Ends after 0.25 s, if need be before it has

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A model, its cage and its weights, computed in a worker. See flbc.d.ts.
 
-// The module and the worker, which the build puts into this file or into the page.
-const assets = /*{{assets}}*/ globalThis.flbcAssets;
+// The module and the worker, which the build puts into this file.
+const assets = /*{{assets}}*/ {};
 
 export class FlbcError extends Error {
   constructor({ kind, message, controlPoints }) {
@@ -13,7 +13,9 @@ export class FlbcError extends Error {
 }
 
 export async function unpacked(base64) {
-  const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+  const binary = atob(base64);
+  const bytes = new Uint8Array(binary.length);
+  for (let k = 0; k < bytes.length; ++k) bytes[k] = binary.charCodeAt(k);
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
@@ -28,12 +30,13 @@ async function makeWorker(script) {
 
 export class Flbc {
   // \param wasm  bytes, a Response or an address of the module, where it is not inside this file
-  static async start({ wasm } = {}) {
+  // \param worker  bytes of the worker's script, likewise
+  static async start({ wasm, worker } = {}) {
     const flbc = new Flbc();
     const given = typeof wasm === "string" || wasm instanceof URL ? await fetch(wasm) : await wasm;
     const bytes = given?.arrayBuffer ? await given.arrayBuffer() : given ?? await unpacked(assets.wasm);
     flbc.compiled = await WebAssembly.compile(bytes);
-    flbc.script = new TextDecoder().decode(await unpacked(assets.worker));
+    flbc.script = new TextDecoder().decode(worker ?? await unpacked(assets.worker));
     await flbc.restart();
     return flbc;
   }
@@ -107,6 +110,9 @@ export class Flbc {
   repairCage() { return this.call("repairCage"); }
   makeMesh(options, onProgress) { return this.call("makeMesh", options, onProgress); }
   solve(options, onProgress) { return this.call("solve", options, onProgress); }
+  // Mesh and weights of its vertices, for another worker with the same model and cage.
+  solution() { return this.call("solution"); }
+  setSolution(solution) { return this.call("setSolution", solution); }
   reduce(options, onProgress) { return this.call("reduce", options, onProgress); }
   move(request) { return this.call("move", request); }
   points() { return this.call("points"); }

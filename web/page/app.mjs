@@ -37,24 +37,30 @@ class App {
   constructor() {
     this.fresh = kParts.map((id) => element(id).cloneNode(true));
     this.model = null;   // the one that is shown: name, bytes, files, picture
-    this.cage = null;    // its cage, as a file
+    this.cage = null;    // its cage, as a file: name, bytes
+    this.solution = null;
     this.sketch = new Sketch(element("sketch"), (obj) => this.open([new File([obj], "drawing.obj")]));
-    this.started = Flbc.start(globalThis.flbcAssets.wasm ? {} : { wasm: "flbc.wasm" }).then((flbc) => {
-      this.flbc = flbc;
-      this.warmUp();
-    });
+    this.started = this.start();
     this.started.catch((error) => this.fail(`This browser cannot run WebAssembly as this page needs it: ${error.message}`));
     this.bind();
     this.goTo("start");
   }
 
+  // After the page has been drawn.
+  async start() {
+    await new Promise((done) => { new PerformanceObserver(done).observe({ type: "paint", buffered: true }); });
+    const { wasm, worker, samples } = JSON.parse(element("assets").textContent);
+    element("assets").remove();
+    this.samples = samples;
+    this.flbc = await Flbc.start({ wasm: wasm ? await unpacked(wasm) : "flbc.wasm", worker: await unpacked(worker) });
+    this.warmUp();
+  }
+
   // While the visitor looks for a file, the browser compiles what it will need.
   async warmUp() {
-    this.isWarmingUp = true;
     try {
-      await this.flbc.warmUp("limb.obj", await unpacked(globalThis.flbcSamples["limb.obj"]));
+      await this.flbc.warmUp("limb.obj", await unpacked(this.samples["limb.obj"]));
     } catch { /* a visitor was faster */ }
-    this.isWarmingUp = false;
   }
 
   goTo(screen) {
@@ -85,7 +91,6 @@ class App {
     };
     try {
       await this.started;
-      if (this.isWarmingUp) await this.flbc.cancel();
       await steps(onProgress);
       return true;
     } catch (error) {
@@ -96,24 +101,28 @@ class App {
 
   // From a cage to the view.
   async solve(onProgress) {
+    await this.renew();
     const mesh = await this.flbc.makeMesh({ vertices: kVertices }, onProgress);
     if (mesh.seconds > 4) element("remaining").textContent = `solving takes about ${Math.round(mesh.seconds)} s`;
     await this.flbc.solve({}, onProgress);
     onProgress("showing the model", 0);
+    this.solution = await this.flbc.solution();
     await this.display();
+    this.prepare();
   }
 
   async open(files) {
     element("problem").hidden = true;
-    const { model: oldModel, cage, view } = this;
-    const restore = () => Object.assign(this, { model: oldModel, cage, view });
+    const { model: oldModel, cage, solution, view } = this;
+    const restore = () => Object.assign(this, { model: oldModel, cage, solution, view });
     try {
       const model = await this.modelOf([...files]);
       const isDone = await this.work(model.name, async (onProgress) => {
         onProgress("reading the model", 0);
+        await this.flbc.cancel();  // what is prepared
         await this.flbc.readModel(model.name, model.bytes, model.files);
         await this.flbc.makeCage({}, onProgress);
-        Object.assign(this, { model, cage: await this.flbc.cageFile(), view: null });
+        Object.assign(this, { model, cage: await this.cageFile(), view: null });
         await this.solve(onProgress);
       });
       if (isDone) return;
@@ -127,7 +136,8 @@ class App {
   }
 
   async openSample(name) {
-    await this.open([new File([await unpacked(globalThis.flbcSamples[name])], name)]);
+    await this.started;
+    await this.open([new File([await unpacked(this.samples[name])], name)]);
   }
 
   // What the module reads, of files that were dropped together.
@@ -150,8 +160,12 @@ class App {
     return { name: main.name, bytes: await main.arrayBuffer(), files: others, picture };
   }
 
-  // Another cage for the model. \param make  makes it
-  async remake(title, make) {
+  async cageFile() {
+    return { name: "cage.obj", bytes: await this.flbc.cageFile() };
+  }
+
+  // Another cage for the model. \param make  makes it \param file  it, where it is a file
+  async remake(title, make, file = null) {
     const before = this.cage;
     element("cageProblem").hidden = true;
     element("repair").hidden = true;
@@ -159,7 +173,7 @@ class App {
       const isDone = await this.work(title, async (onProgress) => {
         await this.prepared;
         await make(onProgress);
-        this.cage = await this.flbc.cageFile();
+        this.cage = file ?? await this.cageFile();
         await this.solve(onProgress);
       });
       if (isDone) return;
@@ -186,15 +200,17 @@ class App {
     element("cageProblem").hidden = false;
   }
 
+  // A new worker with the model and its cage. The memory of the old one has grown, and never shrinks.
+  async renew() {
+    const { model, cage, flbc } = this;
+    await flbc.cancel();
+    await flbc.readModel(model.name, model.bytes, model.files);
+    await flbc.readCage(cage.name, cage.bytes);
+  }
+
   // Brings a new worker to where the last one was.
   prepare() {
-    const { model, cage, flbc } = this;
-    this.prepared = (async () => {
-      await flbc.readModel(model.name, model.bytes, model.files);
-      await flbc.readCage("cage.obj", cage);
-      await flbc.makeMesh({ vertices: kVertices });
-      await flbc.solve();
-    })();
+    this.prepared = this.renew().then(() => this.flbc.setSolution(this.solution));
     this.prepared.catch(() => {});
   }
 
@@ -244,6 +260,10 @@ class App {
     });
     reshaper.onRefusal = tell;
     bindReshaping(reshaper);
+    // While the visitor takes aim, a new worker sets up its solver.
+    element("reshape").addEventListener("click", () => {
+      if (reshaper.isOn) this.flbc.move({ refine: true }).catch(() => {});
+    });
     this.weights = { local: this.view.deformer.weights };
     this.showsHarmonic = false;
     const { onState } = this.view;
@@ -324,7 +344,8 @@ class App {
   async takeCage(file) {
     if (!file) return;
     const bytes = await file.arrayBuffer();
-    await this.remake(`The cage ${file.name}`, () => this.flbc.readCage(file.name, bytes));
+    const cage = { name: file.name, bytes };
+    await this.remake(`The cage ${file.name}`, () => this.flbc.readCage(cage.name, cage.bytes), cage);
   }
 
   // More or fewer control points, of those that are selected.

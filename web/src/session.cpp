@@ -59,6 +59,29 @@ val weight_arrays(const SparseWeights& weights) {
   return result;
 }
 
+// In double precision, for a session that goes on with them.
+template <int Dim>
+val solution_arrays(const Work<Dim>& work) {
+  const auto& weights = work.weights_of_mesh();
+  const std::vector<std::uint32_t> starts(weights.starts().begin(), weights.starts().end());
+  auto result = val::object();
+  result.set("points", matrix_array(work.mesh().points));
+  result.set("cells", matrix_array(work.mesh().cells));
+  result.set("starts", array_of(starts.data(), starts.size()));
+  result.set("controlPoints", array_of(weights.control_points().data(), weights.values().size()));
+  result.set("values", array_of(weights.values().data(), weights.values().size()));
+  return result;
+}
+
+SparseWeights weights_in(const val& arrays, Index num_control_points) {
+  using emscripten::convertJSArrayToNumberVector;
+  const auto starts = convertJSArrayToNumberVector<std::uint32_t>(arrays["starts"]);
+  return {num_control_points,
+          {starts.begin(), starts.end()},
+          convertJSArrayToNumberVector<std::uint32_t>(arrays["controlPoints"]),
+          convertJSArrayToNumberVector<double>(arrays["values"])};
+}
+
 io::Model model_of_triangles(const val& points, const val& triangles) {
   const auto places = matrix_in<PointList<3>>(points);
   const auto corners = matrix_in<FacetList<3>>(triangles);
@@ -105,6 +128,11 @@ val call_work(Work<Dim>& work, const std::string& name, const val& given, const 
     work.set_cage({pose(), matrix_in<FacetList<Dim>>(given["facets"])});
   } else if (name == "setMesh") {
     work.set_mesh({pose(), matrix_in<CellList<Dim>>(given["cells"])});
+  } else if (name == "setSolution") {
+    work.set_solution({pose(), matrix_in<CellList<Dim>>(given["cells"])},
+                      weights_in(given, work.cage().size()));
+  } else if (name == "solution") {
+    return solution_arrays(work);
   } else if (name == "makeMesh") {
     return json(work.make_mesh(options(), report));
   } else if (name == "solve") {

@@ -244,19 +244,15 @@ void Work<Dim>::set_mesh(DomainMesh<Dim> mesh) {
   mesher_ = app::Mesher::kAuto;
 }
 
-// Refuses vertices outside, which are all right only if no face has them. What a picture shows is
-// inside, but not all corners of its grid are.
+// Refuses vertices of faces outside. What a picture shows is inside, but not all corners of its
+// grid are.
 template <int Dim>
 void Work<Dim>::place_in_cage() {
   outside_ = is_picture(name_) ? OutsidePoints::kNearest : OutsidePoints::kFail;
   try {
     place_points(cage_, points_, outside_);
   } catch (const InputError& error) {
-    const bool has_faces = file_ && !file_->model()->soup.polygons.empty();
-    const auto is_used = has_faces ? app::used_vertices(file_->model()->soup)
-                                   : std::vector<bool>(points_.cols(), true);
-    const auto outside = points_outside(cage_, points_);
-    if (std::any_of(outside.begin(), outside.end(), [&](Index p) { return is_used[p]; })) {
+    if (!file_ || !app::only_loose_are_outside(cage_, points_, file_->model()->soup)) {
       const std::string message = error.what();  // with advice for users of the library
       throw InputError(name_ + ": " + message.substr(0, message.find("; choose")) +
                        "; enlarge the cage, or make one around the model");
@@ -266,8 +262,8 @@ void Work<Dim>::place_in_cage() {
 }
 
 template <int Dim>
-void Work<Dim>::update_weights(const Solution& solution) {
-  of_mesh_ = solution.weights;
+void Work<Dim>::update_weights(const SparseWeights& of_mesh) {
+  of_mesh_ = of_mesh;
   placement_ = place_points(cage_, mesh_, points_, outside_);
   weights_ = weights_at(cage_, mesh_, of_mesh_, placement_);
 }
@@ -295,19 +291,33 @@ Json Work<Dim>::solve(const Json& options, const Report& report) {
   };
   if (cage_parts(cage_).size() > 1) {
     const auto solution = flbc::solve(cage_, mesh_, solver, mesher, observer);
-    update_weights(solution);
+    update_weights(solution.weights);
     return facts(solution.report);
   }
   solver_ = std::make_unique<Solver<Dim>>(cage_, mesh_, solver, mesher);
   const auto& solution = solver_->solve({}, observer);
   report("computing weights of the model", 0);
-  update_weights(solution);
+  update_weights(solution.weights);
   return facts(solution.report);
 }
 
 template <int Dim>
+void Work<Dim>::set_solution(DomainMesh<Dim> mesh, const SparseWeights& weights) {
+  place_in_cage();
+  set_mesh(std::move(mesh));
+  update_weights(weights);
+}
+
+template <int Dim>
 Json Work<Dim>::move(const Json& request) {
-  if (!solver_) throw InputError("a cage with several parts cannot be reshaped");
+  if (cage_parts(cage_).size() > 1) {
+    throw InputError("a cage with several parts cannot be reshaped");
+  }
+  if (!solver_) {
+    solver_ = std::make_unique<Solver<Dim>>(cage_, mesh_, solver_options({}),
+                                            app::coarse_mesher<Dim>(mesher_));
+    solver_->solve();
+  }
   // Long enough to converge after most moves, short enough to be interrupted.
   constexpr Budget kBudget{0, 0.25};
   const auto start = std::chrono::steady_clock::now();
@@ -325,7 +335,7 @@ Json Work<Dim>::move(const Json& request) {
     }
     cage_ = solver_->cage();
     mesh_ = solver_->mesh();
-    update_weights(solver_->solution());
+    update_weights(solver_->solution().weights);
   } catch (const Error& error) {
     if (solver_->cage().points != before)
       solver_->move(before);  // the model reached out of the cage

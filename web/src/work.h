@@ -58,6 +58,9 @@ class Work {
 
   //! \param options  "smoothness", "tolerance", "distances", "precision"
   Json solve(const Json& options, const Report& report);
+  //! In place of make_mesh() and solve(), what another session has computed for this cage.
+  //! \param weights  of the vertices of the mesh
+  void set_solution(DomainMesh<Dim> mesh, const SparseWeights& weights);
   //! The rest cage in another shape: {"points"} or {"refine"}, within a budget of time.
   Json move(const Json& request);
   //! Fewer influences in what follows. \param options  "influences"
@@ -66,6 +69,7 @@ class Work {
   const PointList<Dim>& points() const { return points_; }
   const Cage<Dim>& cage() const { return cage_; }
   const DomainMesh<Dim>& mesh() const { return mesh_; }
+  const SparseWeights& weights_of_mesh() const { return of_mesh_; }
   //! At the model's points.
   const SparseWeights& weights() const { return weights_; }
   //! The same with as few influences as a page shows; none before solve().
@@ -94,7 +98,7 @@ class Work {
   void take(io::Model model);
   Json cage_facts() const;
   void place_in_cage();
-  void update_weights(const Solution& solution);
+  void update_weights(const SparseWeights& of_mesh);
   view::PageContent<Dim> page_content(const std::string& picture) const;
 
   std::string name_;
@@ -110,7 +114,8 @@ class Work {
   app::Mesher mesher_ = app::Mesher::kAuto;
   OutsidePoints outside_ = OutsidePoints::kFail;
   Placement<Dim> placement_;
-  std::unique_ptr<Solver<Dim>> solver_;  // none: the cage has several parts
+  std::unique_ptr<Solver<Dim>>
+      solver_;  // none: the cage has several parts, or another session solved
   SparseWeights of_mesh_;
   SparseWeights weights_;  // at the model's points
 };
