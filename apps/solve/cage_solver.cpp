@@ -320,7 +320,7 @@ bool report_convergence(const SolveReport& report, const SolveSettings& settings
     const double gap = report.certificate.relative_gap;
     if (is_certified(report) && gap > kLargeGap) {
       std::cerr << "flbc: converged by the criterion of this method, but up to " << 100 * gap
-                << "% above the optimum; lower --tolerance, or use the default --method\n";
+                << "% above the optimum; lower --tolerance, or leave --tolerance and --method out\n";
     }
     return true;
   }

@@ -40,7 +40,7 @@ TEST_IN_2D_AND_3D(GapCriterionTest, RoundCagesConvergeWhereTheirToleranceIsFar) 
   without.max_iterations = 3 * solution.report.iterations;
   const auto report = solve(cage, mesh, without).report;
   EXPECT_NE(report.criterion, Criterion::kGap);
-  EXPECT_EQ(report.certificate.objective, 0);
+  EXPECT_EQ(report.certificate.objective > 0, report.criterion == Criterion::kTolerance);
   EXPECT_GT(report.iterations, solution.report.iterations);
   EXPECT_LE(solution.report.objective, (1 + 1e-3) * report.objective);
 }

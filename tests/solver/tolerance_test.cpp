@@ -49,6 +49,26 @@ void expect_promise_kept(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, int
   }
 }
 
+// A tolerance alone estimates errors, so the run that it ends says how far the objective may be off.
+TEST_IN_2D_AND_3D(ToleranceTest, WithoutSmoothnessARunEndsWithACertificate) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 12 : 4, 0.2);
+  SolverOptions options;
+  options.tolerance = 1e-5;
+  const auto plain = solve(sample.cage, sample.mesh, options).report;
+  options.certify = true;
+  const auto asked = solve(sample.cage, sample.mesh, options).report;
+  EXPECT_EQ(plain.criterion, Criterion::kTolerance);
+  EXPECT_EQ(plain.iterations, asked.iterations);
+  EXPECT_GT(plain.certificate.relative_gap, 0);
+  EXPECT_EQ(plain.certificate.relative_gap, asked.certificate.relative_gap);
+  EXPECT_EQ(plain.certificate.proof, nullptr);  // which would take memory
+  options.certify = false;
+  options.smoothness = 0.003;
+  const auto smooth = solve(sample.cage, sample.mesh, options).report;
+  EXPECT_EQ(smooth.criterion, Criterion::kTolerance);
+  EXPECT_EQ(smooth.certificate.objective, 0);  // none: the weights are unique and estimated well
+}
+
 // ---- scale --------------------------------------------------------------------------------------
 
 TEST_IN_2D_AND_3D(ToleranceTest, IsTheSameAtEveryScale) {

@@ -130,7 +130,9 @@ struct SolverOptions {
   //! Over-relaxation in (0, 2), 1 = none.
   std::optional<double> relaxation{};
 
-  //! Whether to compute a lower bound of the optimal objective.
+  //! Whether to compute a lower bound of the optimal objective, and keep its proof. A run that ends
+  //! by the gap, or by the tolerance with neither gap nor smoothness, computes the bound anyway, if
+  //! it has the duals of all pairs.
   bool certify = false;
 
   //! Number of threads, at most 1024; 0 = as many as OpenMP offers, or one if n V < 100,000.

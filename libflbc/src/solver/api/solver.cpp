@@ -98,6 +98,13 @@ Certificate certify(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run,
   return certificate;
 }
 
+// Whether the end of a run says nothing about the objective: a tolerance only estimates errors, and
+// without smoothness a small change may be far from the optimum.
+bool is_only_estimated(const plan::Settings& settings, const SolveReport& report) {
+  return report.criterion == Criterion::kTolerance && *settings.gap == 0 &&
+         *settings.smoothness == 0 && settings.non_negative != NonNegative::kOff;
+}
+
 //! Makes a solution from the weights of a run: projection, certificate, measures.
 template <int Dim>
 Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weights weights,
@@ -119,7 +126,8 @@ Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weigh
   }
   weights = {};
   report.seconds.recover += watch.lap();
-  if (settings.certify || report.criterion == Criterion::kGap) {
+  if (settings.certify || report.criterion == Criterion::kGap ||
+      is_only_estimated(settings, report)) {
     const StageScope scope(reporter.stage(Stage::kCertificate));
     const auto proof = settings.certify ? std::make_shared<Proof>() : nullptr;
     report.certificate = certify(problem, run, solution.weights.dense(), proof.get());
