@@ -126,14 +126,14 @@ class _Task:
         return Command([settings.program, *arguments], names)
 
     def bind(self, settings):
-        indices, weights, note = yield from self._solve(settings)
+        indices, weights, notes = yield from self._solve(settings)
         while any(item and item.mode == 'EDIT' for item in self._items()):
             yield None
         self._require_unchanged()
-        self._store(indices, weights, settings, note)
+        self._store(indices, weights, settings, notes)
 
     def _solve(self, settings):
-        """Returns indices and weights of all vertices, and a note for the user."""
+        """Returns indices and weights of all vertices, and a note for the user by model."""
         folder = self._folder
         solved, reduced = folder / 'solved.npy', folder / 'reduced.npy'
         quality, k = QUALITIES[settings.quality], settings.influences
@@ -145,15 +145,28 @@ class _Task:
         count = report['outside']['outside']['count']
         if count == len(self._model.points):
             raise Refusal(f'All vertices are outside the cage {self._cage_name}')
-        if count:
-            note += (f'{count} vertices are outside the cage and follow its nearest point '
-                     'at a constant offset. ')
+        notes = [note + outside for outside in self._notes_outside(solved, count)]
         if not quality.reduction:
-            return *files.largest_weights(solved, k), note
+            return *files.largest_weights(solved, k), notes
         yield self._command(settings, 'sparsify', solved, '--cage', folder / 'cage.ply',
                             '--points', folder / 'model.ply', '--reduction', quality.reduction,
                             '-k', k, '-o', reduced)
-        return *files.largest_weights(reduced, k), note
+        return *files.largest_weights(reduced, k), notes
+
+    def _notes_outside(self, solved, count):
+        """By model, a sentence on its share of the vertices outside, or nothing.
+
+        Weights reproduce vertices inside, and miss those outside, which have the weights of the
+        nearest point of the cage.
+        """
+        missed = np.linalg.norm(
+            files.weighted_sums(solved, self._cage.points) - self._model.points, axis=1)
+        is_outside = np.zeros(len(missed), bool)
+        is_outside[np.argsort(missed)[len(missed) - count:]] = True
+        ends = np.cumsum([len(part.shape.points) for part in self._parts])
+        return [f'{part.sum()} vertices are outside the cage and follow its nearest point '
+                'at a constant offset. ' if part.any() else ''
+                for part in np.split(is_outside, ends[:-1])]
 
     def _items(self):
         return [bpy.data.objects.get(name)
@@ -165,10 +178,10 @@ class _Task:
                 name = item.name if item else 'An object'
                 raise Refusal(f'{name} was changed or deleted meanwhile. Bind again')
 
-    def _store(self, indices, weights, settings, note):
+    def _store(self, indices, weights, settings, notes):
         *models, cage = self._items()
         begin = 0
-        for model, part in zip(models, self._parts):
+        for model, part, note in zip(models, self._parts, notes):
             rows = slice(begin, begin + len(part.shape.points))
             begin = rows.stop
             rest = np.einsum('vk,vkx->vx', weights[rows].astype(float),
@@ -185,12 +198,13 @@ class _Task:
 
 
 def _give_pose(cage):
-    """Edits of the cage go to a shape key, so that its rest shape remains."""
+    """Edits of the cage go to a shape key, so that its rest shape remains. A cage hides no model."""
     if cage.data.shape_keys:
         return
     cage.shape_key_add(name='Basis', from_mix=False)
     cage.shape_key_add(name=POSE, from_mix=False).value = 1
     cage.active_shape_key_index = 1
+    cage.display_type = 'WIRE'
 
 
 def problems(model):

@@ -56,3 +56,9 @@ def largest_weights(path, k):
         columns[rows, :k_there] = np.where(kept > 0, places, 0)
         weights[rows, :k_there] = kept / kept.sum(1, keepdims=True)
     return columns, weights
+
+
+def weighted_sums(path, points):
+    """Returns the sums of points (n, 3) with the rows of a weight matrix (.npy) as weights: (V, 3)."""
+    matrix = np.load(path, mmap_mode='r')
+    return np.concatenate([matrix[rows] @ points for rows in _slices(len(matrix))])

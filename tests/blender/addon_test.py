@@ -388,6 +388,23 @@ class AddonTest(unittest.TestCase):
         bpy.ops.flbc.unbind()
         self.refused(bpy.ops.flbc.bind, 'All vertices are outside the cage limb_cage')
 
+    def test_notes_are_those_of_each_model(self):
+        other = scene.load(f'{MESHES}/3d/limb_model.obj')
+        other.matrix_world = self.model.matrix_world
+        moved = base(other)
+        moved[:3] += 3
+        other.data.vertices.foreach_set('co', moved.astype(np.float32).ravel())
+        self.bind(self.model, other)
+        self.assertEqual(self.model.flbc.note, '')
+        self.assertIn('3 vertices are outside the cage', other.flbc.note)
+
+    def test_a_cage_becomes_a_wire_once(self):
+        self.bind()
+        self.assertEqual(self.cage.display_type, 'WIRE')
+        self.cage.display_type = 'SOLID'
+        self.bind()
+        self.assertEqual(self.cage.display_type, 'SOLID')
+
     def test_objects_without_volume_or_vertices(self):
         empty = scene.add('empty', [], [])
         select(empty)
