@@ -235,6 +235,11 @@ PIPELINE = [("model", "model"), ("cage of", "cage_of"), ("total, s", "total:.1f"
             ("at the same time: check", "check:.1f"), ("pictures", "pictures:.1f")]
 
 
+MESH_DEFORM = [("model", "model"),
+               *((title, lambda row, name=name: f"{row[name + '_least']}% to {row[name + '_largest']}%")
+                 for title, name in (("add-on", "addon"), ("Mesh Deform", "mesh_deform")))]
+
+
 def sparsified(row):
     return (f"{row['weights']}, {thousands(row['points'])} points, n = {row['control_points']}, "
             f"{value(row, 'influences_before'):.0f} influences before")
@@ -264,7 +269,7 @@ TABLES = {"models": lines(*MODELS), "harmonic": lines(*HARMONIC), "race": race, 
           "authors2014": lines(*AUTHORS2014),
           "speed": lines(*SPEED), "growth": curves(GROWTH, "total_seconds", "peak_mebibytes"),
           "many": lines(*MANY), "tolerance": tolerance, "smoothness": grouped(sized, *SMOOTHNESS),
-          "cages": lines(*CAGES), "pipeline": lines(*PIPELINE), "sparsify": grouped(sparsified, *SPARSIFY), "table1": lines(*TABLE1),
+          "cages": lines(*CAGES), "mesh_deform": lines(*MESH_DEFORM), "pipeline": lines(*PIPELINE), "sparsify": grouped(sparsified, *SPARSIFY), "table1": lines(*TABLE1),
           "table2": grouped(with_published, *TABLE2),
           "figure3": curves(FIGURE3, "total_seconds", "solve_mebibytes"), "figure5": time_to_error,
           "figure6": time_to_error}
