@@ -6,6 +6,7 @@ numbers, edges that cross, mean distance of points drawn from the cage to the mo
 and flbc solve. Needs NumPy.
 """
 
+import functools
 import json
 
 CONTROL_POINTS = 100
@@ -33,11 +34,8 @@ def measure_cage(context, model, folder):
     import numpy as np
     folder.mkdir(parents=True, exist_ok=True)
     cage = folder / "cage.obj"
-    made = context.run([context.flbc, "cage", model, "-o", cage,
-                        "--control-points", CONTROL_POINTS])
-    if made.status:
-        context.failed(f"{model.stem}: {made.errors}")
-        return None
+    made = context.succeed([context.flbc, "cage", model, "-o", cage,
+                            "--control-points", CONTROL_POINTS])
     points, facets = judge.read_obj(model)
     corners, cage_facets = judge.read_obj(cage)
     inside = np.abs(judge.winding_numbers(points, corners, cage_facets)) > 0.5
@@ -52,7 +50,7 @@ def measure_cage(context, model, folder):
            "distance": float(distance), "symmetric_across": symmetric,
            "processor_seconds": made.processor_seconds,
            "check": "sound" if checked.status == 0 else checked.errors}
-    return {**row, **solve(context, [cage, "--model", model], folder / "weights.npy")}
+    return [{**row, **solve(context, [cage, "--model", model], folder / "weights.npy")}]
 
 
 def models_of(context):
@@ -69,11 +67,9 @@ def models_of(context):
 
 def cages(context):
     for model in models_of(context):
-        row = measure_cage(context, model, context.out / "cages" / model.stem)
-        if row is not None:
-            yield row
+        yield model.stem, functools.partial(measure_cage, context, model, context.out / "cages" / model.stem)
 
 
-CAGES = ("flbc cage MODEL --control-points 100, judged from the files alone, then flbc check and "
-         "flbc solve; distance: mean, of points of the cage from the model, relative to its size; "
-         "processor seconds of flbc cage", cages)
+CAGES = ("Automatic cages of 100 control points, measured from the files alone, then flbc check and flbc solve; "
+         "distance: mean distance of the cage from the model, relative to the cage size; seconds: processor time "
+         "of flbc cage", cages)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures 3, 5 and 6: curves. And the bars of the race.
+"""Figures 3, 5 and 6: curves. And the times of the race.
 
     curves.py RESULTS_FOLDER PICTURES_FOLDER NAME...   draws results of these names
 """
@@ -20,14 +20,13 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 SMALLEST_ERROR = 1e-10  # below, a curve would show the references' own error
 MARKED_ERROR = 1e-5     # a line across: the error of the race
-# Bars of the race, as in the table of README.md: method, label, color.
-BARS = [("paper", "2019 gradient ADMM, as published", "#c4c4c4"),
-        ("lbc2014-tuned", "2014 splitting, penalty tuned by us", "#6e6e6e"),
-        ("value", "libflbc, default method", "#1b9e4b")]
+# Methods of the race, as in the table of README.md.
+RACE = {"paper": "2019 gradient ADMM, as published", "lbc2014-tuned": "2014 splitting, penalty tuned by us",
+        "value": "libflbc, default method"}
 
 
 plt.rcParams.update({
-    "figure.dpi": 130, "savefig.dpi": 130, "font.size": 10, "axes.titlesize": 11,
+    "font.family": ["Lato", "DejaVu Sans"], "figure.dpi": 130, "savefig.dpi": 130, "font.size": 10, "axes.titlesize": 11,
     "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
     "grid.color": "#e4e4e4", "grid.linewidth": 0.7, "axes.axisbelow": True,
     "lines.linewidth": 1.6, "lines.markersize": 5, "legend.frameon": False,
@@ -41,8 +40,9 @@ def saved(figure, path):
 
 
 def footer(figure, comments):
-    """The machine, without the line that only explains columns."""
-    figure.supxlabel("\n".join(comments[1:]), fontsize=7.5, color="#666666")
+    """The machine and the commit, without the line that only explains columns."""
+    lines = [line.split(";")[0] if line.startswith("commit ") else line for line in comments[1:]]
+    figure.supxlabel("\n".join(lines), fontsize=7.5, color="#666666")
 
 
 def scaling(rows, comments):
@@ -61,7 +61,7 @@ def scaling(rows, comments):
                                [value(row, column) for row in curve], label + what, color=color,
                                marker=marker, **look)
         top.set_title(f"{mine[0]['model']}, {mine[0]['control_points']} control points")
-        for axis, what, share in ((top, "time with set-up [s]", 0.2), (bottom, "peak memory [MiB]", 0.4)):
+        for axis, what, share in ((top, "time with setup [s]", 0.2), (bottom, "peak memory [MiB]", 0.4)):
             axis.set_ylabel(what)
             axis.set_xlabel("vertices V of the mesh")
             set_vertex_ticks(axis, vertices)
@@ -175,36 +175,39 @@ def name_end(axis, times, errors, low, label, color):
                   fontweight="bold", ha=sides[0], va=sides[1])
 
 
-def bars(rows, comments):
-    """Seconds to the error of the race, 900 x 400 pixels; no bar where a method did not reach it."""
+def times(rows, comments):
+    """Seconds to the error of the race, 900 x 400 pixels; no mark where a method did not reach it.
+    Marks and not bars, because a logarithmic axis has no zero."""
     models = results.by(rows, "model")
     figure, axis = plt.subplots(figsize=(9, 4), dpi=100, layout="constrained")
-    width = 0.8 / len(BARS)
-    for k, (method, label, color) in enumerate(BARS):
-        for place, mine in enumerate(models):
-            found = [row for row in mine if row["method"] == method and row["converged"] == "1"]
-            if not found:
+    reached = {(row["model"], row["method"]): value(row, "total_seconds") for row in rows if row["converged"] == "1"}
+    for method, _, color, marker in results.METHODS:
+        for place, model in enumerate(mine[0]["model"] for mine in models):
+            if method not in RACE or (model, method) not in reached:
                 continue
-            seconds = value(found[0], "total_seconds")
-            bar = axis.bar(place + (k - (len(BARS) - 1) / 2) * width, seconds, width, color=color,
-                           label=label if place == 0 else None)
-            axis.bar_label(bar, [f"{seconds:.2f}"], fontsize=8, padding=1, color="#333333")
+            seconds = reached[model, method]
+            axis.plot(place, seconds, marker, color=color, markersize=8, label=RACE[method] if place == 0 else None)
+            ratio = seconds / reached.get((model, "value"), math.nan)
+            text = f"{seconds:.2f} s" if method == "value" else f"{ratio:.{0 if ratio >= 10 else 1}f}\u00d7"
+            axis.annotate(text, (place, seconds), xytext=(8, 0), textcoords="offset points", color=color,
+                          fontsize=9, va="center")
     axis.set_yscale("log")
     leave_room_above(axis, 0.18)
     plain_ticks(axis.yaxis)
     axis.grid(axis="x", visible=False)
+    axis.set_xlim(-0.4, len(models) - 0.3)
     axis.set_xticks(range(len(models)), [f"{mine[0]['model']}\nn = {mine[0]['control_points']}" for mine in models])
     axis.set_ylabel("seconds (logarithmic)")
     axis.set_title("Seconds to a true mean squared error of 1e-5, setup included")
-    axis.legend(loc="upper center", ncol=len(BARS))
+    axis.legend(loc="upper center", ncol=len(RACE))
     machine = comments[1].split("; compiler")[0] if len(comments) > 1 else ""
-    figure.supxlabel(f"n: control points. Both gray methods are our implementations. {machine}.",
-                     fontsize=8, color="#666666")
+    figure.supxlabel("n: control points. \u00d7: time relative to libflbc. We implemented the 2014 and 2019 methods. "
+                     f"{machine}.", fontsize=8, color="#666666")
     return figure
 
 
 DRAWN = {"figure3": (scaling, "figure3"), "figure5": (convergence, "error_against_time"),
-         "figure6": (convergence, "error_against_time_large"), "race": (bars, "seconds_to_error")}
+         "figure6": (convergence, "error_against_time_large"), "race": (times, "seconds_to_error")}
 
 
 def draw_all(stored, folder, names=DRAWN):

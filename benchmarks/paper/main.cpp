@@ -17,10 +17,10 @@ constexpr struct {
   const char* name;
   bool (*run)(const Context&);
 } kExperiments[] = {
-    {"table1", run_table1},   {"table2", run_table2},       {"figure3", run_figure3},
-    {"figure5", run_figure5}, {"figure6", run_figure6},     {"speed", run_speed},
-    {"race", run_race},       {"many", run_many},           {"growth", run_growth},
-    {"models", run_models},   {"tolerance", run_tolerance}, {"smoothness", run_smoothness}};
+    {"table1", run_table1},   {"table2", run_table2},         {"models", run_models},
+    {"race", run_race},       {"speed", run_speed},           {"tolerance", run_tolerance},
+    {"many", run_many},       {"smoothness", run_smoothness}, {"samples", run_samples},
+    {"figure3", run_figure3}, {"figure5", run_figure5},       {"figure6", run_figure6}};
 
 bool run_all(const Context& context, const std::vector<std::string>& only) {
   std::filesystem::create_directories(context.out);
@@ -39,7 +39,8 @@ int run(int argc, char** argv) {
   Context context;
   context.threads = available_cores();
   std::vector<std::string> only;
-  std::vector<std::string> names{"cages", "sparsify"};  // accepted here and left to programs.py
+  std::vector<std::string> names{"cages", "sparsify", "pipeline",
+                                 "compare"};  // accepted here and left to programs.py
   for (const auto& experiment : kExperiments) names.emplace_back(experiment.name);
   std::vector<std::string> model_names;
   for (const auto& model : models()) model_names.push_back(model.name);
@@ -58,7 +59,7 @@ int run(int argc, char** argv) {
   app.add_option("--threads", context.threads, "number of threads (all cores)")
       ->check(CLI::Range(1, 1024));
   app.add_flag("--busy", context.busy, "say in the results that other programs ran as well");
-  app.add_option("--commit", context.commit, "of the sources, to be named in the results");
+  app.add_option("--origin", context.origin, "commit and behavior, for the results");
   CLI11_PARSE(app, argc, argv);
   return run_all(context, only) ? 0 : 1;
 }
@@ -68,6 +69,10 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    if (argc == 2 && argv[1] == std::string("--behavior")) {
+      std::puts(flbc::bench::behavior().c_str());
+      return 0;
+    }
     return flbc::bench::run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "flbc_bench_paper: %s\n", error.what());

@@ -94,31 +94,27 @@ template Cage<2> read_cage(const std::string&);
 template Cage<3> read_cage(const std::string&);
 
 std::string cage_path(const Context& context, const Model& model) {
-  return context.models + "/" + model.cage;
+  return std::filesystem::path(context.models) / model.cage;  // the latter may be absolute
 }
 
 std::string domain_path(const Model& model, const std::string& name) {
   return "meshes/" + name + (model.dim == 2 ? ".obj" : ".mesh");
 }
 
-std::optional<std::string> prepare_domain(const Context& context, const Model& model,
-                                          Index vertices) {
+void prepare_domain(const Context& context, const Model& model, const std::string& name,
+                    Index vertices) {
   static std::set<std::string> done;
-  const Index wanted = context.size(vertices);
-  const auto name = model.name + "-" + std::to_string(wanted);
-  if (done.count(name) > 0) return name;
-  const auto meshed = in_child("mesh: " + name, [&]() -> Rows {
+  if (!done.insert(name).second) return;
+  in_child("mesh: " + name, [&]() -> Rows {
     const auto write = [&](const auto& cage) {
-      io::write_domain(context.out + "/" + domain_path(model, name), mesh_of(cage, wanted));
+      io::write_domain(context.out + "/" + domain_path(model, name), mesh_of(cage, vertices));
     };
     std::filesystem::create_directories(context.out + "/meshes");
+    std::filesystem::remove(context.out + "/" + domain_path(model, name));
     const auto file = cage_path(context, model);
     std::visit(write, io::to_cage(io::read_polygons(file), file));
     return {};
   });
-  if (!meshed) return std::nullopt;
-  done.insert(name);
-  return name;
 }
 
 template <int Dim>

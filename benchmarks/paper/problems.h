@@ -90,34 +90,31 @@ struct Setting {
 //! The mesh of a setting below OUT.
 std::string domain_path(const Model& model, const std::string& name);
 
-//! Writes the mesh, once in the program's run. \return its setting's name; nothing after a message
-//! on stderr if that failed
-std::optional<std::string> prepare_domain(const Context& context, const Model& model,
-                                          Index vertices);
+//! Writes the mesh of a setting in a child process, once in a run of the program. If that fails,
+//! its cases fail as well.
+void prepare_domain(const Context& context, const Model& model, const std::string& name,
+                    Index vertices);
 
 //! Reads cage and mesh. \throws flbc::Error
 template <int Dim>
 Setting<Dim> load_setting(const Context& context, const Model& model, const std::string& name);
 
-//! Adds the rows body(setting) -> Rows, made in a child process. Nothing for a model that is not
-//! wanted. \param vertices  in a full run \param variant  for messages
-//! \return whether there was no failure
+//! Adds the rows body(setting) -> Rows of a case. Nothing for a model that is not wanted.
+//! \param vertices  in a full run \param variant  of the case
 template <class Body>
-bool add_rows(ResultTable& table, const Model& model, Index vertices, const Body& body,
+void add_rows(ResultTable& table, const Model& model, Index vertices, const Body& body,
               const std::string& variant = "") {
   const auto& context = table.context();
-  if (!context.wants(model.name)) return true;
-  const auto name = prepare_domain(context, model, vertices);
-  std::optional<Rows> rows;
-  if (name) {
-    rows = in_child(table.name() + ": " + *name + " " + variant, [&]() -> Rows {
-      omp_set_num_threads(context.threads);
-      if (model.dim == 2) return body(load_setting<2>(context, model, *name));
-      return body(load_setting<3>(context, model, *name));
-    });
-  }
-  table.add(rows);
-  return rows.has_value();
+  if (!context.wants(model.name)) return;
+  const auto name = model.name + "-" + std::to_string(context.size(vertices));
+  const auto which = variant.empty() ? name : name + " " + variant;
+  if (table.has(which)) return;
+  prepare_domain(context, model, name, context.size(vertices));
+  table.add(which, [&]() -> Rows {
+    omp_set_num_threads(context.threads);
+    if (model.dim == 2) return body(load_setting<2>(context, model, name));
+    return body(load_setting<3>(context, model, name));
+  });
 }
 
 //! An optimum of problem (1) of the paper on a mesh, non-negativity included.
@@ -157,7 +154,7 @@ inline double seconds_of(const SolveReport& report) {
   return report.seconds.setup + seconds_after_setup(report);
 }
 
-//! coarse_levels .. total_seconds. The total adds up set-up, solve, and recovery.
+//! coarse_levels .. total_seconds. The total adds up setup, solve, and recovery.
 inline void add_run(Row& row, double setup_seconds, const SolveReport& report) {
   row.add("coarse_levels", report.coarse_levels.size())
       .add("converged", report.status == SolveStatus::kConverged)

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Experiments that run flbc and other built programs, beside those of flbc_bench_paper.
+"""Experiments that run flbc, in addition to those of flbc_bench_paper.
 
-    programs.py MODELS_FOLDER OUT_FOLDER BUILD_FOLDER [--commit C] [--quick] [--busy] [--only NAME,...]
+    programs.py MODELS_FOLDER OUT_FOLDER BUILD_FOLDER [--origin O] [--quick] [--busy] [--only NAME,...]
                 [--models A,B,...] [--threads T]
 
-Arguments are those of flbc_bench_paper; names that are not of experiments here are left alone. Each
-experiment writes OUT/NAME.csv with the same comment lines as flbc_bench_paper.
+Arguments are those of flbc_bench_paper; names of its experiments are ignored here. Each experiment
+writes OUT/NAME.csv with the same comment lines, after each case, so that a run that was stopped resumes.
 """
 
 import argparse
@@ -21,9 +21,11 @@ import time
 import cages
 import pipeline
 import reductions
+import results
 
-# Name to (what it is, function of the context that yields rows as dictionaries).
+# Name to (what it is, function of the context that yields cases: a name and what makes its rows).
 EXPERIMENTS = {"cages": cages.CAGES, "sparsify": reductions.SPARSIFY, "pipeline": pipeline.PIPELINE}
+INCOMPLETE = "incomplete: some cases are missing"
 
 
 class Context:
@@ -34,16 +36,10 @@ class Context:
         self.flbc = arguments.build.resolve() / "flbc"
         self.meshes = pathlib.Path(__file__).resolve().parents[2] / "meshes"
         self.quick, self.busy, self.threads = arguments.quick, arguments.busy, arguments.threads
-        self.commit, self.only_models = arguments.commit, arguments.models
-        self.complete = True
+        self.origin, self.only_models = arguments.origin, arguments.models
 
     def wants(self, name):
         return not self.only_models or name in self.only_models
-
-    def failed(self, what):
-        """A case that failed does not keep the others from being measured."""
-        print(what, file=sys.stderr)
-        self.complete = False
 
     def run(self, words):
         """Exit status, seconds of the clock and of the processor, standard output and error."""
@@ -55,6 +51,13 @@ class Context:
         processor = (after.children_user + after.children_system -
                      before.children_user - before.children_system)
         return Done(done.returncode, time.monotonic() - start, processor, done.stdout, done.stderr.strip())
+
+    def succeed(self, words):
+        """The same for a program that has to succeed."""
+        done = self.run(words)
+        if done.status:
+            raise RuntimeError(done.errors)
+        return done
 
 
 @dataclasses.dataclass
@@ -76,28 +79,52 @@ def machine(context):
 
 
 def comments(context, about):
-    said = {"commit " + context.commit: context.commit, "busy machine: seconds are too long": context.busy,
+    said = {"busy machine: seconds are too long": context.busy,
             "quick run: small meshes, few cases": context.quick,
-            "only models that were asked for": context.only_models,
-            "incomplete: some cases failed": not context.complete}
-    return [about, machine(context)] + [comment for comment, holds in said.items() if holds]
+            "only models that were asked for": context.only_models}
+    return [about, machine(context), context.origin] + [comment for comment, holds in said.items() if holds]
 
 
 def text(cell):
     return f"{cell:.6g}" if isinstance(cell, float) else str(cell)
 
 
-def write(context, name, about, rows):
+def write(path, comments, rows):
     """Whole or not at all."""
     columns = list(dict.fromkeys(column for row in rows for column in row))
-    path = context.out / f"{name}.csv"
     part = path.with_suffix(".part")
     with part.open("w", newline="") as file:
-        file.writelines(f"# {line}\n" for line in comments(context, about))
+        file.writelines(f"# {line}\n" for line in comments)
         writer = csv.DictWriter(file, columns, restval="", lineterminator="\n")
         writer.writeheader()
         writer.writerows({column: text(cell) for column, cell in row.items()} for row in rows)
     part.replace(path)
+
+
+def measure(context, name, about, experiment):
+    """Writes OUT/NAME.csv after each case that it does not hold yet. Returns whether none failed."""
+    said = comments(context, about)
+    rows, before = results.read(context.out, name)
+    if "-dirty" in context.origin or [line for line in before if line != INCOMPLETE] != said:
+        rows = []
+    path = context.out / f"{name}.csv"
+    complete = True
+    for which, make in experiment(context):
+        if any(row["case"] == which for row in rows):
+            continue
+        try:
+            found = list(make())
+        except RuntimeError as failure:
+            print(f"{name}: {which}: {failure}", file=sys.stderr)
+            complete = False
+            continue
+        for row in found:
+            rows.append({"case": which, **row})
+            print(", ".join(text(cell) for cell in rows[-1].values()), flush=True)
+        write(path, [*said, INCOMPLETE], rows)
+    if complete and rows:
+        write(path, said, rows)
+    return complete
 
 
 def main():
@@ -105,7 +132,7 @@ def main():
     parser.add_argument("models_folder", type=pathlib.Path)
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--commit", default="")
+    parser.add_argument("--origin", default="")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--busy", action="store_true")
     parser.add_argument("--only", type=lambda words: words.split(","), default=[])
@@ -117,15 +144,8 @@ def main():
     for name, (about, experiment) in EXPERIMENTS.items():
         if arguments.only and name not in arguments.only:
             continue
-        context = Context(arguments)
         start = time.monotonic()
-        rows = []
-        for row in experiment(context):
-            print(", ".join(text(cell) for cell in row.values()), flush=True)
-            rows.append(row)
-        if rows:
-            write(context, name, about, rows)
-        complete = complete and context.complete
+        complete = measure(Context(arguments), name, about, experiment) and complete
         print(f"{name}: {time.monotonic() - start:.1f} s\n", flush=True)
     return 0 if complete else 1
 

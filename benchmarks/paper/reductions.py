@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Few influences per point by flbc sparsify, from its report."""
 
+import functools
 import json
 import pathlib
 import tempfile
@@ -66,17 +67,14 @@ def sparsify(context):
             if context.quick and title == "armadillo":
                 continue
             cage, model = folder_3d / cage, folder_3d / model
-            yield from reduce(context, title, cage, model, weights and folder_3d / weights, counts,
-                              folder)
+            yield title, functools.partial(reduce, context, title, cage, model, weights and folder_3d / weights,
+                                           counts, folder)
 
 
 def reduce(context, title, cage, model, weights, counts, folder):
     if weights is None:
         weights = folder / "weights.npy"
-        done = context.run([context.flbc, "solve", cage, "--model", model, "-o", weights, "-q"])
-        if done.status:
-            context.failed(f"{title}: {done.errors}")
-            return
+        context.succeed([context.flbc, "solve", cage, "--model", model, "-o", weights, "-q"])
     animated = []
     if cage.stem == "arm_cage":
         for path in poses(cage, cage.with_name(ANIMATION), folder):
@@ -88,15 +86,12 @@ def reduce(context, title, cage, model, weights, counts, folder):
     for k in counts[:1] if context.quick else counts:
         for method, words in runs:
             report = folder / "report.json"
-            done = context.run([context.flbc, "sparsify", weights, "--cage", cage, "--points", model,
-                                "-k", k, "--reduction", method.split(",")[0], "-o", folder / "few.mtx",
-                                "-q", "--report", report, *words])
-            if done.status:
-                context.failed(f"{title}, {k}, {method}: {done.errors}")
-                continue
+            context.succeed([context.flbc, "sparsify", weights, "--cage", cage, "--points", model,
+                             "-k", k, "--reduction", method.split(",")[0], "-o", folder / "few.mtx",
+                             "-q", "--report", report, *words])
             yield row_of(title, method, k, json.loads(report.read_text()))
 
 
-SPARSIFY = ("flbc sparsify: rms and largest errors over 20 poses with independent random displacements of "
-            "the control points by a tenth of the cage and over 20 smooth ones; of edges' differences "
-            "relative to their lengths, of positions relative to the model's size", sparsify)
+SPARSIFY = ("flbc sparsify: root mean square and largest errors over 20 poses with independent random displacements "
+            "of a tenth of the cage size and over 20 poses with smooth ones; edges: change of edge vectors relative "
+            "to edge lengths; positions: relative to the model size", sparsify)

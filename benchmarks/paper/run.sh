@@ -11,19 +11,9 @@ fi
 models=$1
 out=$(realpath -m -- "$2")
 shift 2
-note=
 if [[ $models == samples ]]; then
-  # Without the papers' cages the samples stand in, under their names.
-  meshes=$(realpath -- "$(dirname "$0")/../../meshes")
-  models=$out/samples
-  mkdir -p "$models/2d" "$models/3d"
-  for pair in 2d/figure=woody-control-edgeset 2d/letter=LBClogo-control-edgeset 2d/ring=cactus-control-edgeset \
-    3d/limb=horse_cage 3d/star=armadillo_cage 3d/torus=shark_cage 3d/knot=beast_cage; do
-    sample=${pair%=*} name=${pair#*=}
-    ln -sf "$meshes/${sample}_cage.obj" "$models/${sample%/*}/$name.obj"
-    echo "run.sh: the sample $sample stands in for $name" >&2
-  done
-  note=", samples in place of the papers' cages"
+  models=$(dirname "$0")/../../meshes
+  set -- --only samples "$@"
 fi
 models=$(realpath -- "$models")
 cd "$(dirname "$0")/../.."
@@ -37,9 +27,10 @@ cmake --build --preset release --target flbc_bench_paper flbc_app
 
 # A case that failed must not keep the others from being drawn.
 status=0
-commit=$(git describe --always --dirty 2>/dev/null || echo unknown)$note
-build/release/benchmarks/flbc_bench_paper "$models" "$out" --commit "$commit" "$@" || status=$?
-/usr/bin/python3 -B benchmarks/paper/programs.py "$models" "$out" build/release --commit "$commit" "$@" || status=$?
+bench=build/release/benchmarks/flbc_bench_paper
+origin="commit $(git describe --always --dirty 2>/dev/null || echo unknown-dirty); $($bench --behavior)"
+$bench "$models" "$out" --origin "$origin" "$@" || status=$?
+/usr/bin/python3 -B benchmarks/paper/programs.py "$models" "$out" build/release --origin "$origin" "$@" || status=$?
 [[ -d $out ]] || exit "$status"
 /usr/bin/python3 -B benchmarks/paper/plots.py "$out" || status=$?
 exit "$status"

@@ -12,12 +12,9 @@
 namespace flbc::bench {
 namespace {
 
-struct Way {
-  std::optional<double> tolerance;
-  int repetitions;               // the fastest counts
-  bool with_harmonic;            // next to harmonic coordinates on the same mesh
-  Index largest_with_error = 0;  // vertices up to which the true error is measured
-};
+constexpr int kRepetitions = 3;            // the fastest counts
+constexpr Index kLargestRepeated = 50000;  // vertices
+constexpr Index kLargestWithHarmonic = 200000;
 
 struct Size {
   std::string model;
@@ -26,32 +23,37 @@ struct Size {
 
 template <int Dim>
 Row measure(const Context& context, const Model& model, const Cage<Dim>& cage, Index vertices,
-            const Way& way) {
+            std::optional<double> tolerance, bool with_error) {
   const Stopwatch watch;
   const auto mesh = mesh_of(cage, vertices);
   const double mesh_seconds = watch.seconds();
   SolverOptions options;
   options.threads = context.threads;
-  options.tolerance = way.tolerance;
-  const auto solution =
-      fastest(way.repetitions, [&] { return solve(cage, mesh, options, coarse_mesher<Dim>()); });
+  options.tolerance = tolerance;
+  const int repetitions = mesh.num_vertices() <= kLargestRepeated ? kRepetitions : 1;
+  double peak = 0;  // of the first run, because later ones keep an earlier solution
+  const auto solution = fastest(repetitions, [&] {
+    auto once = solve(cage, mesh, options, coarse_mesher<Dim>());
+    if (peak == 0) peak = peak_mebibytes();
+    return once;
+  });
   const auto& report = solution.report;
   auto row = mesh_row(model.name, cage, mesh).add("mesh_seconds", mesh_seconds);
   add_run(row, report.seconds.setup, report);
-  row.add("peak_mebibytes", peak_mebibytes())
+  row.add("peak_mebibytes", peak)
       .add("min_weight", report.quality.min_weight)
       .add("reproduction_error", report.quality.max_reproduction_error)
       .add("mean_influences", report.quality.mean_influences);
-  if (way.with_harmonic) {
+  if (mesh.num_vertices() <= kLargestWithHarmonic) {
     const auto compute = [&] {
       return compute_coordinates(cage, mesh, Coordinates::kHarmonic,
                                  {NonNegative::kAuto, context.threads});
     };
-    const auto harmonic = fastest(way.repetitions, compute).report;
+    const auto harmonic = fastest(repetitions, compute).report;
     row.add("harmonic_seconds", seconds_of(harmonic))
         .add("harmonic_influences", harmonic.quality.mean_influences);
   }
-  if (mesh.num_vertices() <= way.largest_with_error) {
+  if (with_error) {
     const auto name = model.name + "-" + std::to_string(vertices);
     const Setting<Dim> setting{context, model, name,
                                make_problem(cage, mesh, DistanceScheme::kSquare), 0};
@@ -60,27 +62,30 @@ Row measure(const Context& context, const Model& model, const Cage<Dim>& cage, I
   return row;
 }
 
-bool run(const Context& context, const char* name, const Way& way, const std::vector<Size>& sizes,
-         const std::string& about) {
-  ResultTable table(context, name);
+bool run(const Context& context, const char* name, std::optional<double> tolerance,
+         const std::vector<Size>& sizes, const std::string& about) {
+  ResultTable table(context, name,
+                    about + ": the least seconds of " + std::to_string(kRepetitions) +
+                        " runs, of one run on meshes of more than " +
+                        std::to_string(kLargestRepeated) +
+                        " vertices; solve includes coarse meshes; peak: memory of the process; "
+                        "influences: weights above 1e-4, mean per vertex");
   for (const auto& size : sizes) {
     if (!context.wants(size.model)) continue;
     const auto& chosen = model(size.model);
     const Index vertices = context.size(size.vertices);
-    const auto what = name + (": " + size.model) + "-" + std::to_string(vertices);
-    table.add(in_child(what, [&] {
+    const bool with_error = tolerance && vertices == context.size(chosen.paper_size);
+    table.add(size.model + "-" + std::to_string(vertices), [&] {
       omp_set_num_threads(context.threads);
       const auto file = cage_path(context, chosen);
       return std::visit(
-          [&](const auto& cage) { return Rows{measure(context, chosen, cage, vertices, way)}; },
+          [&](const auto& cage) {
+            return Rows{measure(context, chosen, cage, vertices, tolerance, with_error)};
+          },
           io::to_cage(io::read_polygons(file), file));
-    }));
+    });
   }
-  return table.write(about +
-                     ", from cage to coordinates: seconds of the stages, the least total of " +
-                     std::to_string(way.repetitions) +
-                     ", coarser meshes and making them included in solve; MiB are the most of the "
-                     "process; influences: weights above 1e-4, mean per vertex");
+  return table.finish();
 }
 
 }  // namespace
@@ -89,35 +94,22 @@ bool run_models(const Context& context) {
   std::vector<Size> sizes;
   for (const auto& model : models()) sizes.push_back({model.name, model.paper_size});
   sizes.push_back({"horse", 40000});
-  return run(context, "models", {{}, 3, true}, sizes, "value by default");
+  return run(context, "models", {}, sizes, "Default options");
 }
 
 bool run_speed(const Context& context) {
-  return run(context, "speed", {1e-5, 5, true, 30000},
+  return run(context, "speed", 1e-5,
              {{"woody", 10800},
               {"cactus", 10850},
               {"logo", 26800},
               {"horse", 5850},
               {"armadillo", 6640},
               {"woody", 100000},
-              {"horse", 40000},
-              {"horse", 180000}},
-             "value with tolerance 1e-5");
-}
-
-bool run_growth(const Context& context) {
-  return run(context, "growth", {1e-5, 1, false},
-             {{"woody", 10000},
-              {"woody", 30000},
-              {"woody", 100000},
-              {"woody", 300000},
               {"woody", 1000000},
-              {"horse", 5800},
-              {"horse", 20000},
-              {"horse", 60000},
+              {"horse", 40000},
               {"horse", 180000},
               {"horse", 440000}},
-             "value with tolerance 1e-5");
+             "Tolerance 1e-5");
 }
 
 }  // namespace flbc::bench

@@ -7,7 +7,7 @@ import results
 from results import by, cells, ratio, text, thousands, value
 
 # Tables that are made of another result than that of their own name.
-SOURCES = {"harmonic": "models", "solvers": "race"}
+SOURCES = {"harmonic": "models", "solvers": "race", "growth": "speed"}
 
 
 def source_of(name):
@@ -21,7 +21,7 @@ def markdown(folder, name):
     header, body = TABLES[name](rows)
     lines = ["| " + " | ".join(row) + " |" for row in [header, *body]]
     lines.insert(1, "|---" * len(header) + "|")
-    commit = next((c for c in comments if c.startswith("commit ")), "commit unknown")
+    commit = next((c for c in comments if c.startswith("commit ")), "commit unknown").split(";")[0]
     if any(c.startswith("busy machine") for c in comments):
         commit += "; seconds are too long: other programs ran on the machine"
     return "\n".join(lines) + f"\n\n(docs/results/{source_of(name)}.csv, {commit})\n"
@@ -67,7 +67,7 @@ def powers(rows, *columns):
 
 
 SIZE = [("model", "model"), ("n", "control_points"), ("V", "vertices:,.0f")]
-HARMONIC = [("Model", lambda row: row["model"] + (" (2D)" if row["model"] in ("logo", "woody", "cactus") else "")),
+HARMONIC = [("Model", lambda row: row["model"] + (" (2D)" if row["model"] in ("logo", "woody", "cactus", "figure", "letter", "ring") else "")),
             ("Control points", "control_points"), ("Mesh vertices", "vertices:,.0f"),
             ("Influences: local", lambda row: f"**{value(row, 'mean_influences'):.1f}**"),
             ("Influences: harmonic", "harmonic_influences:.1f"),
@@ -77,8 +77,7 @@ MODELS = [*SIZE, ("cells", "cells:,.0f"), ("iterations", iterations), ("mesh, s"
           ("harmonic, s", "harmonic_seconds:.2f"), ("MiB", "peak_mebibytes:,.0f"),
           ("influences", "mean_influences:.1f"), ("harmonic influences", "harmonic_influences:.1f"),
           ("smallest weight", "min_weight:.1e"), ("reproduction error", "reproduction_error:.1e")]
-TABLE1 = [*SIZE, ("with, s", "seconds_with:.2f"), ("without, s", "seconds_without:.2f"),
-          ("squared distance", "squared_distance:.1e"), ("(paper)", "paper_squared_distance:.1e"),
+TABLE1 = [*SIZE, ("squared distance", "squared_distance:.1e"), ("(paper)", "paper_squared_distance:.1e"),
           ("largest difference", "largest_difference:.1e"), ("min w without", "min_weight_without:.1e"),
           ("gap with", "relative_gap_with:.1e"), ("gap without, made non-negative", "relative_gap_without:.1e")]
 CAGES = [("model", lambda row: row["model"] + (", 2D" if row["dim"] == "2" else "")), ("vertices", "vertices:,.0f"),
@@ -120,6 +119,8 @@ def parts(row, form):
     return f"{setup:{form}} + {total - setup:{form}}"
 
 
+SAMPLES = [*HARMONIC, *((f"To 1e-5: {label}, s", f"to_1e-5_{name}:.2f") for name, label in (
+    ("value", "local"), ("lbc2014-tuned", "2014, tuned penalty"), ("paper", "2019")))]
 SPEED = [*SIZE, ("iterations", iterations),
          ("setup + solve = total, s", lambda row: f"{parts(row, '.3f')} = {value(row, 'total_seconds'):.3f}"),
          ("true error", "error:.1e"), ("harmonic, s", "harmonic_seconds:.3f"),
@@ -145,6 +146,12 @@ def curves(columns, *grow):
             row.append(powers(mine, *grow) if rows[k] is mine[-1] and len(mine) > 1 else "")
         return header + ["time, memory grow as V to the power"], body
     return make
+
+
+def growth(rows):
+    """The curves of the models that were measured on several meshes."""
+    several = [mine for mine in by(rows, "model") if len(mine) > 1]
+    return curves(GROWTH, "total_seconds", "peak_mebibytes")([row for mine in several for row in mine])
 
 
 def race(rows):
@@ -227,9 +234,6 @@ def animated(row):
     kinds = ("edges_animation", "positions_animation")
     return ", ".join(percent(row, kind) for kind in kinds) if row["edges_animation"] else ""
 
-
-
-
 PIPELINE = [("model", "model"), ("cage of", "cage_of"), ("total, s", "total:.1f"), ("cage", "cage:.1f"),
             ("mesh", "mesh:.1f"), ("solve", "solve:.1f"), ("reduce to 8", "sparsify:.1f"), ("export", "export:.1f"),
             ("at the same time: check", "check:.1f"), ("pictures", "pictures:.1f")]
@@ -266,10 +270,11 @@ def time_to_error(rows):
 
 
 TABLES = {"models": lines(*MODELS), "harmonic": lines(*HARMONIC), "race": race, "solvers": solvers,
-          "authors2014": lines(*AUTHORS2014),
-          "speed": lines(*SPEED), "growth": curves(GROWTH, "total_seconds", "peak_mebibytes"),
-          "many": lines(*MANY), "tolerance": tolerance, "smoothness": grouped(sized, *SMOOTHNESS),
-          "cages": lines(*CAGES), "mesh_deform": lines(*MESH_DEFORM), "pipeline": lines(*PIPELINE), "sparsify": grouped(sparsified, *SPARSIFY), "table1": lines(*TABLE1),
+          "authors2014": lines(*AUTHORS2014), "speed": lines(*SPEED), "growth": growth,
+          "mesh_deform": lines(*MESH_DEFORM), "many": lines(*MANY), "tolerance": tolerance, "smoothness": grouped(sized, *SMOOTHNESS),
+          "cages": lines(*CAGES), "pipeline": lines(*PIPELINE), "samples": lines(*SAMPLES),
+          "sparsify": grouped(sparsified, *SPARSIFY),
+          "table1": lines(*TABLE1),
           "table2": grouped(with_published, *TABLE2),
           "figure3": curves(FIGURE3, "total_seconds", "solve_mebibytes"), "figure5": time_to_error,
           "figure6": time_to_error}

@@ -81,6 +81,15 @@ double status_mebibytes(const char* name) {
   return std::strtod(proc_entry("/proc/self/status", name).c_str(), nullptr) / 1024;
 }
 
+constexpr const char* kIncomplete = "# incomplete: some cases are missing";
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream text(line);
+  for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
 // Processor, number of its cores, threads used, compiler, library version; one line, no date.
 std::string describe_machine(int threads) {
   const auto processor = proc_entry("/proc/cpuinfo", "model name");
@@ -122,23 +131,61 @@ std::optional<Rows> in_child(const std::string& what, const std::function<Rows()
   return rows_of(result.get());
 }
 
-void ResultTable::add(const std::optional<Rows>& rows) {
-  complete_ = complete_ && rows;
-  for (const auto& row : rows.value_or(Rows{})) {
-    for (const auto& [column, cell] : row.cells()) std::printf("%s,", cell.c_str());
-    std::printf("\n");
-    rows_.push_back(row);
+ResultTable::ResultTable(const Context& context, std::string name, const std::string& about)
+    : context_(context),
+      name_(std::move(name)),
+      comments_{about, describe_machine(context.threads), context.origin} {
+  if (context.busy) comments_.emplace_back("busy machine: seconds are too long");
+  if (context.quick) comments_.emplace_back("quick run: small meshes, few iterations");
+  if (!context.only_models.empty()) comments_.emplace_back("only models that were asked for");
+  if (context.origin.find("-dirty") != std::string::npos) return;
+  std::ifstream file(context.out + "/" + name_ + ".csv");
+  std::vector<std::string> comments;
+  std::vector<std::string> columns;
+  for (std::string line; std::getline(file, line);) {
+    if (line.compare(0, 2, "# ") == 0) {
+      if (line != kIncomplete) comments.push_back(line.substr(2));
+    } else if (columns.empty()) {
+      columns = cells_of(line);
+    } else {
+      const auto cells = cells_of(line);
+      Row row;
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        row.add(columns[k], k < cells.size() ? cells[k] : "");
+      }
+      rows_.push_back(std::move(row));
+    }
   }
-  std::fflush(stdout);
+  if (comments != comments_) rows_.clear();
 }
 
-bool ResultTable::write(const std::string& about) const {
-  std::vector<std::string> comments{about, describe_machine(context_.threads)};
-  if (!context_.commit.empty()) comments.push_back("commit " + context_.commit);
-  if (context_.busy) comments.push_back("busy machine: seconds are too long");
-  if (context_.quick) comments.push_back("quick run: small meshes, few iterations");
-  if (!context_.only_models.empty()) comments.push_back("only models that were asked for");
-  if (!complete_) comments.push_back("incomplete: some cases failed");
+bool ResultTable::has(const std::string& which) const {
+  return std::any_of(rows_.begin(), rows_.end(),
+                     [&](const auto& row) { return row.cells().front().second == which; });
+}
+
+void ResultTable::add(const std::string& which, const std::function<Rows()>& body) {
+  if (has(which)) return;
+  const auto rows = in_child(name_ + ": " + which, body);
+  failed_ = failed_ || !rows;
+  for (const auto& measured : rows.value_or(Rows{})) {
+    auto row = Row().add("case", which);
+    for (const auto& [column, cell] : measured.cells()) row.add(column, cell);
+    for (const auto& [column, cell] : row.cells()) std::printf("%s,", cell.c_str());
+    std::printf("\n");
+    rows_.push_back(std::move(row));
+  }
+  std::fflush(stdout);
+  write();
+}
+
+bool ResultTable::finish() {
+  finished_ = !failed_;
+  write();
+  return finished_;
+}
+
+void ResultTable::write() const {
   std::vector<std::string> columns;
   for (const auto& row : rows_) {
     for (const auto& [column, cell] : row.cells()) {
@@ -155,7 +202,8 @@ bool ResultTable::write(const std::string& about) const {
       }
       file << '\n';
     };
-    for (const auto& comment : comments) file << "# " << comment << '\n';
+    for (const auto& comment : comments_) file << "# " << comment << '\n';
+    if (!finished_) file << kIncomplete << '\n';
     put(columns, [](const auto& column) { return column; });
     for (const auto& row : rows_) {
       put(columns, [&](const auto& column) {
@@ -166,7 +214,6 @@ bool ResultTable::write(const std::string& about) const {
       });
     }
   });
-  return complete_;
 }
 
 int available_cores() {

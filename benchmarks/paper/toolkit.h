@@ -21,7 +21,7 @@ struct Context {
   bool quick = false;  //!< small meshes and few iterations, to see that everything works
   bool busy = false;   //!< other programs run on the machine, which the results have to say
   int threads = 1;
-  std::string commit{};  //!< of the sources, for the results to name; may be empty
+  std::string origin{};  //!< commit of the sources and behavior of the program; may be empty
   std::vector<std::string> only_models{};  //!< names of those to measure; empty for all
 
   bool wants(const std::string& model) const {
@@ -67,26 +67,36 @@ using Rows = std::vector<Row>;
 //! \return what `body` returned, or nothing after a message on stderr if it threw or crashed
 std::optional<Rows> in_child(const std::string& what, const std::function<Rows()>& body);
 
+//! OUT/NAME.csv, written whole after each case, so that a run that was stopped resumes there.
 class ResultTable {
  public:
-  ResultTable(const Context& context, std::string name)
-      : context_(context), name_(std::move(name)) {}
+  //! Keeps the cases of a file of the same commit, behavior, machine, and options. Sources that
+  //! differ from their commit have no name of their own, so nothing is kept then.
+  //! \param about  a comment line
+  ResultTable(const Context& context, std::string name, const std::string& about);
 
   const Context& context() const { return context_; }
   const std::string& name() const { return name_; }
 
-  //! Rows, or nothing from a child process that failed.
-  void add(const std::optional<Rows>& rows);
+  //! Whether the file had this case.
+  bool has(const std::string& which) const;
 
-  //! Writes OUT/NAME.csv, whole or not at all. Its columns are those of all rows.
-  //! \param about  a comment line \return whether all rows are there \throws IoError
-  bool write(const std::string& about) const;
+  //! Adds the rows of a case that is not there yet, made in a child process.
+  //! \param which  cell of the column `case` \param body  () -> Rows \throws IoError
+  void add(const std::string& which, const std::function<Rows()>& body);
+
+  //! Marks the file as complete unless a case failed. \return whether it is \throws IoError
+  bool finish();
 
  private:
+  void write() const;
+
   const Context& context_;
   std::string name_;
+  std::vector<std::string> comments_;
   Rows rows_;
-  bool complete_ = true;
+  bool failed_ = false;
+  bool finished_ = false;
 };
 
 int available_cores();

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A short description of what the library computes. Results carry it, so that tables of an earlier
+// behavior are found.
+#include <cstdio>
+
+#include "experiments.h"
+#include "flbc/cage_from_model.h"
+#include "flbc/names.h"
+#include "flbc/sparsify.h"
+#include "problems.h"
+
+namespace flbc::bench {
+namespace {
+
+constexpr Index kVertices = 1500;
+
+// Squares, because sums of weights are 1. Control points count differently, so that an exchange of
+// two is seen.
+std::string entry(const std::string& name, int iterations, const SparseWeights& weights) {
+  double sum = 0;
+  for (Index p = 0; p < weights.num_points(); ++p) {
+    const Eigen::VectorXd row = weights.at(p);
+    sum += row.cwiseAbs2().dot(Eigen::VectorXd::LinSpaced(row.size(), 1, 2));
+  }
+  char text[64];
+  std::snprintf(text, sizeof text, "%s %d/%.5f", name.c_str(), iterations,
+                sum / weights.num_points());
+  return text;
+}
+
+template <int Dim>
+std::string solved(const std::string& name, const Cage<Dim>& cage, const SolverOptions& options) {
+  const auto mesh = mesh_of(cage, kVertices);
+  const auto solution = solve(cage, mesh, options, coarse_mesher<Dim>());
+  return entry(name, solution.report.iterations, solution.weights);
+}
+
+template <int Dim>
+std::string sample(const std::string& name) {
+  const auto folder = "meshes/" + std::to_string(Dim) + "d/";
+  const auto cage = read_cage<Dim>(folder + name + "_cage.obj");
+  SolverOptions options;
+  options.threads = 1;
+  auto text = solved(name, cage, options) + ", ";
+  options.smoothness = kDeformationSmoothness;
+  text += solved(name + " smooth", cage, options);
+  return text;
+}
+
+// The published methods, and the gradient ADMM.
+std::string published() {
+  const auto cage = read_cage<3>("meshes/3d/limb_cage.obj");
+  SolverOptions options;
+  options.threads = 1;
+  options.max_iterations = 100;
+  std::string text;
+  for (const auto method : {Method::kLbc2014, Method::kPaper, Method::kGradient}) {
+    options.method = method;
+    text += solved(std::string("limb ") + name_of(method), cage, options) + ", ";
+  }
+  return text;
+}
+
+// An automatic cage, large enough for the active set, and few influences.
+std::string automatic() {
+  const auto model = read_cage<3>("meshes/3d/star_model.obj");
+  CagingOptions caging;
+  caging.control_points = 100;
+  const auto cage = cage_from_model<3>(model.points, model.facets, caging).cage;
+  const auto mesh = mesh_of(cage, kVertices);
+  SolverOptions options;
+  options.threads = 1;
+  const auto solution = solve(cage, mesh, options, coarse_mesher<3>());
+  SparsifyOptions few;
+  few.max_influences = 8;
+  const auto reduced = reduce_influences<3>(cage.points, mesh.points, edges_of_cells(mesh),
+                                            solution.weights, {}, few);
+  return entry("cage of star", solution.report.iterations, solution.weights) +
+         entry(", 8 influences", few.max_influences, reduced);
+}
+
+}  // namespace
+
+std::string behavior() {
+  return sample<2>("figure") + ", " + sample<3>("limb") + ", " + published() + automatic();
+}
+
+}  // namespace flbc::bench
