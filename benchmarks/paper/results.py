@@ -28,8 +28,8 @@ def read(out, name):
 
 
 def value(row, column):
-    """A cell as a number; not-a-number if it is empty."""
-    return float(row[column]) if row[column] else math.nan
+    """A cell as a number; not-a-number if it is empty or not there."""
+    return float(row.get(column) or math.nan)
 
 
 def ratio(row, column, other):

@@ -128,7 +128,7 @@ SPEED = [*SIZE, ("iterations", iterations),
 GROWTH = [*SIZE, ("cells", "cells:,.0f"), ("levels", lambda row: str(int(row["coarse_levels"]) + 1)),
           ("iterations", "iterations"), ("setup + solve, s", lambda row: parts(row, ".2f")),
           ("peak MiB", "peak_mebibytes:,.0f"),
-          ("bytes per cell", lambda row: f"{2**20 * ratio(row, 'peak_mebibytes', 'cells'):,.0f}")]
+          ("bytes per cell", lambda row: text(2**20 * ratio(row, "peak_mebibytes", "cells"), ",.0f"))]
 FIGURE3 = [("model", "model"), ("method", lambda row: results.LABELS[row["method"]]), ("V", "vertices:,.0f"),
            ("iterations", iterations), ("solve, s", "solve_seconds:.3f"), ("recover, s", "recover_seconds:.3f"),
            ("recovery in iterations", lambda row: text(
