@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the pictures of the documents, or those that are named, in docs/images:
 #   scripts/pictures.sh [--models FOLDER] [NAME...]
-# NAME: hero locality view figure before_after function deformation smoothness charts automatic_cages blender
+# NAME: hero locality view figure before_after function deformation smoothness automatic_cages blender
 # FOLDER: the papers' models, for automatic_cages. Working files go to out/pictures.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -13,7 +13,7 @@ if [ "${1:-}" = --models ]; then
 fi
 names=("$@")
 if [ $# -eq 0 ]; then
-  names=(hero locality view figure before_after function deformation smoothness charts)
+  names=(hero locality view figure before_after function deformation smoothness)
   [ -z "$models" ] || names+=(automatic_cages)
   ! command -v blender >/dev/null || names+=(blender)
 fi
@@ -41,7 +41,6 @@ for name in "${names[@]}"; do
     automatic_cages) scripts/pictures/automatic_cages.py "$images/automatic_cages.png" "$work/cages" "$models" ;;
     smoothness) scripts/pictures/smoothness.py "$images/smoothness.png" "$work/smoothness" ;;
     blender) scripts/pictures/blender.sh "$PWD/$flbc" "$PWD/$images" "$PWD/$work/blender" ;;
-    charts) benchmarks/paper/curves.py docs/results "$images" figure5 figure6 race ;;
     view)
       run 3d limb 20
       [ -d tests/browser/node_modules/puppeteer-core ] || npm --prefix tests/browser ci --silent

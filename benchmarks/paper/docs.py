@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Keeps the tables of README.md and docs/ equal to stored results.
 
-    docs.py OUT_FOLDER    takes over OUT_FOLDER's results (a full run of all models) and writes the tables;
-                          scripts/pictures.sh charts draws the charts anew
+    docs.py OUT_FOLDER    copies the results of OUT_FOLDER (a full run of all models), writes the tables, and
+                          draws the charts
     docs.py --check       fails if a table differs from the stored results it is made of
 
 A table is on a page between <!-- results: NAME --> and <!-- end of results -->. Its results are in
@@ -66,4 +66,10 @@ def take_over(out):
 if __name__ == "__main__":
     if len(sys.argv) != 2:
         sys.exit(__doc__.strip())
-    sys.exit(check() if sys.argv[1] == "--check" else take_over(pathlib.Path(sys.argv[1])))
+    if sys.argv[1] == "--check":
+        sys.exit(check())
+    status = take_over(pathlib.Path(sys.argv[1]))
+    import curves
+    for chart in curves.draw_all(STORED, ROOT / "docs" / "images", ("figure5", "figure6", "race")):
+        print(chart)
+    sys.exit(status)
