@@ -2,6 +2,7 @@
 // flbc compare: several kinds of coordinates of a cage next to each other.
 #include <iostream>
 #include <memory>
+#include <thread>
 
 #include "commands/commands.h"
 #include "compare/comparison.h"
@@ -50,6 +51,8 @@ Json report_of(const Comparison<Dim>& all) {
               {"cage", all.arguments.cage},
               {"model", all.arguments.model},
               {"vertices", all.domain.num_vertices()},
+              {"cells", all.domain.num_cells()},
+              {"threads", std::thread::hardware_concurrency()},
               {"control_point", all.control_point},
               {"columns", Json::object()},
               {"failures", Json::object()}};
@@ -78,12 +81,12 @@ int compare_in(const Cage<Dim>& cage, const CompareArguments& arguments) {
   all.columns = std::move(columns);
   load_shape_and_pose(all);
   solve_columns(all);
-  draw_grids(all);
+  const auto pictures = draw_grids(all);
   write_viewers(all);
   const auto table = comparison_text(all);
   folder.add_text(kTable, "the table", table);
   folder.add_text(kComparisonPage, "open in a browser: table, pictures, and dragging",
-                  comparison_page(all, names_of_grids(arguments)));
+                  comparison_page(all, pictures));
   auto report = report_of(all);
   folder.add_report(report, "the table for programs");
   if (!arguments.quiet) std::cerr << table;
@@ -125,7 +128,8 @@ void add_compare_command(CLI::App& app, int& exit_status) {
       ->delimiter(',')
       ->check(CLI::IsMember(comparable_methods()))
       ->type_name("local|harmonic|bbw|meanvalue|maxentropy|maxlikelihood|green|blended");
-  command->add_option("--pose", a.pose, "deformed cage for pictures and seconds per frame");
+  command->add_option("--pose", a.pose,
+                      "deformed cage for pictures, distortion, and seconds per frame");
   command->add_option("--vertices", a.vertices, "number of mesh vertices (default: 10000)")
       ->check(refuse_vertex_count);
   add_mesher_options(*command, a.meshing);

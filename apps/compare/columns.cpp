@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "compare/comparison.h"
+#include "compare/distortion.h"
 #include "files/load.h"
 #include "flbc/check.h"
 #include "flbc/deform.h"
@@ -14,6 +15,7 @@
 #include "flbc/io/weights_io.h"
 #include "flbc/names.h"
 #include "flbc/solver.h"
+#include "flbc/sparsify_error.h"
 #include "help/wording.h"
 #include "report/properties.h"
 #include "solve/cage_solver.h"
@@ -61,7 +63,7 @@ void mesh_domain(Comparison<Dim>& all) {
 }
 
 template <int Dim>
-SparseWeights weights_of_mesh(const Comparison<Dim>& all, const Column<Dim>& column) {
+Solution weights_of_mesh(const Comparison<Dim>& all, const Column<Dim>& column) {
   const auto& settings = column.settings;
   ProgressBar bar(all.arguments.quiet, "setting up: boundary values, distances", settings.options);
   Observer observer;
@@ -69,7 +71,7 @@ SparseWeights weights_of_mesh(const Comparison<Dim>& all, const Column<Dim>& col
     bar.show(progress);
     return true;
   };
-  return compute_weights(all.cage, all.domain, settings, all.made_by, observer).weights;
+  return compute_weights(all.cage, all.domain, settings, all.made_by, observer);
 }
 
 template <int Dim>
@@ -78,9 +80,9 @@ SparseWeights weights_of_shape(const Comparison<Dim>& all, const Column<Dim>& co
   return weights_of_points(all.cage, all.domain, column.of_mesh, all.placement, column.settings);
 }
 
-// \return seconds for the vertices of the mesh
+// \return what moves the vertices of the mesh, and the seconds for its weights
 template <int Dim>
-double solve_green(const Comparison<Dim>& all, Column<Dim>& column) {
+std::pair<MovedBy<Dim>, StageSeconds> solve_green(const Comparison<Dim>& all, Column<Dim>& column) {
   const auto n = all.cage.size();
   const auto start = std::chrono::steady_clock::now();
   const WeightMatrix of_mesh = green_coordinates(all.cage, all.domain.points);
@@ -88,7 +90,7 @@ double solve_green(const Comparison<Dim>& all, Column<Dim>& column) {
   column.of_mesh = WeightMatrix(of_mesh.topRows(n));
   column.moved = by_green_coordinates(all.cage, all.points());
   column.rows = SparseWeights(WeightMatrix(column.moved.weights.dense().topRows(n)));
-  return seconds;
+  return {by_green_coordinates(all.cage, all.domain.points), {0, seconds, 0, 0}};
 }
 
 // What holds for the deformation, of which weights of control points are only a part.
@@ -98,12 +100,41 @@ double reproduction_error(const Comparison<Dim>& all, const MovedBy<Dim>& moved)
          bounding_box_diagonal(all.cage.points);
 }
 
+// The share of the points that a control point moves by more than 1% of its own displacement.
+double reach(const SparseWeights& weights) {
+  return count_influences(weights, 0.01).mean / weights.num_control_points();
+}
+
 template <int Dim>
-void measure(const Comparison<Dim>& all, double seconds, Column<Dim>& column) {
+void add_distortion(const Comparison<Dim>& all, const MovedBy<Dim>& mesh, Column<Dim>& column) {
+  auto poses = test_poses<Dim>(all.cage.points);
+  if (all.pose.cols() > 0) poses = {all.pose};
+  Distortion sum;
+  for (const auto& pose : poses) {
+    const auto one = distortion_of<Dim>(all.domain, mesh.at(pose));
+    sum.isometric += one.isometric / static_cast<double>(poses.size());
+    sum.volume += one.volume / static_cast<double>(poses.size());
+    sum.flipped += one.flipped / static_cast<double>(poses.size());
+  }
+  column.facts["distortion"] = sum.isometric;
+  column.facts["volume_change"] = sum.volume;
+  column.facts["flipped"] = sum.flipped;
+}
+
+//! \param mesh  moves the vertices of the mesh
+template <int Dim>
+void measure(const Comparison<Dim>& all, const MovedBy<Dim>& mesh, const StageSeconds& seconds,
+             Column<Dim>& column) {
   column.facts = {
       {"method", name_of_method(column.settings, resolve(column.settings.options).method)},
       {"smoothness", column.settings.options.smoothness.value_or(0)}};
-  column.facts.update(properties_of(check_weights(all.cage, all.domain, column.of_mesh)));
+  const auto check = check_weights(all.cage, all.domain, column.of_mesh);
+  column.facts.update(properties_of(check));
+  column.facts["total_variation"] =
+      check.mesh->total_variation / check.mesh->harmonic_total_variation;
+  column.facts["max_influences"] = count_influences(column.of_mesh, kInfluenceThreshold).max;
+  column.facts["reach"] = reach(column.rows);
+  add_distortion(all, mesh, column);
   if (column.has_normals()) {
     column.facts["reproduction_error"] = reproduction_error(all, column.moved);
   }
@@ -111,19 +142,23 @@ void measure(const Comparison<Dim>& all, double seconds, Column<Dim>& column) {
   const auto& pose = all.pose.cols() > 0 ? all.pose : all.cage.points;
   const auto start = std::chrono::steady_clock::now();
   for (int k = 0; k < kFrames; ++k) column.moved.at(pose);
-  column.facts["seconds"] = seconds;
+  column.facts["setup_seconds"] = seconds.setup;
+  column.facts["solve_seconds"] = seconds.solve + seconds.recover;
   column.facts["seconds_per_frame"] = seconds_since(start) / kFrames;
 }
 
 template <int Dim>
 void solve_column(const Comparison<Dim>& all, Column<Dim>& column) {
-  if (column.has_normals()) return measure(all, solve_green(all, column), column);
-  const auto start = std::chrono::steady_clock::now();
-  column.of_mesh = weights_of_mesh(all, column);
-  const double seconds = seconds_since(start);
+  if (column.has_normals()) {
+    const auto [mesh, seconds] = solve_green(all, column);
+    return measure(all, mesh, seconds, column);
+  }
+  auto solution = weights_of_mesh(all, column);
+  column.of_mesh = std::move(solution.weights);
   column.rows = weights_of_shape(all, column);
   column.moved = by_weights<Dim>(column.rows, all.cage.points, all.points());
-  measure(all, seconds, column);
+  measure(all, by_weights<Dim>(column.of_mesh, all.cage.points, all.domain.points),
+          solution.report.seconds, column);
 }
 
 }  // namespace

@@ -87,8 +87,9 @@ template <int Dim>
 void solve_columns(Comparison<Dim>& all);
 
 //! Draws one function by all methods, and the pose by all methods.
+//! \return the files of the pictures that could be drawn
 template <int Dim>
-void draw_grids(Comparison<Dim>& all);
+std::vector<std::string> draw_grids(Comparison<Dim>& all);
 
 //! Writes a page for dragging by each method.
 template <int Dim>

@@ -86,19 +86,25 @@ std::vector<std::string> names_of_grids(const CompareArguments& arguments) {
 }
 
 template <int Dim>
-void draw_grids(Comparison<Dim>& all) {
+std::vector<std::string> draw_grids(Comparison<Dim>& all) {
   all.control_point = choose_control_point(all);
-  if (!draw::can_draw()) return;
+  std::vector<std::string> drawn;
+  if (!draw::can_draw()) return drawn;
   const auto names = names_of_grids(all.arguments);
   const bool has_surface = all.shape.surface.triangles.cols() > 0;
   // On the boundary of a mesh in 3D, all functions are the same.
   const bool shows_functions = Dim == 2 || (has_surface && !all.arguments.model.empty());
-  if (shows_functions) all.folder.add_text(names[0], "one coordinate function", grid(all, false));
+  const auto draw = [&](const std::string& name, const char* what, bool posed) {
+    all.folder.add_text(name, what, grid(all, posed));
+    drawn.push_back(name);
+  };
+  if (shows_functions) draw(names[0], "one coordinate function", false);
   if (all.pose.cols() > 0 && has_surface)
-    all.folder.add_text(names[1], "the pose; in 3D, colors show displacements", grid(all, true));
+    draw(names[1], "the pose; in 3D, colors show displacements", true);
+  return drawn;
 }
 
-template void draw_grids(Comparison<2>&);
-template void draw_grids(Comparison<3>&);
+template std::vector<std::string> draw_grids(Comparison<2>&);
+template std::vector<std::string> draw_grids(Comparison<3>&);
 
 }  // namespace flbc::app

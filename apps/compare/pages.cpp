@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <sstream>
+#include <thread>
 
 #include "compare/comparison.h"
 #include "draw/canvas.h"
@@ -40,6 +41,17 @@ TextTable table_of(const Comparison<Dim>& all) {
   std::vector<std::pair<std::string, nlohmann::ordered_json>> properties;
   for (const auto* column : all.succeeded()) properties.emplace_back(column->name, column->facts);
   return property_table(properties);
+}
+
+// Where the numbers come from.
+template <int Dim>
+std::string description(const Comparison<Dim>& all) {
+  return std::to_string(all.domain.num_vertices()) + " vertices and " +
+         std::to_string(all.domain.num_cells()) + " cells of the mesh, " + "up to " +
+         std::to_string(std::thread::hardware_concurrency()) + " threads, " +
+         (all.pose.cols() > 0 ? "the given pose"
+                              : "poses: bent by 45 degrees, stretched by 40%, twisted by 60 "
+                                "degrees (3D)");
 }
 
 // Those of most influence, with the same sum, for weights that need not reproduce the points.
@@ -103,7 +115,9 @@ void write_viewers(Comparison<Dim>& all) {
 
 template <int Dim>
 std::string comparison_text(const Comparison<Dim>& all) {
-  std::string text = to_text(table_of(all));
+  const auto table = table_of(all);
+  std::string text =
+      to_text(table) + "\n" + description(all) + "\n" + to_text(property_legend(table)) + "\n";
   for (const auto& column : all.columns) {
     if (!column.failure.empty()) text += column.name + " failed: " + column.failure + "\n";
   }
@@ -120,18 +134,21 @@ std::string comparison_page(const Comparison<Dim>& all, const std::vector<std::s
        << "td,th{border:1px solid #999;padding:4px 8px;text-align:right}"
        << "td:first-child{text-align:left}img{max-width:100%}"
        << "iframe{width:100%;height:80vh;border:1px solid #999}</style>\n<h1>" << title
-       << "</h1>\n<p>Properties at the " << all.domain.num_vertices()
-       << " vertices of the mesh.</p>\n<table>\n";
+       << "</h1>\n<p>" << description(all) << "</p>\n<table>\n";
   const auto table = table_of(all);
   for (std::size_t k = 0; k < table.size(); ++k) page << row_of(table[k], k == 0 ? "th" : "td");
-  page << "</table>\n";
+  page << "</table>\n<ul>\n";
+  for (const auto& entry : property_legend(table)) {
+    page << "<li><b>" << entry[0] << "</b>: " << entry[1] << "</li>\n";
+  }
+  page << "</ul>\n";
   for (const auto& column : all.columns) {
     if (column.failure.empty()) continue;
     page << "<p>" << column.name << " failed: " << io::escaped(column.failure) << "</p>\n";
   }
   for (const auto& name : pictures) {
     // A PDF is no image of a page.
-    if (!draw::can_draw() || all.arguments.pictures == "pdf") continue;
+    if (all.arguments.pictures == "pdf") continue;
     page << "<p><img src=\"" << name << "\" alt=\"all coordinates next to each other\"></p>\n";
   }
   std::string menu;

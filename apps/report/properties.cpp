@@ -13,16 +13,35 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::pair<const char*, const char*> kHeadings[] = {
-    {"influences", "influences, mean"},
-    {"min_weight", "smallest weight"},
-    {"sum_error", "sum - 1"},
-    {"reproduction_error", "reproduction error"},
-    {"local_extrema", "local extrema"},
-    {"deepest_extremum", "depth of extrema"},
-    {"gradient_jump", "gradient jump"},
-    {"seconds", "seconds"},
-    {"seconds_per_frame", "seconds per frame"}};
+struct Heading {
+  const char* key;
+  const char* text;
+  const char* meaning;
+};
+
+constexpr Heading kHeadings[] = {
+    {"influences", "influences", "weights above 1e-4, mean per vertex of the mesh"},
+    {"max_influences", "maximum", "the same, maximum per vertex"},
+    {"reach", "reach",
+     "share of the model vertices that a control point moves by more than 1% of its own "
+     "displacement, mean over control points"},
+    {"min_weight", "smallest weight", "at the vertices of the mesh"},
+    {"total_variation", "total variation",
+     "integral of |grad w|, relative to harmonic coordinates"},
+    {"distortion", "distortion",
+     "mean over the cells of the mesh of sum (s - 1)^2, s: stretches of the cell in the pose"},
+    {"volume_change", "volume change", "mean |volume ratio - 1| of the cells (area in 2D)"},
+    {"flipped", "flipped", "share of the volume in cells that the pose turns inside out"},
+    {"sum_error", "sum - 1", "largest |sum of weights - 1|"},
+    {"reproduction_error", "reproduction error",
+     "largest distance of the rest pose from the model, relative to the cage size"},
+    {"local_extrema", "local extrema", "number of vertices inside the cage that are one"},
+    {"deepest_extremum", "depth of extrema", "largest difference from the neighbors"},
+    {"gradient_jump", "gradient jump",
+     "root mean square between neighboring cells, relative to the cage size"},
+    {"setup_seconds", "setup, s", "seconds"},
+    {"solve_seconds", "solve, s", "seconds"},
+    {"seconds_per_frame", "frame, s", "seconds to deform the model once"}};
 
 std::string cell_of(const Json& properties, const char* key) {
   if (!properties.contains(key)) return "-";
@@ -55,7 +74,7 @@ Json properties_of(const WeightCheck<Dim>& check) {
 TextTable property_table(const std::vector<std::pair<std::string, Json>>& properties) {
   TextTable table{{"coordinates"}};
   for (const auto& [name, values] : properties) table.push_back({name});
-  for (const auto& [key, heading] : kHeadings) {
+  for (const auto& [key, heading, meaning] : kHeadings) {
     const bool is_known = std::any_of(properties.begin(), properties.end(),
                                       [k = key](const auto& p) { return p.second.contains(k); });
     if (!is_known) continue;
@@ -65,6 +84,15 @@ TextTable property_table(const std::vector<std::pair<std::string, Json>>& proper
     }
   }
   return table;
+}
+
+TextTable property_legend(const TextTable& table) {
+  TextTable legend;
+  for (const auto& [key, heading, meaning] : kHeadings) {
+    if (std::count(table[0].begin(), table[0].end(), heading) > 0)
+      legend.push_back({heading, meaning});
+  }
+  return legend;
 }
 
 std::string to_text(const TextTable& table) {

@@ -23,6 +23,9 @@ nlohmann::ordered_json properties_of(const WeightCheck<Dim>& check);
 TextTable property_table(
     const std::vector<std::pair<std::string, nlohmann::ordered_json>>& properties);
 
+//! What each column of a property table means, with its unit: a heading and a text per row.
+TextTable property_legend(const TextTable& table);
+
 std::string to_text(const TextTable& table);
 
 }  // namespace flbc::app

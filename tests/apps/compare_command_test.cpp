@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc compare, and other commands with kinds of coordinates for comparison.
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +14,26 @@ namespace flbc::testing {
 namespace {
 
 using CompareCommand = CommandLineTest;
+
+// Writes the cage, moved by a 3 x 3 matrix, to posed.obj.
+void pose_by(const std::string& cage, const std::string& matrix) {
+  Eigen::Matrix3d map;
+  std::istringstream entries(matrix);
+  for (int k = 0; k < 9; ++k) entries >> map(k / 3, k % 3);
+  std::istringstream lines(slurp(cage));
+  std::ofstream posed("posed.obj");
+  posed.precision(17);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.compare(0, 2, "v ") == 0) {
+      Eigen::Vector3d point = Eigen::Vector3d::Zero();
+      std::istringstream words(line.substr(2));
+      words >> point[0] >> point[1] >> point[2];
+      posed << "v " << (map * point).transpose() << '\n';
+    } else {
+      posed << line << '\n';
+    }
+  }
+}
 
 TEST_F(CompareCommand, ListsAllCoordinatesWithFilesThatExist) {
   for (const std::string dim : {"2d", "3d"}) {
@@ -55,6 +77,68 @@ TEST_F(CompareCommand, TheMeshWithoutAModelHasTheRowOfCheck) {
       EXPECT_NEAR(value.get<double>(), columns[name][key].get<double>(), 1e-9) << name << key;
     }
   }
+}
+
+TEST_F(CompareCommand, ThePageShowsOnlyPicturesThatExist) {
+  for (const std::string arguments :
+       {"2d/figure_cage.obj", "3d/limb_cage.obj", "3d/limb_cage.obj 3d/limb_model.obj"}) {
+    std::filesystem::remove_all("compared");
+    expect("compare " + arguments + " -q --vertices 300 --methods meanvalue -o compared");
+    const auto page = slurp("compared/index.html");
+    for (std::size_t at = 0; (at = page.find("<img src=\"", at)) != std::string::npos; ++at) {
+      const auto begin = at + 10;
+      const auto name = page.substr(begin, page.find('"', begin) - begin);
+      EXPECT_TRUE(std::filesystem::exists("compared/" + name)) << arguments << name;
+    }
+  }
+}
+
+// All coordinates but bbw and green reproduce affine maps, so the measures of poses are known.
+TEST_F(CompareCommand, DistortionOfAffinePosesIsThatOfTheMap) {
+  for (const std::string dim : {"2d", "3d"}) {
+    const std::string cage = dim == "2d" ? "2d/figure_cage.obj" : "3d/limb_cage.obj";
+    const auto measure = [&](const std::string& matrix) {
+      pose_by(cage, matrix);
+      expect("compare " + cage + " -q --vertices 500 --methods local,meanvalue --force --pose " +
+             "posed.obj -o compared");
+      return json_in("compared/table.json")["columns"];
+    };
+    const auto turned = measure("0 -1 0 1 0 0 0 0 1");
+    for (const auto& [name, facts] : turned.items()) {
+      EXPECT_NEAR(facts["distortion"].get<double>(), 0, 1e-9) << name;
+      EXPECT_NEAR(facts["volume_change"].get<double>(), 0, 1e-9) << name;
+      EXPECT_EQ(facts["flipped"], 0) << name;
+    }
+    const auto stretched = measure("1.5 0 0 0 2 0 0 0 1");
+    for (const auto& [name, facts] : stretched.items()) {
+      EXPECT_NEAR(facts["distortion"].get<double>(), 0.25 + 1, 1e-9) << name;
+      EXPECT_NEAR(facts["volume_change"].get<double>(), 2, 1e-9) << name;
+      EXPECT_EQ(facts["flipped"], 0) << name;
+    }
+    const auto mirrored = measure("-1 0 0 0 1 0 0 0 1");
+    for (const auto& [name, facts] : mirrored.items()) {
+      EXPECT_NEAR(facts["distortion"].get<double>(), 0, 1e-9) << name;
+      EXPECT_NEAR(facts["volume_change"].get<double>(), 2, 1e-9) << name;
+      EXPECT_NEAR(facts["flipped"].get<double>(), 1, 1e-12) << name;
+    }
+  }
+}
+
+// Reach and influences count the same weights with other thresholds, by definition.
+TEST_F(CompareCommand, CountsOfWeightsAreThoseOfTheFiles) {
+  expect("compare 2d/figure_cage.obj -q --vertices 500 --methods local,harmonic -o compared");
+  const auto columns = json_in("compared/table.json")["columns"];
+  for (const auto& [name, facts] : columns.items()) {
+    const auto weights = io::read_weights("compared/weights_" + name + ".npy").dense();
+    const Eigen::ArrayXXd size = weights.cwiseAbs();
+    EXPECT_NEAR(facts["reach"].get<double>(), (size > 0.01).cast<double>().mean(), 1e-12) << name;
+    EXPECT_EQ(facts["max_influences"], (size > 1e-4).cast<int>().colwise().sum().maxCoeff());
+  }
+  EXPECT_NEAR(columns["harmonic"]["total_variation"].get<double>(), 1, 1e-9);
+  EXPECT_LT(columns["local"]["reach"], columns["harmonic"]["reach"]);
+  EXPECT_GT(columns["local"]["distortion"], 0) << "of the generated poses";
+  const auto table = slurp("compared/table.txt");
+  EXPECT_NE(table.find("share of the model vertices"), std::string::npos);
 }
 
 TEST_F(CompareCommand, ReplacesOnlyItsOwnFilesWithoutForce) {
