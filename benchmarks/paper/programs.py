@@ -19,12 +19,14 @@ import sys
 import time
 
 import cages
+import comparison
 import pipeline
 import reductions
 import results
 
 # Name to (what it is, function of the context that yields cases: a name and what makes its rows).
-EXPERIMENTS = {"cages": cages.CAGES, "sparsify": reductions.SPARSIFY, "pipeline": pipeline.PIPELINE}
+EXPERIMENTS = {"cages": cages.CAGES, "sparsify": reductions.SPARSIFY, "pipeline": pipeline.PIPELINE,
+               "compare": comparison.COMPARE}
 INCOMPLETE = "incomplete: some cases are missing"
 
 

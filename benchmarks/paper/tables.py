@@ -121,6 +121,14 @@ def parts(row, form):
 
 SAMPLES = [*HARMONIC, *((f"To 1e-5: {label}, s", f"to_1e-5_{name}:.2f") for name, label in (
     ("value", "local"), ("lbc2014-tuned", "2014, tuned penalty"), ("paper", "2019")))]
+COMPARE = [("model", "model"), ("coordinates", "coordinates"), ("influences", "influences:.1f"),
+           ("maximum", "max_influences"), ("reach", "reach:.1%"), ("smallest weight", "min_weight:.1e"),
+           ("total variation", "total_variation:.2f"), ("distortion", "distortion:.3f"),
+           ("volume change", "volume_change:.3f"), ("flipped", "flipped:.2%"), ("setup, s", "setup_seconds:.2f"),
+           ("solve, s", "solve_seconds:.2f")]
+DISTORTION = [("model", "model"), ("coordinates", "method"), ("distortion", "distortion:.2f"),
+              ("bend", "bend:.2f"), ("stretch", "stretch:.2f"), ("twist", "twist:.2f"),
+              ("model vertices that move", "moved_share:.0%")]
 SPEED = [*SIZE, ("iterations", iterations),
          ("setup + solve = total, s", lambda row: f"{parts(row, '.3f')} = {value(row, 'total_seconds'):.3f}"),
          ("true error", "error:.1e"), ("harmonic, s", "harmonic_seconds:.3f"),
@@ -272,7 +280,8 @@ def time_to_error(rows):
 TABLES = {"models": lines(*MODELS), "harmonic": lines(*HARMONIC), "race": race, "solvers": solvers,
           "authors2014": lines(*AUTHORS2014), "speed": lines(*SPEED), "growth": growth,
           "mesh_deform": lines(*MESH_DEFORM), "many": lines(*MANY), "tolerance": tolerance, "smoothness": grouped(sized, *SMOOTHNESS),
-          "cages": lines(*CAGES), "pipeline": lines(*PIPELINE), "samples": lines(*SAMPLES),
+          "cages": lines(*CAGES), "compare": lines(*COMPARE),
+          "distortion": lines(*DISTORTION), "pipeline": lines(*PIPELINE), "samples": lines(*SAMPLES),
           "sparsify": grouped(sparsified, *SPARSIFY),
           "table1": lines(*TABLE1),
           "table2": grouped(with_published, *TABLE2),
