@@ -305,7 +305,7 @@ bool run_samples(const Context& context) {
        {"2d/figure", "2d/letter", "2d/ring", "3d/limb", "3d/star", "3d/torus", "3d/knot"}) {
     const std::filesystem::path file("meshes/" + std::string(sample) + "_cage.obj");
     const Model model{sample + 3, sample[0] - '0', std::filesystem::absolute(file).string()};
-    add_rows(table, model, 2500, [](const auto& setting) { return Rows{sample_row(setting)}; });
+    add_rows(table, model, 1500, [](const auto& setting) { return Rows{sample_row(setting)}; });
   }
   return table.finish();
 }
