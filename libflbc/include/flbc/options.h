@@ -12,14 +12,14 @@
 namespace flbc {
 
 //! Solver method. Each minimizes the objective of local barycentric coordinates; other coordinates
-//! are in coordinates.h.
+//! are in coordinates.h. In this file, "the paper" is that of Tao, Deng, and Zhang (2019).
 enum class Method {
   kAuto,      //!< recommended method, currently kValue
   kValue,     //!< default method: weight-splitting ADMM in the metric of the continuous problem;
               //!< fastest
   kGradient,  //!< gradient ADMM of the paper, started from harmonic coordinates, over-relaxed
   kPaper,     //!< FLBC 2019: gradient ADMM with the parameters of the paper
-              //!< (docs/benchmarks/paper_details.md)
+              //!< (docs/explanation/method/differences_from_papers.md)
   kLbc2014    //!< LBC 2014: the original solver (Zhang et al. 2014; section 3 of the paper)
 };
 
