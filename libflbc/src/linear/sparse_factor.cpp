@@ -18,10 +18,12 @@
 namespace flbc {
 namespace {
 
+constexpr const char* kNotDefinite =
+    "not positive definite; nearly flat cells of the mesh are the usual cause";
+
 [[noreturn]] void fail(Eigen::Index size, const char* reason) {
   throw SolverError("a linear system with " + std::to_string(size) +
-                    " unknowns cannot be factored: it is " + reason +
-                    "; nearly flat cells of the mesh are the usual cause");
+                    " unknowns cannot be factored: it is " + reason);
 }
 
 #ifdef FLBC_WITH_CHOLMOD
@@ -69,7 +71,7 @@ cholmod_sparse view_lower_triangle(const Eigen::SparseMatrix<double>& matrix) {
 
 void check(const cholmod_common& common, Eigen::Index size) {
   if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-  if (common.status == CHOLMOD_NOT_POSDEF) fail(size, "not positive definite");
+  if (common.status == CHOLMOD_NOT_POSDEF) fail(size, kNotDefinite);
   if (common.status == CHOLMOD_TOO_LARGE) fail(size, "too large");
   if (common.status < CHOLMOD_OK) fail(size, "not understood by CHOLMOD");
 }
@@ -188,10 +190,10 @@ void append(const Factor& factor, const Run& run, SupernodeStorage& storage) {
 
 SparseFactor factor_nonempty(const Eigen::SparseMatrix<double>& matrix) {
   const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower> cholesky(matrix);
-  if (cholesky.info() != Eigen::Success) fail(matrix.rows(), "not positive definite");
+  if (cholesky.info() != Eigen::Success) fail(matrix.rows(), kNotDefinite);
   const Factor& factor = cholesky.matrixL().nestedExpression();
   // The test for a positive pivot accepts NaN.
-  if (!factor.coeffs().isFinite().all()) fail(matrix.rows(), "not positive definite");
+  if (!factor.coeffs().isFinite().all()) fail(matrix.rows(), kNotDefinite);
 
   SparseFactor result;
   const auto& order = cholesky.permutationP().indices();
@@ -229,7 +231,7 @@ bool has_positive_diagonal(const SparseFactor& factor) {
 SparseFactor factor_sparse(const Eigen::SparseMatrix<double>& matrix) {
   if (matrix.rows() == 0) return {};
   auto factor = factor_nonempty(matrix);
-  if (!has_positive_diagonal(factor)) fail(matrix.rows(), "not positive definite");
+  if (!has_positive_diagonal(factor)) fail(matrix.rows(), kNotDefinite);
   return factor;
 }
 

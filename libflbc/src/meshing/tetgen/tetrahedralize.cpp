@@ -181,7 +181,7 @@ DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, double time_limit)
     if (mesh.num_vertices() - task.input.points.cols() >= most_points) {
       throw InputError("well-shaped cells would need more than " + std::to_string(most_points) +
                        " vertices in this cage" + describe_thinnest(task.cage) +
-                       "; move control points there apart, or use another mesher");
+                       "; move control points at thin places apart, or use another mesher");
     }
     peel_flat_cells(task.cage, static_cast<Index>(task.input.points.cols()), mesh);
     return compact(task.cage, task.input.points, std::move(mesh));
