@@ -319,8 +319,9 @@ bool report_convergence(const SolveReport& report, const SolveSettings& settings
     constexpr double kLargeGap = 5e-3;
     const double gap = report.certificate.relative_gap;
     if (is_certified(report) && gap > kLargeGap) {
-      std::cerr << "flbc: converged by the criterion of this method, but up to " << 100 * gap
-                << "% above the optimum; lower --tolerance, or leave --tolerance and --method out\n";
+      std::cerr
+          << "flbc: converged by the criterion of this method, but up to " << 100 * gap
+          << "% above the optimum; lower --tolerance, or leave --tolerance and --method out\n";
     }
     return true;
   }

@@ -49,7 +49,8 @@ void expect_promise_kept(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, int
   }
 }
 
-// A tolerance alone estimates errors, so the run that it ends says how far the objective may be off.
+// A tolerance alone estimates errors, so the run that it ends says how far the objective may be
+// off.
 TEST_IN_2D_AND_3D(ToleranceTest, WithoutSmoothnessARunEndsWithACertificate) {
   const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 12 : 4, 0.2);
   SolverOptions options;
