@@ -5,15 +5,20 @@
     docs.py OUT_FOLDER    copies the results of OUT_FOLDER (a full run of all models), writes the tables, and
                           draws the charts
     docs.py --check       fails if a table differs from the stored results it is made of
+    docs.py --behavior PROGRAM
+                          fails if results come from another behavior than that of flbc_bench_paper (README.md);
+                          those measured outside this repository have none
 
 A table is on a page between <!-- results: NAME --> and <!-- end of results -->. Its results are in
 docs/results/NAME.csv, as flbc_bench_paper wrote them, or in the file that tables.SOURCES names. Its
 last line has the commit that made it.
 """
 
+import math
 import pathlib
 import re
 import shutil
+import subprocess
 import sys
 
 import results
@@ -50,6 +55,38 @@ def check():
     return 1 if problems else 0
 
 
+def behavior_of(text):
+    """Name of each entry to its iterations and its weights."""
+    return {name: (int(iterations), float(weights))
+            for name, iterations, weights in re.findall(r"([\w ]+) (\d+)/([\d.]+)", text)}
+
+
+def differences(before, now):
+    """Names of the entries that differ by more than vector width and compiler explain."""
+    return [name for name in before.keys() | now.keys()
+            if name not in before or name not in now
+            or not math.isclose(before[name][0], now[name][0], rel_tol=0.02)
+            or not math.isclose(before[name][1], now[name][1], rel_tol=1e-3)]
+
+
+def check_behavior(program):
+    printed = subprocess.run([program, "--behavior"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    now = behavior_of(printed)
+    stale = False
+    for path in sorted(STORED.glob("*.csv")):
+        _, comments = results.read(STORED, path.stem)
+        if any("outside this repository" in comment for comment in comments):
+            continue
+        commit = next((comment for comment in comments if comment.startswith("commit ")), "")
+        before = behavior_of(commit.partition(";")[2])
+        differ = sorted(differences(before, now))
+        if differ:
+            stale = True
+            print(f"docs/results/{path.name} is stale: " + (", ".join(differ) if before else "no behavior"),
+                  file=sys.stderr)
+    return 1 if stale else 0
+
+
 def take_over(out):
     STORED.mkdir(exist_ok=True)
     for name in {tables.source_of(m[2]) for page in PAGES for m in MARKED.finditer(page.read_text())}:
@@ -64,6 +101,8 @@ def take_over(out):
 
 
 if __name__ == "__main__":
+    if len(sys.argv) == 3 and sys.argv[1] == "--behavior":
+        sys.exit(check_behavior(sys.argv[2]))
     if len(sys.argv) != 2:
         sys.exit(__doc__.strip())
     if sys.argv[1] == "--check":

@@ -56,6 +56,16 @@ def notices_changes():
             raise AssertionError(f"taken over: {unfit}")
 
 
+def finds_other_behavior():
+    here = docs.behavior_of("figure 320/0.69511, limb smooth 57/0.72545")
+    assert here == {"figure": (320, 0.69511), "limb smooth": (57, 0.72545)}, here
+    for text, names in (("figure 322/0.69512, limb smooth 57/0.72545", []),
+                        ("figure 340/0.69511, limb smooth 57/0.72545", ["figure"]),
+                        ("figure 320/0.69511, limb smooth 57/0.72745", ["limb smooth"]),
+                        ("figure 320/0.69511", ["limb smooth"])):
+        assert docs.differences(docs.behavior_of(text), here) == names, text
+
+
 def refuses_folders_without_cages():
     script = pathlib.Path(__file__).resolve().parents[2] / "benchmarks" / "paper" / "run.sh"
     with tempfile.TemporaryDirectory() as name:
@@ -66,6 +76,7 @@ def refuses_folders_without_cages():
 
 if __name__ == "__main__":
     result = docs.check()
+    finds_other_behavior()
     refuses_folders_without_cages()
     notices_changes()
     sys.exit(result)
