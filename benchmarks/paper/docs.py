@@ -66,7 +66,7 @@ def differences(before, now):
     return [name for name in before.keys() | now.keys()
             if name not in before or name not in now
             or not math.isclose(before[name][0], now[name][0], rel_tol=0.02)
-            or not math.isclose(before[name][1], now[name][1], rel_tol=1e-3)]
+            or not math.isclose(before[name][1], now[name][1], rel_tol=0, abs_tol=1.5e-5)]
 
 
 def check_behavior(program):

@@ -61,7 +61,7 @@ def finds_other_behavior():
     assert here == {"figure": (320, 0.69511), "limb smooth": (57, 0.72545)}, here
     for text, names in (("figure 322/0.69512, limb smooth 57/0.72545", []),
                         ("figure 340/0.69511, limb smooth 57/0.72545", ["figure"]),
-                        ("figure 320/0.69511, limb smooth 57/0.72745", ["limb smooth"]),
+                        ("figure 320/0.69511, limb smooth 57/0.72548", ["limb smooth"]),
                         ("figure 320/0.69511", ["limb smooth"])):
         assert docs.differences(docs.behavior_of(text), here) == names, text
 
