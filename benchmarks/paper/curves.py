@@ -141,8 +141,8 @@ def convergence(rows, comments):
             ends.append((times, errors, name, color))
         low = max(axis.get_ylim()[0], SMALLEST_ERROR)
         axis.set_ylim(bottom=low)
-        for times, errors, name, color in ends:
-            name_end(axis, times, errors, low, factor_of(name, reached), color)
+        labels = [name_end(axis, times, errors, low, factor_of(name, reached), color)
+                  for times, errors, name, color in ends]
         axis.axhline(MARKED_ERROR, color="#888888", linestyle="--", linewidth=0.9)
         axis.set_title(f"{MODEL_NAMES.get(model, model)}: {mine[0]['control_points']} control points, "
                        f"{results.thousands(mine[0]['vertices'])} vertices")
@@ -150,6 +150,7 @@ def convergence(rows, comments):
         plain_ticks(axis.xaxis)
         axis.set_xlabel("seconds of solve and recovery")
         axis.set_ylabel("mean squared error")
+        move_apart(axis, labels)
     footer(figure, ["", "\u00d7: time to an error of 1e-5 (dashed), relative to libflbc"]
            + comments[1:])
     return figure
@@ -171,8 +172,23 @@ def name_end(axis, times, errors, low, label, color):
         place, offset, sides = (end, low), (6, 14), ("left", "bottom")
     if label == CURVE_NAMES["value"]:
         offset, sides = (-28, 14), ("right", "bottom")
-    axis.annotate(label, place, xytext=offset, textcoords="offset points", color=color, fontsize=9.5,
-                  fontweight="bold", ha=sides[0], va=sides[1])
+    return axis.annotate(label, place, xytext=offset, textcoords="offset points", color=color,
+                         fontsize=9.5, fontweight="bold", ha=sides[0], va=sides[1],
+                         bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.6, "pad": 0.5})
+
+
+def move_apart(axis, labels):
+    """Moves labels up until they are above the axis and cover no label below them."""
+    axis.figure.canvas.draw()
+    points_per_pixel = 72 / axis.figure.dpi
+    boxes = []
+    for label in sorted(labels, key=lambda label: label.get_window_extent().y0):
+        box = label.get_window_extent()
+        least = max([axis.get_window_extent().y0 + 3,
+                     *(other.y1 + 2 for other in boxes if box.overlaps(other))])
+        up = max(0, least - box.y0)
+        label.xyann = (label.xyann[0], label.xyann[1] + up * points_per_pixel)
+        boxes.append(box.translated(0, up))
 
 
 def times(rows, comments):
