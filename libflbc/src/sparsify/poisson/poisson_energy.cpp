@@ -92,9 +92,9 @@ PoissonEnergy make_poisson_energy(const PointList<Dim>& control_points,
 template <int Dim>
 double evaluate(const PoissonEnergy& energy, const PointList<Dim>& points, const EdgeList& edges,
                 const SparseWeights& before, const SparseWeights& after) {
-  const auto& [identity, factor, matrix] = energy.metric;
+  const auto& metric = energy.metric;
   const auto square = [&](const Eigen::VectorXd& difference) {
-    return identity * difference.squaredNorm() + (factor * difference).squaredNorm();
+    return metric.identity * difference.squaredNorm() + (metric.factor * difference).squaredNorm();
   };
   return parallel_sum<double>(
       static_cast<Index>(edges.ends.size()), 0, [&](Index begin, Index end) {
