@@ -85,12 +85,12 @@ template <int Dim>
 std::pair<MovedBy<Dim>, StageSeconds> solve_green(const Comparison<Dim>& all, Column<Dim>& column) {
   const auto n = all.cage.size();
   const auto start = std::chrono::steady_clock::now();
-  const WeightMatrix of_mesh = green_coordinates(all.cage, all.domain.points);
+  auto mesh = by_green_coordinates(all.cage, all.domain.points);
   const double seconds = seconds_since(start);
-  column.of_mesh = WeightMatrix(of_mesh.topRows(n));
+  column.of_mesh = WeightMatrix(mesh.weights.dense().topRows(n));
   column.moved = by_green_coordinates(all.cage, all.points());
   column.rows = SparseWeights(WeightMatrix(column.moved.weights.dense().topRows(n)));
-  return {by_green_coordinates(all.cage, all.domain.points), {0, seconds, 0, 0}};
+  return {std::move(mesh), {0, seconds, 0, 0}};
 }
 
 // What holds for the deformation, of which weights of control points are only a part.

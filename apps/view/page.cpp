@@ -70,7 +70,7 @@ void check(const PageContent<Dim>& content) {
 Json pack_weights(const SparseWeights& weights) {
   std::vector<std::uint8_t> counts;
   for (Index p = 0; p < weights.num_points(); ++p) {
-    const auto count = weights.starts()[p + 1] - weights.starts()[p];
+    const Index count = weights.count(p);
     if (count > kMostInfluences) {
       throw InputError("vertex " + std::to_string(p) + " has " + std::to_string(count) +
                        " influences, but a page holds " + std::to_string(kMostInfluences) +
@@ -209,11 +209,10 @@ SparseWeights limit_influences(const PointList<Dim>& control_points, const Point
                       std::to_string(kMostInfluences) + " influences per vertex, not " +
                       std::to_string(most));
   }
-  const auto& starts = weights.starts();
   std::vector<Index> crowded;
   std::vector<Index> number(weights.num_points(), -1);  // among them
   for (Index p = 0; p < weights.num_points(); ++p) {
-    if (starts[p + 1] - starts[p] <= most) continue;
+    if (weights.count(p) <= most) continue;
     number[p] = static_cast<Index>(crowded.size());
     crowded.push_back(p);
   }

@@ -132,8 +132,7 @@ DISTORTION = [("model", "model"), ("coordinates", "method"), ("distortion", "dis
 SPEED = [*SIZE, ("iterations", iterations),
          ("setup + solve = total, s", lambda row: f"{parts(row, '.3f')} = {value(row, 'total_seconds'):.3f}"),
          ("true error", "error:.1e"), ("harmonic, s", "harmonic_seconds:.3f"),
-         ("ratio", lambda row: f"{ratio(row, 'total_seconds', 'harmonic_seconds'):.1f}"
-                   if row["harmonic_seconds"] else "-")]
+         ("ratio", lambda row: text(ratio(row, "total_seconds", "harmonic_seconds"), ".1f"))]
 GROWTH = [*SIZE, ("cells", "cells:,.0f"), ("levels", lambda row: str(int(row["coarse_levels"]) + 1)),
           ("iterations", "iterations"), ("setup + solve, s", lambda row: parts(row, ".2f")),
           ("peak MiB", "peak_mebibytes:,.0f"),

@@ -59,7 +59,7 @@ val weight_arrays(const SparseWeights& weights) {
   return result;
 }
 
-// In double precision, for a session that goes on with them.
+// In double precision, so that another worker continues from the same numbers.
 template <int Dim>
 val solution_arrays(const Work<Dim>& work) {
   const auto& weights = work.weights_of_mesh();

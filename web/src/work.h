@@ -58,7 +58,7 @@ class Work {
 
   //! \param options  "smoothness", "tolerance", "distances", "precision"
   Json solve(const Json& options, const Report& report);
-  //! In place of make_mesh() and solve(), what another session has computed for this cage.
+  //! In place of make_mesh() and solve(), what another worker has computed for this cage.
   //! \param weights  of the vertices of the mesh
   void set_solution(DomainMesh<Dim> mesh, const SparseWeights& weights);
   //! The rest cage in another shape: {"points"} or {"refine"}, within a budget of time.
@@ -114,8 +114,8 @@ class Work {
   app::Mesher mesher_ = app::Mesher::kAuto;
   OutsidePoints outside_ = OutsidePoints::kFail;
   Placement<Dim> placement_;
-  std::unique_ptr<Solver<Dim>>
-      solver_;  // none: the cage has several parts, or another session solved
+  // None if the cage has several parts, or if another worker solved.
+  std::unique_ptr<Solver<Dim>> solver_;
   SparseWeights of_mesh_;
   SparseWeights weights_;  // at the model's points
 };

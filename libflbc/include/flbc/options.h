@@ -57,7 +57,7 @@ enum class ActiveSet {
 };
 
 //! Smoothness for deforming models, the default of flbc run and openmesh::bind(): poses crease a
-//! model no more than with harmonic coordinates, for 1% to 42% more influences
+//! model no more than with harmonic coordinates, for 6% to 42% more influences
 //! (docs/explanation/smooth_weights.md).
 constexpr double kDeformationSmoothness = 0.003;
 

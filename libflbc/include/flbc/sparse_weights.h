@@ -70,7 +70,7 @@ class SparseWeights {
     }
   }
 
-  //! The number of nonzero weights of a point. \param point  in [0, P)
+  //! The number of stored weights of a point. \param point  in [0, P)
   Index count(Index point) const { return static_cast<Index>(starts_[point + 1] - starts_[point]); }
 
   //! Whether a point has weights other than zero. Points without weights do not move.

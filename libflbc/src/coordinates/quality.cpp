@@ -59,10 +59,6 @@ class SparseGradients {
   std::vector<Index> touched_;
 };
 
-std::int64_t size_of(const SparseWeights& weights, Index point) {
-  return weights.starts()[point + 1] - weights.starts()[point];
-}
-
 // sum_s A_s sum_i f(i, s, grad w_i).
 template <int Dim, class Function>
 double integrate_gradients(const DomainMesh<Dim>& mesh, const SparseWeights& weights,
@@ -97,7 +93,7 @@ Quality measure_quality(const PointList<Dim>& control_points, const PointList<Di
     Vector<Dim> error = -points.col(p);
     double sum = 0;
     Index count = 0;
-    if (size_of(weights, p) < control_points.cols()) {
+    if (weights.count(p) < control_points.cols()) {
       quality.min_weight = std::min(quality.min_weight, 0.0);
     }
     weights.visit(p, [&](Index i, double weight) {

@@ -203,9 +203,7 @@ class PoissonDescent {
                            typename PointSparsifier<Dim>::Workspace& work) {
     if (options_.threshold > 0 || projected_.count(point) <= options_.max_influences) return false;
     auto& qp = work.selection.qp();
-    auto& pull = qp.aim_at(points_.col(point));
-    pull.setZero();
-    given_.visit(point, [&](Index i, double weight) { pull[i] = weight; });
+    qp.aim_at(points_.col(point)) = given_.at(point);
     PointWeights& best = weights_[point];
     best.cost = std::numeric_limits<double>::infinity();
     for (const auto& neighbour : graph_.neighbours_of(point)) {
@@ -443,10 +441,9 @@ SparseWeights reduce_influences(const PointList<Dim>& control_points, const Poin
                                 const EdgeList& edges, const SparseWeights& weights,
                                 const std::vector<PointList<Dim>>& poses,
                                 const SparsifyOptions& options) {
-  const auto& starts = weights.starts();
   bool has_few = options.threshold == 0;
-  for (std::size_t p = 1; p < starts.size(); ++p) {
-    has_few = has_few && starts[p] - starts[p - 1] <= options.max_influences;
+  for (Index p = 0; p < weights.num_points(); ++p) {
+    has_few = has_few && weights.count(p) <= options.max_influences;
   }
   if (has_few || edges.ends.empty()) {
     return sparsify(control_points, points, weights, options);
