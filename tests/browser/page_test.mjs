@@ -362,6 +362,22 @@ async function testKeptPoses(name, dim, pose) {
   await page.close();
 }
 
+// Where a file puts the vertices of its only mesh at each key, if nothing is rotated.
+function keysIn(bytes, dim) {
+  const length = bytes.readUInt32LE(12);
+  const json = JSON.parse(bytes.subarray(20, 20 + length));
+  const floatsOf = (index) => {
+    const { byteOffset, byteLength } = json.bufferViews[json.accessors[index].bufferView];
+    return new Float32Array(Uint8Array.from(bytes.subarray(28 + length).subarray(byteOffset, byteOffset + byteLength)).buffer);
+  };
+  const [{ attributes, targets }] = json.meshes[0].primitives;
+  const { input, output } = json.animations[0].samplers[0];
+  const base = floatsOf(attributes.POSITION), moved = targets.map(({ POSITION }) => floatsOf(POSITION));
+  return [...floatsOf(input)].map((time, key) => ({ time, points: Array.from(base, (value, k) =>
+    moved.reduce((sum, target, t) => sum + floatsOf(output)[key * moved.length + t] * target[k],
+                 value + json.nodes[1].translation[k % 3])).filter((_, k) => k % 3 < dim) }));
+}
+
 // From a page without poses.
 async function testKeys(name, dim, pose) {
   const page = await open(`${name}_rest`);
@@ -373,9 +389,18 @@ async function testKeys(name, dim, pose) {
   await chooser.accept([pose]);
   await tab.waitForFunction(() => window.flbc.viewer.editor.canUndo);
   await page.type("k");
+  const moved = await page.points();
   await page.press("resetAll");
   await page.type("k");
   assert.ok(await isShown());
+  await page.press("saveAnimation");
+  const file = await downloaded(`${name}_model_animation.glb`);
+  assert.match(String(execFileSync(program, ["info", file])), /animation of 2 s/);
+  const points = await page.points(), size = sizeOf(points, dim);
+  keysIn(readFileSync(file), dim).forEach((key, k) => {
+    assert.equal(key.time, k);
+    assert.ok(largestDifference(key.points, k === 1 ? moved : points) < 1e-6 * size, `key ${k}`);
+  });
   await tab.reload();
   await page.loaded();
   assert.ok(await isShown(), "keys are kept");

@@ -96,8 +96,8 @@ export class Flbc {
   content(options?: { picture?: string }): Promise<Uint8Array>;
   /** A page to deform the model in that needs no other file. */
   page(options?: { picture?: string }): Promise<Uint8Array>;
-  /** A skin of 4 or 8 influences per vertex. @param options.poses control points, one second each */
-  glb(options?: { influences?: 4 | 8; poses?: number[][] }): Promise<Uint8Array>;
+  /** A skin of 4 or 8 influences per vertex. */
+  glb(options?: { influences?: 4 | 8 }): Promise<Uint8Array>;
   weightFile(options?: { format?: "npy" | "mtx" | "dmat" | "lbw"; of?: "model" | "mesh" }): Promise<Uint8Array>;
   cageFile(): Promise<Uint8Array>;
   meshFile(): Promise<Uint8Array>;

@@ -317,17 +317,14 @@ class App {
     const { title } = content;
     const picture = this.model.picture ?? "";
     const extension = /\.png$/.test(this.model.name) ? "obj" : /[^.]*$/.exec(this.model.name)[0].toLowerCase();
-    const keys = content.poses.slice(1).map((pose) => [...pose.points].filter((_, k) => k % 3 < content.dim));
-    const isPosed = editor.points.some((place, k) => place !== editor.rest[k]);
-    const poses = keys.length > 0 ? keys : isPosed ? [points] : [];
     const kinds = {
       posed: async () => [`${title}_posed.${extension}`, await this.flbc.modelFile(points, extension)],
       cage: async () => [`${title}_cage.obj`, await this.flbc.cageFile()],
       npy: async () => [`${title}_weights.npy`, await this.flbc.weightFile({ format: "npy" })],
       mtx: async () => [`${title}_weights.mtx`, await this.flbc.weightFile({ format: "mtx" })],
       page: async () => [`${title}.html`, await this.flbc.page({ picture })],
-      glb4: async () => [`${title}.glb`, await this.flbc.glb({ influences: 4, poses })],
-      glb8: async () => [`${title}_8.glb`, await this.flbc.glb({ influences: 8, poses })],
+      glb4: async () => [`${title}.glb`, await this.flbc.glb({ influences: 4 })],
+      glb8: async () => [`${title}_8.glb`, await this.flbc.glb({ influences: 8 })],
     };
     try {
       await this.prepared;

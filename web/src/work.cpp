@@ -419,16 +419,7 @@ std::string Work<Dim>::glb(const Json& options) const {
   skin.edges = edges_;
   skin.turn = app::turn_upright(app::up_axis(app::UpAxis::kAuto, points_));
   skin.cage_edges = view::as_facets(shown_.edges);
-  gltf::Animation<Dim> animation;
-  for (const auto& pose : options.value("poses", Json::array())) {
-    if (animation.poses.empty()) {
-      animation.poses.push_back(cage_.points);
-      animation.times.push_back(0);
-    }
-    animation.times.push_back(static_cast<double>(animation.poses.size()));
-    animation.poses.push_back(points_in<Dim>(pose, cage_.size()));
-  }
-  return gltf::export_skin<Dim>(cage_.points, points_, weights_, surface_, skin, animation).content;
+  return gltf::export_skin<Dim>(cage_.points, points_, weights_, surface_, skin).content;
 }
 
 template <int Dim>

@@ -85,7 +85,7 @@ class Work {
   std::string content(const std::string& picture) const;
   //! A page that needs no other file.
   std::string page(const std::string& picture) const;
-  //! \param options  "influences", "poses"
+  //! \param options  "influences"
   std::string glb(const Json& options) const;
   //! \param options  "format", and "of": "model" or "mesh"
   std::string weight_file(const Json& options) const;

@@ -5,7 +5,7 @@ import { inSpace } from "./data.mjs";
 import { kHelp } from "./keyboard.mjs";
 import { readPose } from "./obj.mjs";
 import { nearestPose } from "./poses.mjs";
-import { commandOf, saveModel, savePicture, savePose } from "./saving.mjs";
+import { commandOf, saveAnimation, saveModel, savePicture, savePose } from "./saving.mjs";
 import { centroid } from "./vectors.mjs";
 
 const kAxisNames = ["x", "y", "z"];
@@ -121,6 +121,7 @@ export function makeCommands(viewer) {
     edges: () => viewer.set("showsEdges", !viewer.showsEdges),
     play: () => (viewer.playing ? viewer.stopPlaying() : viewer.play()),
     savePose: () => savePose(viewer),
+    saveAnimation: () => saveAnimation(viewer),
     saveModel: () => saveModel(viewer),
     savePicture: () => savePicture(viewer),
     copyCommand: () => copyCommand(viewer),

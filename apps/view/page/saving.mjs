@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Downloads of poses, models and pictures, and a command to copy.
+import { glbOf } from "./glb.mjs";
 import { modelText, poseText } from "./obj.mjs";
 
 export function download(name, blob) {
@@ -45,6 +46,10 @@ export function savePose(viewer) {
 export function saveModel(viewer) {
   const { dim, surface, title } = viewer.content;
   saveText(`${title}_posed.obj`, modelText(pointsOf(viewer), dim, surface));
+}
+
+export function saveAnimation({ content, camera }) {
+  download(`${content.title}_animation.glb`, glbOf(content, camera.basis));
 }
 
 export function savePicture(viewer) {

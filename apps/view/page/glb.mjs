@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The keys as an animation in glTF. Every key is a morph target, because readers interpolate targets
+// along straight lines, as the page does, and need no limit of influences.
+import { Deformer } from "./deformer.mjs";
+import { atVertices, sumNormals } from "./surface_normals.mjs";
+
+const kSizes = { SCALAR: 1, VEC2: 2, VEC3: 3 };
+
+// Places and normals of the vertices in a pose.
+function shapeOf({ sources, triangles, groups, numVertices }, deformer, pose) {
+  deformer.move(pose);
+  const places = atVertices(deformer.points, sources, 3, new Float32Array(3 * numVertices)).slice();
+  const normals = new Float32Array(3 * numVertices);
+  sumNormals(places, triangles, groups, normals);
+  for (let v = 0; v < normals.length; v += 3) {
+    const normal = normals.subarray(v, v + 3), length = Math.hypot(...normal);
+    normal.set(length > 0 ? normal.map((value) => value / length) : [0, 0, 1]);
+  }
+  return { POSITION: places, NORMAL: normals };
+}
+
+// \param basis  right, up and toward the viewer
+export function glbOf({ center, picture, poses, rest, surface, title, weights, base }, basis) {
+  const accessors = [], bufferViews = [], arrays = [];
+  let byteLength = 0;
+  const put = (numbers, type = "SCALAR") => {
+    const size = kSizes[type];
+    const extreme = (best) => Array.from({ length: size }, (_, k) =>
+      numbers.reduce((far, value, j) => (j % size === k ? best(far, value) : far), numbers[k]));
+    bufferViews.push({ buffer: 0, byteOffset: byteLength, byteLength: numbers.byteLength });
+    byteLength += numbers.byteLength;
+    return accessors.push({ bufferView: arrays.push(numbers) - 1, type, count: numbers.length / size,
+                            componentType: numbers instanceof Uint32Array ? 5125 : 5126,
+                            min: extreme(Math.min), max: extreme(Math.max) }) - 1;
+  };
+  const putShape = ({ POSITION, NORMAL }) => ({ POSITION: put(POSITION, "VEC3"), NORMAL: put(NORMAL, "VEC3") });
+  const deformer = new Deformer(weights, base, rest);
+  const atRest = shapeOf(surface, deformer, rest);
+  const targets = poses.map(({ points }) => {
+    const shape = shapeOf(surface, deformer, points);
+    for (const name in shape) shape[name].forEach((value, k) => { shape[name][k] = value - atRest[name][k]; });
+    return putShape(shape);
+  });
+  const primitive = { attributes: putShape(atRest), targets, indices: put(Uint32Array.from(surface.triangles)), material: 0 };
+  if (surface.textureCoordinates) primitive.attributes.TEXCOORD_0 = put(surface.textureCoordinates, "VEC2");
+  if (surface.colors) primitive.attributes.COLOR_0 = put(Float32Array.from(surface.colors, (byte) => (byte / 255) ** 2.2), "VEC3");
+  const input = put(Float32Array.from(poses, ({ time }) => time));
+  const output = put(Float32Array.from({ length: poses.length ** 2 }, (_, k) => Number(k % (poses.length + 1) === 0)));
+  // Of a node with children, because an animation has no node with a matrix.
+  const matrix = [0, 1, 2].flatMap((k) => [...basis.map((axis) => axis[k]), 0]);
+  const text = new TextEncoder().encode(JSON.stringify({
+    asset: { version: "2.0" }, buffers: [{ byteLength }], bufferViews, accessors, scene: 0, scenes: [{ nodes: [0] }],
+    nodes: [{ children: [1], matrix: [...matrix, 0, 0, 0, 1] }, { mesh: 0, translation: center }],
+    meshes: [{ name: title, primitives: [primitive], extras: { targetNames: poses.map(({ name }) => name) } }],
+    materials: [{ pbrMetallicRoughness: { metallicFactor: 0, ...(picture && { baseColorTexture: { index: 0 } }) } }],
+    ...(picture && { images: [{ uri: picture }], textures: [{ source: 0 }] }),
+    animations: [{ samplers: [{ input, output }], channels: [{ sampler: 0, target: { node: 1, path: "weights" } }] }],
+  }));
+  const padding = -text.length & 3, length = text.length + padding;
+  return new Blob([Uint32Array.of(0x46546C67, 2, 28 + length + byteLength, length, 0x4E4F534A), text, " ".repeat(padding),
+                   Uint32Array.of(byteLength, 0x004E4942), ...arrays]);
+}
