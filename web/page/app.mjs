@@ -12,10 +12,9 @@ import { decodePicture, Sketch, svgToObj } from "./shapes.mjs";
 const kSamples = { "Figure (2D)": "figure.obj", Limb: "limb.obj", Torus: "torus.obj" };
 const kVertices = 6000;   // of the mesh of the interior
 const kMoves = 1e-4;      // of the cage size: less is no movement
+const kPicture = /\.(png|jpe?g)$/i;
 const kScreens = ["start", "busy", "drawing"];
 const kParts = ["stage", "timeline", "panel", "keyHelp"];
-
-const text = (bytes) => new TextDecoder().decode(bytes);
 
 // The share of vertices that move by at least so much.
 function shareOfMoved({ starts, controlPoints, values }, steps, least) {
@@ -107,8 +106,9 @@ class App {
     await this.flbc.solve({}, onProgress);
     onProgress("showing the model", 0);
     this.solution = await this.flbc.solution();
-    await this.display();
     this.prepare();
+    await this.prepared;
+    await this.display();
   }
 
   async open(files) {
@@ -142,19 +142,13 @@ class App {
 
   // What the module reads, of files that were dropped together.
   async modelOf(files) {
-    const isMain = (file) => /\.(obj|ply|stl|off|glb|gltf|svg|png|jpe?g)$/i.test(file.name);
-    const main = files.find((file) => /\.(obj|ply|stl|off|glb|gltf)$/i.test(file.name)) ?? files.find(isMain);
+    const first = (kind) => files.find(({ name }) => kind.test(name));
+    const main = first(/\.(obj|ply|stl|off|glb|gltf)$/i) ?? first(/\.svg$/i) ?? first(kPicture);
     if (!main) throw new Error(`${files[0].name}: unknown file format; drop a .glb, .gltf, .obj, .ply, .stl, .off, .svg, .png, or .jpg`);
-    const pictures = files.filter((file) => file !== main && /\.(png|jpe?g)$/i.test(file.name));
-    const picture = pictures.length === 1 ? (await decodePicture(pictures[0])).address : "";
-    const stem = main.name.replace(/\.[^.]*$/, "");
-    if (/\.svg$/i.test(main.name)) {
-      return { name: `${stem}.obj`, bytes: new TextEncoder().encode(svgToObj(await main.text())), files: {}, picture };
-    }
-    if (/\.(png|jpe?g)$/i.test(main.name)) {
-      const { bytes, address } = await decodePicture(main);
-      return { name: `${stem}.png`, bytes, files: {}, picture: address };
-    }
+    const pictures = kPicture.test(main.name) ? [main] : files.filter(({ name }) => kPicture.test(name));
+    const { obj, address: picture = "" } = pictures.length === 1 ? await decodePicture(pictures[0]) : {};
+    const made = main === pictures[0] ? obj : /\.svg$/i.test(main.name) ? svgToObj(await main.text()) : null;
+    if (made) return { name: main.name.replace(/[^.]*$/, "obj"), bytes: new TextEncoder().encode(made), files: {}, picture };
     const others = {};
     for (const file of files) if (file !== main) others[file.name] = await file.arrayBuffer();
     return { name: main.name, bytes: await main.arrayBuffer(), files: others, picture };
@@ -229,8 +223,8 @@ class App {
   // ----------------------------------------------------------------------------------------- view
 
   async display() {
-    const picture = this.model.picture ?? "";
-    const json = JSON.parse(text(await this.flbc.content({ picture })));
+    const { picture } = this.model;
+    const json = JSON.parse(new TextDecoder().decode(await this.flbc.content({ picture })));
     this.listening?.abort();
     this.listening = new AbortController();
     const old = this.view;
@@ -315,8 +309,8 @@ class App {
     const { content, editor } = this.view;
     const points = [...editor.points].filter((_, k) => k % 3 < content.dim);
     const { title } = content;
-    const picture = this.model.picture ?? "";
-    const extension = /\.png$/.test(this.model.name) ? "obj" : /[^.]*$/.exec(this.model.name)[0].toLowerCase();
+    const { name: modelName, picture } = this.model;
+    const extension = /[^.]*$/.exec(modelName)[0].toLowerCase();
     const kinds = {
       posed: async () => [`${title}_posed.${extension}`, await this.flbc.modelFile(points, extension)],
       cage: async () => [`${title}_cage.obj`, await this.flbc.cageFile()],

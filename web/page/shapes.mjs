@@ -61,8 +61,35 @@ export function svgToObj(text) {
   return polygonsToObj(polygons);
 }
 
-// A picture as the module takes it: width, height, and which pixels are to be seen. Larger ones are
-// shrunk. \return the bytes, and the picture as an address
+// Squares that cover what is to be seen of a picture, as OBJ with texture coordinates.
+function gridToObj({ data, width, height }) {
+  const kSquares = 96;  // along the longer side
+  const step = Math.ceil(Math.max(width, height) / kSquares);
+  const lines = [], numbers = new Map();
+  const corner = (left, top) => {
+    const x = Math.min(left, width), y = height - Math.min(top, height);
+    const place = `v ${x} ${y} 0`;
+    if (!numbers.has(place)) {
+      numbers.set(place, numbers.size + 1);
+      lines.push(place, `vt ${x / width} ${y / height}`);
+    }
+    return `${numbers.get(place)}/${numbers.get(place)}`;
+  };
+  const isSeen = (left, top) => {
+    for (let y = top; y < Math.min(top + step, height); ++y) {
+      for (let x = left; x < Math.min(left + step, width); ++x) if (data[4 * (x + width * y) + 3] > 16) return true;
+    }
+    return false;
+  };
+  for (let y = 0; y < height; y += step) {
+    for (let x = 0; x < width; x += step) {
+      if (isSeen(x, y)) lines.push(`f ${corner(x, y)} ${corner(x, y + step)} ${corner(x + step, y + step)} ${corner(x + step, y)}`);
+    }
+  }
+  return lines.join("\n");
+}
+
+// A picture as a model and as an address. Larger ones are shrunk.
 export async function decodePicture(file) {
   const kLargest = 1024;
   const image = await createImageBitmap(file);
@@ -73,12 +100,7 @@ export async function decodePicture(file) {
   Object.assign(canvas, { width, height });
   const context = canvas.getContext("2d");
   context.drawImage(image, 0, 0, width, height);
-  const pixels = context.getImageData(0, 0, width, height).data;
-  const bytes = new Uint8Array(8 + width * height);
-  new DataView(bytes.buffer).setUint32(0, width, true);
-  new DataView(bytes.buffer).setUint32(4, height, true);
-  for (let k = 0; k < width * height; ++k) bytes[8 + k] = pixels[4 * k + 3] > 16 ? 1 : 0;
-  return { bytes, address: canvas.toDataURL("image/png") };
+  return { obj: gridToObj(context.getImageData(0, 0, width, height)), address: canvas.toDataURL("image/png") };
 }
 
 // A board on which a polygon is drawn.

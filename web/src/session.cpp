@@ -1,27 +1,69 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What JavaScript calls: call(name, arguments, report). Exceptions of C++ mean nothing to
-// JavaScript, so they become objects {error}.
+// A model with its cage and weights, as JavaScript calls it: call(name, arguments, report). Names
+// and arguments are in flbc.d.ts. Exceptions of C++ mean nothing to JavaScript, so they become
+// {error}.
 #include <emscripten.h>
 #include <emscripten/bind.h>
 #include <emscripten/heap.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
+#include "files/load.h"
+#include "files/model_facets.h"
+#include "files/movable_model.h"
+#include "files/up_axis.h"
+#include "flbc/bounding_box.h"
+#include "flbc/cage_facts.h"
+#include "flbc/coordinates.h"
+#include "flbc/deform.h"
+#include "flbc/io/files.h"
+#include "flbc/io/weights_io.h"
+#include "flbc/names.h"
+#include "flbc/placement.h"
+#include "flbc/solver.h"
+#include "flbc/sparsify.h"
 #include "flbc/version.h"
-#include "work.h"
+#include "gltf/look.h"
+#include "gltf/skin.h"
+#include "solve/estimate.h"
+#include "solve/make_domain.h"
+#include "view/model_page.h"
+#ifdef FLBC_WITH_CGAL
+#include "flbc/cage_from_model.h"
+#include "flbc/repair_cage.h"
+#endif
 
 namespace flbc::web {
 namespace {
 
 using emscripten::val;
+using Json = nlohmann::ordered_json;
 
-val from_json(const std::string& text) {
-  return val::global("JSON").call<val>("parse", text);
+// Receives the name of a stage and its progress in [0, 1].
+using Report = std::function<void(const char* stage, double done)>;
+
+constexpr const char* kCageFile = "cage.obj";
+
+// A cage with defects, and where they are.
+class DefectiveCage : public InputError {
+ public:
+  DefectiveCage(const std::string& message, std::vector<Index> control_points)
+      : InputError(message), control_points(std::move(control_points)) {}
+  std::vector<Index> control_points;
+};
+
+// ----------------------------------------------------------------------------- objects and arrays
+
+val from_json(const Json& facts) {
+  return val::global("JSON").call<val>("parse", facts.dump());
 }
 
 Json to_json(const val& object) {
-  if (object.isUndefined() || object.isNull()) return Json::object();
   return Json::parse(val::global("JSON").call<std::string>("stringify", object));
 }
 
@@ -31,13 +73,22 @@ val array_of(const Number* numbers, std::size_t count) {
   return val(emscripten::typed_memory_view(count, numbers)).template call<val>("slice");
 }
 
+template <class Numbers>
+val array_of(const Numbers& numbers) {
+  return array_of(numbers.data(), static_cast<std::size_t>(numbers.size()));
+}
+
 val bytes_of(const std::string& text) {
   return array_of(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
 }
 
-template <class Matrix>
-val matrix_array(const Matrix& matrix) {
-  return array_of(matrix.data(), static_cast<std::size_t>(matrix.size()));
+// Writes a file by its name and takes its bytes.
+template <class Write>
+val bytes_of(const std::string& file, const Write& write) {
+  write(file);
+  const auto bytes = io::read_file(file);
+  std::filesystem::remove(file);
+  return bytes_of(bytes);
 }
 
 template <class Matrix>
@@ -49,27 +100,18 @@ Matrix matrix_in(const val& array) {
                                   static_cast<Eigen::Index>(numbers.size()) / kRows);
 }
 
-val weight_arrays(const SparseWeights& weights) {
+template <class Number>
+void set_weights(val& object, const SparseWeights& weights) {
   const std::vector<std::uint32_t> starts(weights.starts().begin(), weights.starts().end());
-  const std::vector<float> values(weights.values().begin(), weights.values().end());
-  auto result = val::object();
-  result.set("starts", array_of(starts.data(), starts.size()));
-  result.set("controlPoints", array_of(weights.control_points().data(), values.size()));
-  result.set("values", array_of(values.data(), values.size()));
-  return result;
+  const std::vector<Number> values(weights.values().begin(), weights.values().end());
+  object.set("starts", array_of(starts));
+  object.set("controlPoints", array_of(weights.control_points().data(), values.size()));
+  object.set("values", array_of(values));
 }
 
-// In double precision, so that another worker continues from the same numbers.
-template <int Dim>
-val solution_arrays(const Work<Dim>& work) {
-  const auto& weights = work.weights_of_mesh();
-  const std::vector<std::uint32_t> starts(weights.starts().begin(), weights.starts().end());
+val weight_arrays(const SparseWeights& weights) {
   auto result = val::object();
-  result.set("points", matrix_array(work.mesh().points));
-  result.set("cells", matrix_array(work.mesh().cells));
-  result.set("starts", array_of(starts.data(), starts.size()));
-  result.set("controlPoints", array_of(weights.control_points().data(), weights.values().size()));
-  result.set("values", array_of(weights.values().data(), weights.values().size()));
+  set_weights<float>(result, weights);
   return result;
 }
 
@@ -82,19 +124,462 @@ SparseWeights weights_in(const val& arrays, Index num_control_points) {
           convertJSArrayToNumberVector<double>(arrays["values"])};
 }
 
-io::Model model_of_triangles(const val& points, const val& triangles) {
-  const auto places = matrix_in<PointList<3>>(points);
-  const auto corners = matrix_in<FacetList<3>>(triangles);
+// ---------------------------------------------------------------------------------------- options
+
+SolverOptions solver_options(const Json& options) {
+  SolverOptions result;
+  if (options.contains("smoothness")) result.smoothness = options["smoothness"].get<double>();
+  if (options.contains("tolerance")) result.tolerance = options["tolerance"].get<double>();
+  const auto take_named = [&](const char* option, auto& value) {
+    if (!options.contains(option)) return;
+    const auto name = options[option].get<std::string>();
+    const auto named = value_named<std::decay_t<decltype(value)>>(name);
+    if (!named) throw OptionError(std::string(option) + ": invalid value '" + name + "'");
+    value = *named;
+  };
+  take_named("distances", result.distances);
+  take_named("precision", result.precision);
+  make_smooth(result);
+  return result;
+}
+
+#ifdef FLBC_WITH_CGAL
+const char* name_of(CagingStage stage) {
+  constexpr const char* kNames[] = {"simplifying the model", "wrapping the model",
+                                    "reducing control points", "checking the cage"};
+  return kNames[static_cast<int>(stage)];
+}
+
+CageSymmetry symmetry_of(const std::string& name) {
+  constexpr const char* kNames[] = {"none", "x", "y", "z", "auto"};
+  const auto* const found = std::find(std::begin(kNames), std::end(kNames), name);
+  if (found != std::end(kNames)) return static_cast<CageSymmetry>(found - kNames);
+  throw OptionError("symmetry: invalid value '" + name + "' (choose from none, x, y, z, auto)");
+}
+#endif
+
+// Writes an outline as triangles of its interior. Texture coordinates spread a picture over it.
+void write_filled(const std::string& file, const app::ModelFacets<2>& outline) {
+  constexpr Index kVertices = 2000;
+  const Cage<2> cage{outline.points, outline.facets};
+  const auto mesh = app::make_domain<2>({cage, "the polygon", kVertices}).mesh;
+  io::Model model{io::to_polygons(mesh)};
+  const Vector<2> low = outline.points.rowwise().minCoeff();
+  const Vector<2> size = outline.points.rowwise().maxCoeff() - low;
+  model.attributes.texture_coordinates =
+      (mesh.points.colwise() - low).array().colwise() / size.array();
+  for (const auto& polygon : model.soup.polygons) {
+    auto& corners = model.attributes.corners.emplace_back();
+    for (const Index p : polygon) corners.push_back({p, -1});
+  }
+  io::write_model(file, model);
+}
+
+void write_triangles(const std::string& file, const app::ModelFacets<3>& triangles) {
   io::Model model;
-  for (const auto& place : places.colwise()) model.soup.points.emplace_back(place);
-  for (const auto& corner : corners.colwise()) {
-    if (corner.minCoeff() < 0 || corner.maxCoeff() >= places.cols()) {
+  for (const auto& point : triangles.points.colwise()) model.soup.points.emplace_back(point);
+  for (const auto& corner : triangles.facets.colwise()) {
+    if (corner.minCoeff() < 0 || corner.maxCoeff() >= triangles.points.cols()) {
       throw InputError("triangles: an index is out of range");
     }
     model.soup.polygons.emplace_back(corner.begin(), corner.end());
   }
-  return model;
+  io::write_model(file, model);
 }
+
+// ---------------------------------------------------------------------------------- model and cage
+
+template <int Dim>
+class Work {
+ public:
+  // \param facets  of the file
+  Work(const std::string& name, app::ModelFacets<Dim> facets)
+      : name_(name), file_(name), facets_(std::move(facets)) {
+    if constexpr (Dim == 2) {
+      if (io::read_polygons(name).polygons.empty()) {
+        file_ = "filled.obj";
+        write_filled(file_, facets_);
+      }
+    }
+    model_.emplace(app::MovedFile{file_, file_});
+    edges_ = model_->edges();
+    if (!model_->model()->soup.polygons.empty()) surface_ = model_->surface();
+  }
+
+  val facts() const { return from_json({{"dim", Dim}, {"vertices", points().cols()}}); }
+
+  val call(const std::string& name, const val& given, const Report& report) {
+    const auto options = [&] { return to_json(given); };
+    const auto text = [&](const char* key, const char* usual = "") {
+      return given.hasOwnProperty(key) ? given[key].template as<std::string>() : usual;
+    };
+    const auto pose = [&] { return matrix_in<PointList<Dim>>(given["points"]); };
+    const auto mesh = [&]() -> DomainMesh<Dim> {
+      return {pose(), matrix_in<CellList<Dim>>(given["cells"])};
+    };
+    if (name == "makeCage") return make_cage(options(), report);
+    if (name == "readCage") return read_cage(text("name"));
+    if (name == "repairCage") return repair_cage();
+    if (name == "setCage") return set_cage({pose(), matrix_in<FacetList<Dim>>(given["facets"])});
+    if (name == "makeMesh") return make_mesh(options(), report);
+    if (name == "setMesh") return set_mesh(mesh());
+    if (name == "setSolution") return set_solution(mesh(), weights_in(given, cage_.size()));
+    if (name == "solve") return solve(options(), report);
+    if (name == "reduce") return reduce(options(), report);
+    if (name == "move") return move(options());
+    if (name == "solution") return solution();
+    if (name == "points") return array_of(points());
+    if (name == "cage") return cage();
+    if (name == "weights") return weight_arrays(weights());
+    if (name == "harmonicWeights") return weight_arrays(harmonic());
+    if (name == "deform") return array_of(posed(pose()));
+    if (name == "content") return bytes_of(view::make_content(content(text("picture"))));
+    if (name == "page") return bytes_of(view::make_page(content(text("picture"))));
+    if (name == "glb") return glb(options());
+    if (name == "weightFile") return weight_file(text("of"), text("format", "npy"));
+    if (name == "cageFile") return cage_file();
+    if (name == "meshFile") return mesh_file();
+    if (name == "modelFile") return model_file(pose(), text("extension", "obj"));
+    throw OptionError(name + ": there is no such step");
+  }
+
+ private:
+  const PointList<Dim>& points() const { return model_->points(); }
+
+  Json cage_facts() const {
+    return {{"controlPoints", cage_.size()}, {"facets", cage_.facets.cols()}};
+  }
+
+  val cage() const {
+    auto result = val::object();
+    result.set("points", array_of(cage_.points));
+    result.set("facets", array_of(cage_.facets));
+    return result;
+  }
+
+  val set_cage(Cage<Dim> cage) {
+    app::write_cage(kCageFile, cage);
+    show_cage(std::move(cage), kCageFile);
+    return from_json(cage_facts());
+  }
+
+  void show_cage(Cage<Dim> cage, const std::string& file) {
+    solver_.reset();
+    set_weights_of_mesh({});
+    cage_ = std::move(cage);
+    shown_ = app::load_shown_cage<Dim>(file);
+  }
+
+#ifdef FLBC_WITH_CGAL
+  val make_cage(const Json& options, const Report& report) {
+    const double size = bounding_box_diagonal<Dim>(facets_.points);
+    CagingOptions caging;
+    caging.control_points = options.value("controlPoints", 0);
+    caging.offset = options.value("offset", 0.0) * size;
+    caging.symmetry = symmetry_of(options.value("symmetry", "auto"));
+    caging.stage = [&](CagingStage stage, double done) { report(name_of(stage), done); };
+    const auto made = app::naming(
+        name_, [&] { return cage_from_model<Dim>(facets_.points, facets_.facets, caging); });
+    set_cage(made.cage);
+    auto facts = cage_facts();
+    facts["offset"] = made.offset / size;
+    facts["symmetry"] = made.symmetry_axis < 0 ? "none" : std::string(1, "xyz"[made.symmetry_axis]);
+    return from_json(facts);
+  }
+
+  val repair_cage() {
+    const auto repaired = flbc::repair_cage<Dim>(cage_);
+    set_cage(repaired.cage);
+    auto facts = cage_facts();
+    facts["changes"] = repaired.changes;
+    return from_json(facts);
+  }
+#else
+  val make_cage(const Json&, const Report&) {
+    return repair_cage();
+  }
+  val repair_cage() {
+    throw OptionError("this module was built without CGAL and cannot make or repair cages");
+  }
+#endif
+
+  // A defective cage is kept, to be shown or repaired.
+  val read_cage(const std::string& file) {
+    const auto any = io::to_cage(io::read_polygons(file), file);
+    const auto* const cage = std::get_if<Cage<Dim>>(&any);
+    if (cage == nullptr) {
+      throw InputError(file + ": the model is in " + std::to_string(Dim) +
+                       "D, but the cage is not; both need the same dimension");
+    }
+    show_cage(*cage, file);
+    auto defects = find_defects(cage_);
+#ifdef FLBC_WITH_CGAL
+    if (defects.empty()) defects = find_self_intersections(cage_);
+#endif
+    if (defects.empty()) return from_json(cage_facts());
+    std::vector<Index> where;
+    for (const auto& defect : defects) {
+      where.insert(where.end(), defect.vertices.begin(), defect.vertices.end());
+      for (const Index f : defect.facets) {
+        where.insert(where.end(), cage_.facets.col(f).begin(), cage_.facets.col(f).end());
+      }
+    }
+    throw DefectiveCage(file + ": " + defects.front().message, where);
+  }
+
+  // ----------------------------------------------------------------------------- mesh and weights
+
+  val make_mesh(const Json& options, const Report& report) {
+    place_in_cage();
+    report("filling the cage", 0);
+    auto made = app::make_domain<Dim>({cage_, kCageFile, options.value("vertices", 0)});
+    set_mesh(std::move(made.mesh));
+    mesher_ = made.mesher;
+    // Twice the time of the native program.
+    const auto estimate = app::estimate_solve(Dim, cage_.size(), mesh_.num_vertices(), {});
+    return from_json({{"vertices", mesh_.num_vertices()},
+                      {"cells", mesh_.num_cells()},
+                      {"note", made.note},
+                      {"seconds", 2 * estimate.seconds}});
+  }
+
+  val set_mesh(DomainMesh<Dim> mesh) {
+    solver_.reset();
+    mesh_ = std::move(mesh);
+    mesher_ = app::Mesher::kAuto;
+    return val::undefined();
+  }
+
+  // Refuses vertices of faces outside.
+  void place_in_cage() {
+    outside_ = OutsidePoints::kFail;
+    try {
+      place_points(cage_, points(), outside_);
+    } catch (const InputError& error) {
+      if (!app::only_loose_are_outside(cage_, points(), model_->model()->soup)) {
+        const std::string message = error.what();  // with advice for users of the library
+        throw InputError(name_ + ": " + message.substr(0, message.find("; choose")) +
+                         "; enlarge the cage, or make one around the model");
+      }
+      outside_ = OutsidePoints::kNearest;
+    }
+  }
+
+  void set_weights_of_mesh(const SparseWeights& weights) {
+    of_mesh_ = weights;
+    weights_ = {};
+  }
+
+  // At the model's points, where they are needed: they take more memory than a solve.
+  const SparseWeights& weights() {
+    if (weights_.num_points() == 0 && of_mesh_.num_points() > 0) {
+      placement_ = place_points(cage_, mesh_, points(), outside_);
+      weights_ = weights_at(cage_, mesh_, of_mesh_, placement_);
+    }
+    return weights_;
+  }
+
+  val solve(const Json& options, const Report& report) {
+    double first = 0;
+    Observer observer;
+    observer.progress = [&](const Progress& progress) {
+      const double excess = std::log(
+          std::max({progress.relative_primal_residual, progress.relative_dual_residual, 1.0}));
+      first = std::max(first, excess);
+      report("solving", first > 0 ? 1 - excess / first : 0);
+      return true;
+    };
+    observer.stage = [&](Stage stage, double done) {
+      report(stage == Stage::kDistances ? "measuring distances" : "solving", done);
+    };
+    const auto solver = solver_options(options);
+    const auto mesher = app::coarse_mesher<Dim>(mesher_);
+    const auto take = [&](const auto& solution) {
+      set_weights_of_mesh(solution.weights);
+      const SolveReport& of = solution.report;
+      return from_json({{"iterations", of.iterations},
+                        {"objective", of.objective},
+                        {"converged", of.status == SolveStatus::kConverged}});
+    };
+    if (cage_parts(cage_).size() > 1) {
+      return take(flbc::solve(cage_, mesh_, solver, mesher, observer));
+    }
+    solver_ = std::make_unique<Solver<Dim>>(cage_, mesh_, solver, mesher);
+    return take(solver_->solve({}, observer));
+  }
+
+  // In double precision, so that another worker continues from the same numbers.
+  val solution() const {
+    auto result = val::object();
+    result.set("points", array_of(mesh_.points));
+    result.set("cells", array_of(mesh_.cells));
+    set_weights<double>(result, of_mesh_);
+    return result;
+  }
+
+  val set_solution(DomainMesh<Dim> mesh, const SparseWeights& weights) {
+    place_in_cage();
+    set_mesh(std::move(mesh));
+    set_weights_of_mesh(weights);
+    return val::undefined();
+  }
+
+  val move(const Json& request) {
+    if (cage_parts(cage_).size() > 1) {
+      throw InputError("a cage with several parts cannot be reshaped");
+    }
+    if (!solver_) {
+      solver_ = std::make_unique<Solver<Dim>>(cage_, mesh_, solver_options({}),
+                                              app::coarse_mesher<Dim>(mesher_));
+      solver_->solve();
+    }
+    // Long enough to converge after most moves, short enough to be interrupted.
+    constexpr Budget kBudget{0, 0.25};
+    const PointList<Dim> before = cage_.points;
+    const bool refines = request.value("refine", false);
+    try {
+      const auto points = refines ? before : points_in(request["points"]);
+      const auto change = [&] {
+        refines ? solver_->solve(kBudget) : solver_->move(points, kBudget);
+      };
+      try {
+        change();
+      } catch (const InputError&) {
+        // On the way from the anchored shape cells may be inverted that are not from the present
+        // one.
+        solver_->anchor();
+        change();
+      }
+      cage_ = solver_->cage();
+      mesh_ = solver_->mesh();
+      set_weights_of_mesh(solver_->solution().weights);
+      weights();
+    } catch (const Error& error) {
+      // The model may reach out of the cage.
+      if (solver_->cage().points != before) solver_->move(before);
+      cage_ = solver_->cage();
+      mesh_ = solver_->mesh();
+      return from_json({{"refused", error.what()}});
+    }
+    shown_.points = cage_.points;
+    const auto& report = solver_->solution().report;
+    auto reply = from_json(
+        {{"converged", report.status == SolveStatus::kConverged},
+         {"iterations", report.iterations},
+         {"residual", std::max(report.relative_primal_residual, report.relative_dual_residual)}});
+    reply.set("rest", array_of(cage_.points));
+    reply.set("weights", weight_arrays(shown_weights()));
+    return reply;
+  }
+
+  PointList<Dim> points_in(const Json& numbers) const {
+    const auto values = numbers.get<std::vector<double>>();
+    if (values.size() != static_cast<std::size_t>(cage_.points.size())) {
+      throw InputError("this shape has " + std::to_string(values.size()) + " coordinates, not " +
+                       std::to_string(cage_.points.size()));
+    }
+    return Eigen::Map<const PointList<Dim>>(values.data(), Dim, cage_.size());
+  }
+
+  val reduce(const Json& options, const Report& report) {
+    SparsifyOptions sparsify{options.value("influences", 8)};
+    sparsify.progress = [&](double done) { report("reducing influences", done); };
+    const auto& all = weights();
+    weights_ = reduce_influences<Dim>(cage_.points, placement_.points, edges_, all, {}, sparsify);
+    return from_json({{"influences", sparsify.max_influences}});
+  }
+
+  SparseWeights harmonic() {
+    weights();
+    const auto solution = compute_coordinates(cage_, mesh_, Coordinates::kHarmonic);
+    return weights_at(cage_, mesh_, solution.weights, placement_);
+  }
+
+  PointList<Dim> posed(const PointList<Dim>& control_points) {
+    return points() + deform<Dim>(weights(), control_points - cage_.points);
+  }
+
+  // ------------------------------------------------------------------------------ page and files
+
+  // With as few influences as a page shows; none before solve().
+  SparseWeights shown_weights() {
+    if (weights().num_points() == 0) {
+      const auto none = std::vector<std::int64_t>(points().cols() + 1, 0);
+      return {cage_.size(), none, {}, {}};
+    }
+    return view::limit_influences<Dim>(cage_.points, placement_.points, weights_,
+                                       view::kMostInfluences);
+  }
+
+  std::string title() const {
+    return std::filesystem::path(name_).stem().string();
+  }
+  int up() const {
+    return app::up_axis(app::UpAxis::kAuto, points());
+  }
+
+  // \param picture  data URI of a texture, or empty: that of the model's material
+  view::PageContent<Dim> content(std::string picture) {
+    const auto look = gltf::look_of(surface_);
+    if (picture.empty() && !look.pictures.empty()) {
+      const auto& [media_type, bytes] = look.pictures.front();
+      picture = app::data_uri(media_type, bytes);
+    }
+    return {title(),         name_, "weights.npy", kCageFile, shown_, points(), surface_,
+            shown_weights(), {},    up(),          picture};
+  }
+
+  val glb(const Json& options) {
+    gltf::SkinOptions skin;
+    skin.max_influences = options.value("influences", 4);
+    skin.name = title();
+    skin.edges = edges_;
+    skin.turn = app::turn_upright(up());
+    skin.cage_edges = view::as_facets(shown_.edges);
+    return bytes_of(
+        gltf::export_skin<Dim>(cage_.points, points(), weights(), surface_, skin).content);
+  }
+
+  val weight_file(const std::string& of, const std::string& format) {
+    return bytes_of("weights." + format, [&](const auto& file) {
+      io::write_weights(file, of == "mesh" ? of_mesh_ : weights());
+    });
+  }
+
+  val cage_file() const {
+    return bytes_of("saved_cage.obj", [&](const auto& file) { app::write_cage(file, cage_); });
+  }
+
+  val mesh_file() const {
+    return bytes_of(Dim == 2 ? "domain.obj" : "domain.mesh",
+                    [&](const auto& file) { io::write_domain<Dim>(file, mesh_); });
+  }
+
+  val model_file(const PointList<Dim>& pose, const std::string& extension) {
+    return bytes_of("posed." + extension, [&](const std::string& file) {
+      app::MovableModel<Dim>({file_, file}).write(file, posed(pose), {}, 0);
+    });
+  }
+
+  std::string name_;
+  std::string file_;              // of the model, or of its interior if it is an outline
+  app::ModelFacets<Dim> facets_;  // what the cage is to enclose
+  std::optional<app::MovableModel<Dim>> model_;
+  gltf::Surface surface_;
+  EdgeList edges_;
+  Cage<Dim> cage_;
+  view::ShownCage<Dim> shown_;
+  DomainMesh<Dim> mesh_;
+  app::Mesher mesher_ = app::Mesher::kAuto;
+  OutsidePoints outside_ = OutsidePoints::kFail;
+  Placement<Dim> placement_;
+  // None if the cage has several parts, or if another worker solved.
+  std::unique_ptr<Solver<Dim>> solver_;
+  SparseWeights of_mesh_;
+  SparseWeights weights_;  // at the model's points
+};
+
+// -------------------------------------------------------------------------------- calls and errors
 
 // Calls the page at most every 50 ms, but for new stages.
 Report throttled(const val& report) {
@@ -111,130 +596,20 @@ Report throttled(const val& report) {
   };
 }
 
-using Session = std::variant<std::monostate, Work<2>, Work<3>>;
-
-template <int Dim>
-val call_work(Work<Dim>& work, const std::string& name, const val& given, const Report& report) {
-  const auto json = [](const Json& facts) { return from_json(facts.dump()); };
-  const auto options = [&] { return to_json(given); };
-  const auto text = [&](const char* key, const char* usual = "") {
-    return given.hasOwnProperty(key) ? given[key].template as<std::string>() : std::string(usual);
-  };
-  const auto pose = [&] { return matrix_in<PointList<Dim>>(given["points"]); };
-  if (name == "makeCage") return json(work.make_cage(options(), report));
-  if (name == "readCage") return json(work.read_cage(text("name")));
-  if (name == "repairCage") return json(work.repair_cage());
-  if (name == "setCage") {
-    work.set_cage({pose(), matrix_in<FacetList<Dim>>(given["facets"])});
-  } else if (name == "setMesh") {
-    work.set_mesh({pose(), matrix_in<CellList<Dim>>(given["cells"])});
-  } else if (name == "setSolution") {
-    work.set_solution({pose(), matrix_in<CellList<Dim>>(given["cells"])},
-                      weights_in(given, work.cage().size()));
-  } else if (name == "solution") {
-    return solution_arrays(work);
-  } else if (name == "makeMesh") {
-    return json(work.make_mesh(options(), report));
-  } else if (name == "solve") {
-    return json(work.solve(options(), report));
-  } else if (name == "move") {
-    const auto facts = work.move(options());
-    auto reply = json(facts);
-    if (facts.contains("refused")) return reply;
-    reply.set("rest", matrix_array(work.cage().points));
-    reply.set("weights", weight_arrays(work.shown_weights()));
-    return reply;
-  } else if (name == "reduce") {
-    return json(work.reduce(options(), report));
-  } else if (name == "points") {
-    return matrix_array(work.points());
-  } else if (name == "cage") {
-    auto cage = val::object();
-    cage.set("points", matrix_array(work.cage().points));
-    cage.set("facets", matrix_array(work.cage().facets));
-    return cage;
-  } else if (name == "weights") {
-    return weight_arrays(work.weights());
-  } else if (name == "harmonicWeights") {
-    return weight_arrays(work.harmonic());
-  } else if (name == "deform") {
-    return matrix_array(work.posed(pose()));
-  } else if (name == "content") {
-    return bytes_of(work.content(text("picture")));
-  } else if (name == "page") {
-    return bytes_of(work.page(text("picture")));
-  } else if (name == "glb") {
-    return bytes_of(work.glb(options()));
-  } else if (name == "weightFile") {
-    return bytes_of(work.weight_file(options()));
-  } else if (name == "cageFile") {
-    return bytes_of(work.cage_file());
-  } else if (name == "meshFile") {
-    return bytes_of(work.mesh_file());
-  } else if (name == "modelFile") {
-    return bytes_of(work.model_file(pose(), text("extension", "obj")));
-  } else {
-    throw OptionError(name + ": there is no such step");
-  }
-  return val::undefined();
-}
-
-template <int Dim>
-val facts_of(const Work<Dim>& work) {
-  auto facts = val::object();
-  facts.set("dim", Dim);
-  facts.set("vertices", static_cast<int>(work.points().cols()));
-  return facts;
-}
-
-val run(Session& session, const std::string& name, const val& given, const Report& report) {
-  if (name == "version") return val(std::string(FLBC_VERSION));
-  if (name == "memory") return val(static_cast<double>(emscripten_get_heap_size()));
-  if (name == "addFile") {
-    const auto bytes = given["bytes"].as<std::string>();
-    std::ofstream file(given["name"].as<std::string>(), std::ios::binary);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    return val::undefined();
-  }
-  if (name == "readModel") {
-    const auto file = given["name"].as<std::string>();
-    session = std::monostate();  // its memory comes first
-    return std::visit(
-        [&](auto facets) {
-          constexpr int kDim = decltype(facets.points)::RowsAtCompileTime;
-          return facts_of(session.emplace<Work<kDim>>(file, std::move(facets)));
-        },
-        app::load_model_facets(file));
-  }
-  if (name == "setModel") {
-    auto model = model_of_triangles(given["points"], given["triangles"]);
-    return facts_of(session.emplace<Work<3>>("model.obj", std::move(model)));
-  }
-  return std::visit(
-      [&](auto& work) -> val {
-        if constexpr (std::is_same_v<std::decay_t<decltype(work)>, std::monostate>) {
-          throw OptionError(name + ": there is no model yet");
-        } else {
-          return call_work(work, name, given, report);
-        }
-      },
-      session);
-}
-
 val error_object(const char* kind, const std::string& message,
                  const std::vector<Index>& where = {}) {
   auto error = val::object();
   error.set("kind", std::string(kind));
   error.set("message", message);
-  error.set("controlPoints", array_of(where.data(), where.size()));
+  error.set("controlPoints", array_of(where));
   auto result = val::object();
   result.set("error", error);
   return result;
 }
 
-class Bound {
+class Session {
  public:
-  Bound() {
+  Session() {
     std::filesystem::create_directory("/work");
     std::filesystem::current_path("/work");
   }
@@ -242,7 +617,7 @@ class Bound {
   val call(const std::string& name, const val& given, const val& report) {
     try {
       auto result = val::object();
-      result.set("result", run(session_, name, given, throttled(report)));
+      result.set("result", run(name, given, throttled(report)));
       return result;
     } catch (const DefectiveCage& error) {
       return error_object("DefectiveCage", error.what(), error.control_points);
@@ -260,12 +635,53 @@ class Bound {
   }
 
  private:
-  Session session_;
+  val run(const std::string& name, const val& given, const Report& report) {
+    if (name == "version") return val(std::string(FLBC_VERSION));
+    if (name == "memory") return val(static_cast<double>(emscripten_get_heap_size()));
+    if (name == "addFile") {
+      const auto bytes = given["bytes"].as<std::string>();
+      std::ofstream(given["name"].as<std::string>(), std::ios::binary) << bytes;
+      return val::undefined();
+    }
+    if (name == "readModel") return read_model(given["name"].as<std::string>());
+    if (name == "setModel") {
+      const app::ModelFacets<3> facets{matrix_in<PointList<3>>(given["points"]),
+                                       matrix_in<FacetList<3>>(given["triangles"])};
+      write_triangles("model.obj", facets);
+      return work_.emplace<Work<3>>("model.obj", facets).facts();
+    }
+    return std::visit(
+        [&](auto& work) -> val {
+          if constexpr (std::is_same_v<std::decay_t<decltype(work)>, std::monostate>) {
+            throw OptionError(name + ": there is no model yet");
+          } else {
+            return work.call(name, given, report);
+          }
+        },
+        work_);
+  }
+
+  val read_model(const std::string& file) {
+    work_ = std::monostate();  // its memory comes first
+    return std::visit(
+        [&](auto facets) {
+          constexpr int kDim = decltype(facets.points)::RowsAtCompileTime;
+          return work_.emplace<Work<kDim>>(file, std::move(facets)).facts();
+        },
+        app::load_model_facets(file));
+  }
+
+  std::variant<std::monostate, Work<2>, Work<3>> work_;
 };
 
 EMSCRIPTEN_BINDINGS(flbc) {
-  emscripten::class_<Bound>("Session").constructor<>().function("call", &Bound::call);
+  emscripten::class_<Session>("Session").constructor<>().function("call", &Session::call);
 }
 
 }  // namespace
 }  // namespace flbc::web
+
+// The page makes models of pictures.
+flbc::app::ModelFacets<2> flbc::app::load_silhouette(const std::string& file) {
+  throw OptionError(file + ": pictures cannot be read");
+}

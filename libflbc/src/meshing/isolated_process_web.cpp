@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // WebAssembly has no processes. A second instance of the module takes their place: it gets a copy
-// of the memory, which the module must import (-sIMPORTED_MEMORY), and whatever happens to it, the
-// first one is intact. The functions of the glue code work on the memory of the second instance
-// meanwhile. The program that starts the module keeps it as Module.wasmModule, and its imports as
-// Module.wasmImports. A time limit has no effect, because there is one thread; the page ends the
-// worker instead.
+// of the memory that is in use, which the module must import (-sIMPORTED_MEMORY), and whatever
+// happens to it, the first one is intact. The functions of the glue code work on the memory of the
+// second instance meanwhile. The program that starts the module keeps it as Module.wasmModule, and
+// its imports as Module.wasmImports. A time limit has no effect, because there is one thread; the
+// page ends the worker instead.
 #include <emscripten.h>
 #include <emscripten/heap.h>
 #include <emscripten/stack.h>
@@ -15,14 +15,18 @@
 #include "meshing/isolated_process.h"
 
 extern "C" void stackRestore(std::uintptr_t pointer);
+extern "C" const char __data_end;  // of the linker; the stack follows, and then the heap
 
 // clang-format off
-EM_JS(int, flbc_run_in_copy, (int entry, std::uintptr_t stack, const void* work, std::size_t most), {
+EM_JS(int, flbc_run_in_copy, (int entry, std::uintptr_t stack, const void* data_end, std::uintptr_t heap_end,
+                              const void* work, std::size_t most), {
   const parent = wasmMemory;
   const pages = (memory) => memory.buffer.byteLength / 65536;
   // One memory serves all copies, because nobody knows when the engine would free others.
-  const copy = Module["copyMemory"] ??= new WebAssembly.Memory(
+  const old = Module["copyMemory"];
+  const copy = old || new WebAssembly.Memory(
     { initial: pages(parent), maximum: Math.floor((most >>> 0) / 65536) });
+  Module["copyMemory"] = copy;
   if (pages(copy) < pages(parent)) copy.grow(pages(parent) - pages(copy));
   const imports = {};
   for (const [name, items] of Object.entries(Module["wasmImports"])) {
@@ -32,8 +36,9 @@ EM_JS(int, flbc_run_in_copy, (int entry, std::uintptr_t stack, const void* work,
   const instance = new WebAssembly.Instance(Module["wasmModule"], imports);
   const table = Object.values(instance.exports).find((item) => item instanceof WebAssembly.Table);
   const bytes = new Uint8Array(copy.buffer);
-  bytes.set(HEAPU8);
-  bytes.fill(0, HEAPU8.length);
+  bytes.set(HEAPU8.subarray(0, data_end));
+  bytes.set(HEAPU8.subarray(stack, heap_end), stack);
+  if (old) bytes.fill(0, heap_end);
   const use = (memory) => {
     wasmMemory = memory;
     updateGlobalBufferAndViews(memory.buffer);
@@ -95,9 +100,9 @@ int enter_copy(std::uintptr_t stack, const Work* work) {
 
 ProcessOutcome run_isolated(const Work& work, double) {
   ProcessOutcome outcome;
-  const int end =
-      flbc_run_in_copy(static_cast<int>(reinterpret_cast<std::uintptr_t>(&enter_copy)),
-                       emscripten_stack_get_current(), &work, emscripten_get_heap_max());
+  const int end = flbc_run_in_copy(static_cast<int>(reinterpret_cast<std::uintptr_t>(&enter_copy)),
+                                   emscripten_stack_get_current(), &__data_end,
+                                   *emscripten_get_sbrk_ptr(), &work, emscripten_get_heap_max());
   if (end == kOutOfMemory) throw std::bad_alloc();
   if (end != kDone) outcome.end = end == kThrew ? ProcessEnd::kThrew : ProcessEnd::kCrashed;
   outcome.output.resize(flbc_sent_size());
