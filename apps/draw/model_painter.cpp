@@ -120,7 +120,7 @@ void paint_control_points(Canvas& canvas, const Raster& surface, const ModelScen
   const Vector<2> pixel = pixel_of(scene, place);
   const bool is_hidden = surface.hides(pixel, scene.view.toward.dot(place));
   paint_dots(canvas, {pixel}, std::max(1.6 * radius, 5 * scene.unit),
-             is_hidden ? mix(kHighlight, kWhite, 0.6F) : kHighlight);
+             is_hidden ? kHiddenHighlight : kHighlight);
 }
 
 }  // namespace

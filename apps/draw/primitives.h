@@ -16,7 +16,7 @@ struct Color {
 };
 
 //! The color a fraction t in [0, 1] of the way from `a` to `b`.
-inline Color mix(Color a, Color b, float t) {
+constexpr Color mix(Color a, Color b, float t) {
   return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b)};
 }
 
@@ -24,6 +24,7 @@ constexpr Color kWhite{1, 1, 1};
 constexpr Color kInk{0.13F, 0.15F, 0.19F};
 constexpr Color kClay{0.84F, 0.76F, 0.68F};  // of models without values
 constexpr Color kHighlight{0.90F, 0.07F, 0.10F};
+constexpr Color kHiddenHighlight = mix(kHighlight, kWhite, 0.6F);
 
 struct Segment {
   Vector<2> a;

@@ -108,8 +108,8 @@ void paint_wire(Canvas& canvas, const WireSlab& slab, double unit) {
 }
 
 // A surface of flat facets, each of one color by its angle to the eye.
-void paint_facets(Canvas& canvas, const Scene& scene, const Cage<3>& surface, bool only_far_side,
-                  Color shade, Color light) {
+Raster paint_facets(Canvas& canvas, const Scene& scene, const Cage<3>& surface, bool only_far_side,
+                    Color shade, Color light) {
   const auto& points = surface.points;
   PointList<2> pixels(2, points.cols());
   for (Eigen::Index p = 0; p < points.cols(); ++p) pixels.col(p) = scene.pixel(points.col(p));
@@ -126,6 +126,7 @@ void paint_facets(Canvas& canvas, const Scene& scene, const Cage<3>& surface, bo
                 [&](double, double, double) { return color; });
   }
   canvas.draw_raster(raster);
+  return raster;
 }
 
 }  // namespace
@@ -147,12 +148,12 @@ void paint_slice(Canvas& canvas, const Slice& slice,
   canvas.draw_segments(on_canvas(slice.outline), 2.2 * unit, kInk);
 }
 
-void paint_scene(Canvas& canvas, const Scene& scene) {
+Raster paint_scene(Canvas& canvas, const Scene& scene) {
   // The far side from inside lets the shape of the cage be guessed.
   paint_facets(canvas, scene, scene.cage, true, kShellShade, kShellLight);
-  if (scene.model != nullptr) {
-    paint_facets(canvas, scene, *scene.model, false, kModelShade, kModelLight);
-  }
+  static const Cage<3> kNoModel;
+  Raster model = paint_facets(canvas, scene, scene.model != nullptr ? *scene.model : kNoModel,
+                              false, kModelShade, kModelLight);
   const auto slabs = cut_wire(scene);
   const int count = static_cast<int>(scene.slices.size());
   const bool ascending = scene.slices.front().plane.normal.dot(scene.view.toward) > 0;
@@ -164,6 +165,7 @@ void paint_scene(Canvas& canvas, const Scene& scene) {
         canvas, slice, [&](const Vector<2>& p) { return scene.pixel(slice.plane.to_space(p)); },
         scene.unit, scene.options);
   }
+  return model;
 }
 
 }  // namespace flbc::draw

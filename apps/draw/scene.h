@@ -27,7 +27,8 @@ struct Scene {
 };
 
 //! Paints the cage and the slices, from the farthest to the nearest.
-void paint_scene(Canvas& canvas, const Scene& scene);
+//! \returns the model, which hides what is behind it; empty without one
+Raster paint_scene(Canvas& canvas, const Scene& scene);
 
 //! Paints one slice with its outline.
 //! \param pixel  from plane coordinates to the canvas; must be affine

@@ -28,12 +28,10 @@ void check_arguments(const Cage<3>& cage, int number_of_slices) {
   }
 }
 
-ObliqueView choose_view(const Cage<3>& cage, const Plane& plane, Index control_point) {
+ObliqueView view_of(const Plane& plane) {
   int axis = 0;
   plane.normal.maxCoeff(&axis);
-  const Vector<3> center =
-      (cage.points.rowwise().minCoeff() + cage.points.rowwise().maxCoeff()) / 2;
-  return view_of_slices(axis, cage.points.col(control_point) - center);
+  return view_of_slices(axis);
 }
 
 // Panels stand where the view leaves room.
@@ -149,10 +147,12 @@ void paint_panels(Canvas& canvas, const Scene& scene, const Box& strip, Index co
 }
 
 void paint_slices(Canvas& canvas, const Scene& scene, Index control_point) {
-  paint_scene(canvas, scene);
-  // On top of all, wherever it is: it is what the picture is about.
-  paint_dots(canvas, {scene.pixel(scene.cage.points.col(control_point))}, 9 * scene.unit,
-             kHighlight);
+  const Raster model = paint_scene(canvas, scene);
+  // On top of all, because it is what the picture is about; pale behind the model.
+  const Vector<3> place = scene.cage.points.col(control_point);
+  const Vector<2> pixel = scene.pixel(place);
+  const bool is_hidden = model.hides(pixel, scene.view.toward.dot(place));
+  paint_dots(canvas, {pixel}, 9 * scene.unit, is_hidden ? kHiddenHighlight : kHighlight);
 }
 
 }  // namespace
@@ -165,7 +165,7 @@ std::string draw_slices(const Cage<3>& cage, const DomainMesh<3>& mesh,
   check_weight(values, mesh.num_vertices(), control_point, cage.size());
 
   const auto slices = cut_all(cage, mesh, values, control_point, number_of_slices, model);
-  const ObliqueView view = choose_view(cage, slices.front().plane, control_point);
+  const ObliqueView view = view_of(slices.front().plane);
   const Box content = bounding_box(view.project(cage.points));
   const Strip strip = choose_strip(content, options);
   const PictureLayout layout = plan_picture(content, options, strip);
@@ -205,7 +205,7 @@ std::string draw_slice_sheet(const Cage<3>& cage, const DomainMesh<3>& mesh,
     const Eigen::VectorXd values = weights.row(i);
     check_weight(values, mesh.num_vertices(), i, cage.size());
     const auto slices = cut_all(cage, mesh, values, i, number_of_slices);
-    const ObliqueView view = choose_view(cage, slices.front().plane, i);
+    const ObliqueView view = view_of(slices.front().plane);
     const PixelMap map(bounding_box(view.project(cage.points)), sheet.frames[i]);
     paint_slices(canvas, {cage, slices, view, map, std::max(0.4, 0.5 * pixel_unit(options)), small},
                  i);

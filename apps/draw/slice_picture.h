@@ -12,10 +12,13 @@ namespace flbc::draw {
 
 //! Draws one coordinate function on parallel slices through the cage, in an oblique view: the
 //! cage's edges, lighter at its back and hidden by the slices before them, and the control point in
-//! red. Slices that are not empty have letters. The planes are those of choose_planes().
-//! \param model  a surface shown as a pale shape, with its section on each slice \param values  V, the function's value at each
-//! vertex of the mesh \param number_of_slices  1 .. 50 \throws InputError if a value is missing or
-//! not finite, OptionError if there is no such control point or an option is outside its range
+//! red, pale where the model hides it. It is seen from the side of the z axis. Slices that are not
+//! empty have letters. The planes are those of choose_planes().
+//! \param model  a surface shown as a pale shape, with its section on each slice
+//! \param values  V, the function's value at each vertex of the mesh
+//! \param number_of_slices  1 .. 50
+//! \throws InputError if a value is missing or not finite, OptionError if there is no such control
+//! point or an option is outside its range
 std::string draw_slices(const Cage<3>& cage, const DomainMesh<3>& mesh,
                         const Eigen::VectorXd& values, Index control_point,
                         int number_of_slices = 3, const WeightPictureOptions& options = {},

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/Geometry>
+
 #include "draw/model_picture.h"
 #include "draw/plane_picture.h"
 #include "draw/slice_picture.h"
@@ -42,11 +44,15 @@ std::string function_image(const Run<2>& run, Index control_point) {
                             control_point, options_of(run));
 }
 
-Eigen::Matrix3d upright_turn(const Run<3>& run) {
-  return turn_upright(up_axis(run.arguments.up, run.shape().points));
+// The turn after which the model stands upright and faces the z axis.
+Eigen::Matrix3d turn_to_front(const Run<3>& run) {
+  const auto& points = run.shape().points;
+  const int up = up_axis(run.arguments.up, points);
+  const double front = front_azimuth(up, points) * draw::kDegree;
+  return Eigen::AngleAxisd(-front, Vector<3>::UnitY()) * turn_upright(up);
 }
 
-// A cage or a mesh with the model's upper end on top, as slices are seen.
+// A cage or a mesh as slices are seen.
 template <class Mesh>
 Mesh turned(const Eigen::Matrix3d& turn, Mesh mesh) {
   mesh.points = (turn * mesh.points).eval();
@@ -54,7 +60,7 @@ Mesh turned(const Eigen::Matrix3d& turn, Mesh mesh) {
 }
 
 std::string function_image(const Run<3>& run, Index control_point) {
-  const auto turn = upright_turn(run);
+  const auto turn = turn_to_front(run);
   const auto model =
       turned(turn, Cage<3>{run.shape().points, gltf::triangles_of_points(run.shape().surface)});
   return draw::draw_slices(turned(turn, run.cage), turned(turn, run.solver.domain()),
@@ -64,10 +70,8 @@ std::string function_image(const Run<3>& run, Index control_point) {
 }
 
 draw::ObliqueView usual_view(const Run<3>& run) {
-  const auto& points = run.shape().points;
-  const double front = front_azimuth(up_axis(run.arguments.up, points), points);
-  return draw::before_turn(draw::view_by_angles(front + draw::kUsualAzimuth, draw::kUsualElevation),
-                           upright_turn(run));
+  return draw::before_turn(draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation),
+                           turn_to_front(run));
 }
 
 // The shape at rest by the sparse weights.
@@ -112,7 +116,7 @@ std::string deformation_image(const Run<3>& run, const Pose<3>& pose, Index cont
   if (shape.surface.triangles.cols() == 0) {
     const auto& weights = run.solver.domain_weights();
     const DomainMesh<3> moved{deform<3>(weights, pose.points), run.solver.domain().cells};
-    const auto turn = upright_turn(run);
+    const auto turn = turn_to_front(run);
     return draw::draw_slices(turned(turn, Cage<3>{pose.points, run.cage.facets}),
                              turned(turn, moved), weights.of_control_point(control_point),
                              control_point, 3, options_of(run));

@@ -566,8 +566,7 @@ TEST(SlicePicture, NearestSliceShowsTheColorsOfTheFunction) {
   constexpr Index kControlPoint = 7;  // the corner with the largest coordinates
   const Image image = decode_png(draw_slices(s.cage, s.mesh, values, kControlPoint, 8, options));
 
-  const Vector<3> side = s.cage.points.col(kControlPoint) - Vector<3>(0.6, 0.5, 0.5);
-  const ObliqueView view = view_of_slices(0, side);
+  const ObliqueView view = view_of_slices(0);
   ASSERT_GT(view.toward.x(), 0);
   const auto color_at = [&](const Vector<3>& p) {
     const Vector<2> at = pixel_of(s.cage, view, p, options);
@@ -626,6 +625,22 @@ TEST(SlicePicture, ShowsTheModel) {
             draw_slices(s.cage, s.mesh, values, 0, 3, without_lines()));
   const Plane plane = plane_through({1, 0, 0}, {1, 0, 0});
   EXPECT_NEAR(length(section_of(model, plane)), 2, 1e-12);
+}
+
+TEST(SlicePicture, TheHighlightedPointIsPaleBehindTheModel) {
+  const auto s = box<3>({1.2, 1, 1}, 3);
+  const Eigen::VectorXd values = Eigen::VectorXd::Zero(s.mesh.num_vertices());
+  WeightPictureOptions options = without_lines();
+  options.slice_panels = false;
+  Cage<3> wall = s.cage;  // larger than the picture
+  for (const double z : {5.0, -5.0}) {
+    wall.points = (10 * s.cage.points).colwise() + Vector<3>(-6, -5, z - 5);
+    wall.points.row(2) = wall.points.row(2).array() * 0.1 + 0.9 * z;
+    for (Index i = 0; i < s.cage.size(); ++i) {
+      const Image image = decode_png(draw_slices(s.cage, s.mesh, values, i, 3, options, &wall));
+      EXPECT_EQ(std::any_of(image.pixels.begin(), image.pixels.end(), is_highlight), z < 0) << i;
+    }
+  }
 }
 
 TEST(SlicePicture, NamesWhatIsWrong) {
