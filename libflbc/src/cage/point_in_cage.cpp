@@ -13,8 +13,6 @@
 namespace flbc {
 namespace {
 
-constexpr double kFullSolidAngle = 12.566370614359172;  // 4 pi
-
 // Whether the ray from p along the first axis crosses the segment. Half-open in the second
 // coordinate, so a ray through a corner counts its two edges consistently.
 bool crosses_ray(const Vector<2>& p, const Vector<2>& a, const Vector<2>& b) {
@@ -23,15 +21,36 @@ bool crosses_ray(const Vector<2>& p, const Vector<2>& a, const Vector<2>& b) {
   return (b.y() > a.y()) == (side > 0);
 }
 
-// The signed solid angle under which the triangle appears from p, in (-2 pi, 2 pi]
-// (van Oosterom & Strackee 1983).
-double solid_angle(const Vector<3>& p, const Vector<3>& a, const Vector<3>& b, const Vector<3>& c) {
-  const Vector<3> u = a - p, v = b - p, w = c - p;
-  const double lu = u.norm(), lv = v.norm(), lw = w.norm();
-  const double determinant = u.dot(v.cross(w));
-  const double cosine = lu * lv * lw + u.dot(v) * lw + v.dot(w) * lu + w.dot(u) * lv;
-  return 2 * std::atan2(determinant, cosine);
-}
+// Adds angles and counts full turns, by products of complex numbers instead of arc tangents. The sum
+// of the solid angles of a closed surface is 4 pi times the winding number, so half of each is added.
+class Turns {
+ public:
+  // Half the solid angle under which a triangle appears (van Oosterom & Strackee 1983).
+  // \param u, v, w  unit vectors to its corners
+  void add_half_solid_angle(const Vector<3>& u, const Vector<3>& v, const Vector<3>& w) {
+    add(1 + u.dot(v) + v.dot(w) + w.dot(u), u.dot(v.cross(w)));
+  }
+
+  Index count() const { return turns_; }
+
+ private:
+  // Adds the argument, in (-pi, pi], of a complex number.
+  void add(double real, double imaginary) {
+    const double next_real = real_ * real - imaginary_ * imaginary;
+    const double next_imaginary = real_ * imaginary + imaginary_ * real;
+    const double size = std::abs(next_real) + std::abs(next_imaginary);
+    if (!(size > 0)) return;  // seen from the border of the triangle
+    const bool is_below = next_imaginary < 0;
+    if ((imaginary_ < 0) == (imaginary < 0) && (imaginary < 0) != is_below) {
+      turns_ += is_below ? 1 : -1;
+    }
+    real_ = next_real / size;
+    imaginary_ = next_imaginary / size;
+  }
+
+  double real_ = 1, imaginary_ = 0;
+  Index turns_ = 0;
+};
 
 template <int Dim>
 double distance_to_segment(const Vector<Dim>& p, const Vector<Dim>& a, const Vector<Dim>& b) {
@@ -121,14 +140,15 @@ bool CageLocator<Dim>::is_enclosed(const Vector<Dim>& point) const {
   } else {
     // Uses winding numbers per shell, because a ray could graze an edge, and shells may have either
     // orientation.
-    std::vector<double> angles(static_cast<std::size_t>(num_shells_), 0.0);
+    std::vector<Turns> turns(static_cast<std::size_t>(num_shells_));
+    const PointList<3> directions = (cage_.points.colwise() - point).colwise().normalized();
     for (Index facet = 0; facet < cage_.facets.cols(); ++facet) {
-      angles[shell_of_facet_[facet]] += solid_angle(point, cage_.points.col(cage_.facets(0, facet)),
-                                                    cage_.points.col(cage_.facets(1, facet)),
-                                                    cage_.points.col(cage_.facets(2, facet)));
+      turns[shell_of_facet_[facet]].add_half_solid_angle(directions.col(cage_.facets(0, facet)),
+                                                         directions.col(cage_.facets(1, facet)),
+                                                         directions.col(cage_.facets(2, facet)));
     }
     Index enclosing = 0;
-    for (double angle : angles) enclosing += std::abs(angle) > kFullSolidAngle / 2;
+    for (const Turns& shell : turns) enclosing += shell.count() != 0;
     return enclosing % 2 == 1;
   }
 }
