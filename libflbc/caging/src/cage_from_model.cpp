@@ -374,7 +374,7 @@ template <int Dim>
 ModelCage<Dim> make_checked(const PointList<Dim>& points, const FacetList<Dim>& facets,
                             const CagingOptions& options) {
   constexpr Eigen::Index kManyFacets = 40000;
-  constexpr double kCellPerOffset = 0.25;
+  constexpr double kCellPerOffset = 0.125;
   if (Dim == 3 && facets.cols() > kManyFacets) {
     double offset = options.offset;
     if (offset == 0) {
