@@ -501,14 +501,27 @@ class Work {
 
   // ------------------------------------------------------------------------------ page and files
 
-  // With as few influences as a page shows; none before solve().
-  SparseWeights shown_weights() {
-    if (weights().num_points() == 0) {
-      const auto none = std::vector<std::int64_t>(points().cols() + 1, 0);
-      return {cage_.size(), none, {}, {}};
+  // With as few influences as a page shows; none before solve(). Points are taken in parts, because
+  // all weights of all points take more memory than a solve.
+  SparseWeights shown_weights() const {
+    const auto limited = [&](const PointList<Dim>& places, const SparseWeights& weights) {
+      return view::limit_influences<Dim>(cage_.points, places, weights, view::kMostInfluences);
+    };
+    if (weights_.num_points() > 0) return limited(placement_.points, weights_);
+    std::vector<std::int64_t> starts{0};
+    std::vector<std::uint32_t> owners;
+    std::vector<double> values;
+    constexpr Eigen::Index kPart = 8192;
+    for (Eigen::Index p = 0; p < points().cols() && of_mesh_.num_points() > 0; p += kPart) {
+      const PointList<Dim> part = points().middleCols(p, std::min(kPart, points().cols() - p));
+      const auto placement = place_points(cage_, mesh_, part, outside_);
+      const auto few = limited(placement.points, weights_at(cage_, mesh_, of_mesh_, placement));
+      for (Index k = 0; k < few.num_points(); ++k) starts.push_back(starts.back() + few.count(k));
+      owners.insert(owners.end(), few.control_points().begin(), few.control_points().end());
+      values.insert(values.end(), few.values().begin(), few.values().end());
     }
-    return view::limit_influences<Dim>(cage_.points, placement_.points, weights_,
-                                       view::kMostInfluences);
+    starts.resize(points().cols() + 1);
+    return {cage_.size(), starts, owners, values};
   }
 
   std::string title() const {
@@ -519,7 +532,7 @@ class Work {
   }
 
   // \param picture  data URI of a texture, or empty: that of the model's material
-  view::PageContent<Dim> content(std::string picture) {
+  view::PageContent<Dim> content(std::string picture) const {
     const auto look = gltf::look_of(surface_);
     if (picture.empty() && !look.pictures.empty()) {
       const auto& [media_type, bytes] = look.pictures.front();
