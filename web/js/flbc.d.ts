@@ -79,7 +79,7 @@ export class Flbc {
   /** Another shape of the rest cage; the model stays. Ends after 0.25 s, if need be before it has
    *  converged; { refine: true } resumes. */
   move(request: { points: number[] } | { refine: true }):
-    Promise<{ converged: boolean; iterations: number; residual: number; milliseconds: number;
+    Promise<{ converged: boolean; iterations: number; residual: number;
                rest: Float64Array; weights: Weights }
             | { refused: string }>;
 

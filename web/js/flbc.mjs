@@ -106,27 +106,13 @@ export class Flbc {
   setModel(points, triangles) { return this.call("setModel", { points, triangles }); }
   setCage(points, facets) { return this.call("setCage", { points, facets }); }
   setMesh(points, cells) { return this.call("setMesh", { points, cells }); }
-  makeCage(options, onProgress) { return this.call("makeCage", options, onProgress); }
-  repairCage() { return this.call("repairCage"); }
-  makeMesh(options, onProgress) { return this.call("makeMesh", options, onProgress); }
-  solve(options, onProgress) { return this.call("solve", options, onProgress); }
-  // Mesh and weights of its vertices, for another worker with the same model and cage.
-  solution() { return this.call("solution"); }
-  setSolution(solution) { return this.call("setSolution", solution); }
-  reduce(options, onProgress) { return this.call("reduce", options, onProgress); }
-  move(request) { return this.call("move", request); }
-  points() { return this.call("points"); }
-  cage() { return this.call("cage"); }
-  weights() { return this.call("weights"); }
-  harmonicWeights() { return this.call("harmonicWeights"); }
   deform(points) { return this.call("deform", { points }); }
-  content(options) { return this.call("content", options); }
-  page(options) { return this.call("page", options); }
-  glb(options) { return this.call("glb", options); }
-  weightFile(options) { return this.call("weightFile", options); }
-  cageFile() { return this.call("cageFile"); }
-  meshFile() { return this.call("meshFile"); }
   modelFile(points, extension) { return this.call("modelFile", { points, extension }); }
-  memory() { return this.call("memory"); }
-  version() { return this.call("version"); }
+}
+
+// The others take an object of options.
+for (const name of ["makeCage", "repairCage", "makeMesh", "solve", "solution", "setSolution", "reduce", "move",
+                    "points", "cage", "weights", "harmonicWeights", "content", "page", "glb", "weightFile",
+                    "cageFile", "meshFile", "memory", "version"]) {
+  Flbc.prototype[name] = function (options, onProgress) { return this.call(name, options, onProgress); };
 }

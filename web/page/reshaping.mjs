@@ -20,8 +20,6 @@ export class Reshaper {
     this.sent = viewer.content.rest;
     this.residual = 1;
     this.isRefused = false;
-    this.milliseconds = [];                // of every shape, as the page sees it
-    this.solveMilliseconds = [];           // as the program does
     this.onState = () => {};
     this.onRefusal = () => {};
   }
@@ -65,10 +63,7 @@ export class Reshaper {
   async solve() {
     const { editor, content } = this.viewer;
     this.sent = editor.points.slice();
-    const begin = performance.now();
     let reply = await this.ask({ points: [...this.sent].filter((_, k) => k % 3 < content.dim) });
-    this.milliseconds.push(performance.now() - begin);
-    this.solveMilliseconds.push(reply.milliseconds);
     while (this.take(reply) && !reply.converged && areSame(editor.points, this.sent)) {
       reply = await this.ask({ refine: true });
     }
@@ -132,4 +127,3 @@ export function bindReshaping(reshaper) {
   reshaper.onState = () => showReshaping(reshaper);
   showReshaping(reshaper);
 }
-
