@@ -15,7 +15,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / 'tests' / 'blender'
 import scene  # noqa: E402
 
 PROGRAM, MESHES, KIND, PICTURE = scene.arguments()
-SKIN, WIRE = (0.75, 0.36, 0.16, 1), (0.02, 0.12, 0.4, 1)
+# Clay and ink of the program's pictures, as linear light.
+SKIN, WIRE = (0.67, 0.54, 0.42, 1), (0.015, 0.02, 0.03, 1)
 
 
 def bound_limb():
@@ -50,6 +51,7 @@ def as_tubes(cage):
     modifier = wire.modifiers.new('wire', 'WIREFRAME')
     modifier.thickness = 0.005 * scene.size(scene.base(cage))
     wire.data.materials.append(material(WIRE, 0.4))
+    wire.visible_shadow = False
     cage.hide_render = True
     return wire
 
@@ -74,13 +76,12 @@ def take_pose():
     at_rest[1].data.shape_keys.key_blocks['Pose'].value = 0
     _, size = center([model])
     for item in at_rest:
-        item.location.x -= 1.05 * size
+        item.location.x -= 1.25 * size
     middle, size = center([model, wire, *at_rest])
     turn = Euler((0.9, 0, 0.2)).to_matrix()
     camera = bpy.data.objects.new('camera', bpy.data.cameras.new('camera'))
     camera.data.type = 'ORTHO'
     camera.data.ortho_scale = 0.98 * size
-    camera.data.shift_y = -0.06
     place = middle + turn @ Vector((0, 0, 2 * size))
     camera.matrix_world = Matrix.Translation(place) @ turn.to_4x4()
     sun = bpy.data.objects.new('sun', bpy.data.lights.new('sun', 'SUN'))
@@ -98,8 +99,8 @@ def take_pose():
     view.cycles.samples = 64
     view.cycles.use_denoising = False  # Debian's Blender cannot
     view.view_settings.view_transform = 'Standard'
-    view.render.film_transparent = False
-    view.render.resolution_x, view.render.resolution_y = 1000, 430
+    view.render.film_transparent = True
+    view.render.resolution_x, view.render.resolution_y = 1200, 480
     view.render.resolution_percentage = 100
     view.render.filepath = PICTURE
     bpy.ops.render.render(write_still=True)
