@@ -76,12 +76,13 @@ def take_pose():
     at_rest[1].data.shape_keys.key_blocks['Pose'].value = 0
     _, size = center([model])
     for item in at_rest:
-        item.location.x -= 1.25 * size
+        item.location.x -= 1.35 * size
     middle, size = center([model, wire, *at_rest])
     turn = Euler((0.9, 0, 0.2)).to_matrix()
     camera = bpy.data.objects.new('camera', bpy.data.cameras.new('camera'))
     camera.data.type = 'ORTHO'
-    camera.data.ortho_scale = 0.98 * size
+    camera.data.ortho_scale = 1.02 * size
+    camera.data.shift_y = -0.04
     place = middle + turn @ Vector((0, 0, 2 * size))
     camera.matrix_world = Matrix.Translation(place) @ turn.to_4x4()
     sun = bpy.data.objects.new('sun', bpy.data.lights.new('sun', 'SUN'))
@@ -100,7 +101,7 @@ def take_pose():
     view.cycles.use_denoising = False  # Debian's Blender cannot
     view.view_settings.view_transform = 'Standard'
     view.render.film_transparent = True
-    view.render.resolution_x, view.render.resolution_y = 1200, 480
+    view.render.resolution_x, view.render.resolution_y = 1200, 430
     view.render.resolution_percentage = 100
     view.render.filepath = PICTURE
     bpy.ops.render.render(write_still=True)

@@ -13,7 +13,9 @@ take() { # PICTURE COMMAND [OPTIONS]
   "${@:2}" --factory-startup --python-exit-code 1 --python "$here/blender.py" -- \
     "$flbc" "$here/../../meshes" "$1" "$work/$1.png"
   /usr/bin/python3 -c 'import sys; from PIL import Image
-Image.open(sys.argv[1]).convert("RGB").quantize(128).save(sys.argv[2], optimize=True)' \
+picture = Image.open(sys.argv[1]).convert("RGBA")
+white = Image.new("RGBA", picture.size, "white")
+Image.alpha_composite(white, picture).convert("RGB").quantize(128).save(sys.argv[2], optimize=True)' \
     "$work/$1.png" "$images/blender_$1.png"
 }
 take pose blender --background
