@@ -21,8 +21,9 @@ bool crosses_ray(const Vector<2>& p, const Vector<2>& a, const Vector<2>& b) {
   return (b.y() > a.y()) == (side > 0);
 }
 
-// Adds angles and counts full turns, by products of complex numbers instead of arc tangents. The sum
-// of the solid angles of a closed surface is 4 pi times the winding number, so half of each is added.
+// Adds angles and counts full turns, by products of complex numbers instead of arc tangents. The
+// sum of the solid angles of a closed surface is 4 pi times the winding number, so half of each is
+// added.
 class Turns {
  public:
   // Half the solid angle under which a triangle appears (van Oosterom & Strackee 1983).
