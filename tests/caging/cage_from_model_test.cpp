@@ -342,8 +342,8 @@ TEST(CageLimitsTest, ModelsThatMirrorWithinAPercentGetSymmetricCages) {
 
 // A model that is simplified first is itself enclosed.
 TEST(CageLimitsTest, LargeModels) {
-  const auto model = subdivided(spider(), 5);
-  ASSERT_GT(model.facets.cols(), 100000);
+  const auto model = subdivided(spider(), 6);
+  ASSERT_GT(model.facets.cols(), 200000);
   std::vector<CagingStage> stages;
   CagingOptions options;
   options.stage = [&](CagingStage stage, double done) {

@@ -373,8 +373,8 @@ void check_input(const PointList<Dim>& points, const FacetList<Dim>& facets,
 template <int Dim>
 ModelCage<Dim> make_checked(const PointList<Dim>& points, const FacetList<Dim>& facets,
                             const CagingOptions& options) {
-  constexpr Eigen::Index kManyFacets = 40000;
-  constexpr double kCellPerOffset = 0.125;
+  constexpr Eigen::Index kManyFacets = 200000;
+  constexpr double kCellPerOffset = 0.25;
   if (Dim == 3 && facets.cols() > kManyFacets) {
     double offset = options.offset;
     if (offset == 0) {
