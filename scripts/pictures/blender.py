@@ -2,6 +2,7 @@
 """Pictures of the Blender add-on with the sample limb:
   blender --python blender.py -- FLBC MESHES panel PICTURE.png              (in a window)
   blender --background --python blender.py -- FLBC MESHES pose PICTURE.png
+  blender --background --python blender.py -- FLBC MESHES moved PICTURE.png
 The add-on must be in a script folder of Blender.
 """
 import os
@@ -17,10 +18,10 @@ import scene  # noqa: E402
 PROGRAM, MESHES, KIND, PICTURE = scene.arguments()
 # Clay and ink of the program's pictures, as linear light.
 SKIN, WIRE = (0.67, 0.54, 0.42, 1), (0.015, 0.02, 0.03, 1)
+MOVED = (0.75, 0.16, 0.02, 1)
 
 
 def bound_limb():
-    from local_barycentric_cage import files
     model = scene.load(f'{MESHES}/3d/limb_model.obj')
     cage = scene.load(f'{MESHES}/3d/limb_cage.obj')
     cage.display_type = 'WIRE'
@@ -29,7 +30,6 @@ def bound_limb():
     bpy.context.scene.flbc.cage = cage
     scene.select(model)
     bpy.ops.flbc.bind()
-    scene.set_key(cage, 'Pose', files.read_obj(f'{MESHES}/3d/limb_cage_pose.obj')[0])
     model.color = SKIN
     return model, cage
 
@@ -63,8 +63,14 @@ def center(items):
     return (low + high) / 2, (high - low).length
 
 
+def pose_limb(cage):
+    from local_barycentric_cage import files
+    scene.set_key(cage, 'Pose', files.read_obj(f'{MESHES}/3d/limb_cage_pose.obj')[0])
+
+
 def take_pose():
     model, cage = bound_limb()
+    pose_limb(cage)
     model.data.materials.append(material(SKIN, 0.5))
     wire = as_tubes(cage)
     at_rest = model.copy(), wire.copy()
@@ -77,7 +83,62 @@ def take_pose():
     _, size = center([model])
     for item in at_rest:
         item.location.x -= 1.35 * size
-    middle, size = center([model, wire, *at_rest])
+    render([model, wire, *at_rest])
+
+
+def take_moved():
+    """One control point is dragged. Vertices that move by more than 1% of the drag are tinted: on the
+    left by Blender's Mesh Deform, on the right by the add-on. Prints their shares in percent for every
+    control point."""
+    model, cage = bound_limb()
+    other = model.copy()
+    other.data = model.data.copy()
+    other.modifiers.clear()
+    bpy.context.collection.objects.link(other)
+    by_blender = other.modifiers.new('Mesh Deform', 'MESH_DEFORM')
+    by_blender.object, by_blender.precision = cage, 5
+    scene.select(other)
+    bpy.ops.object.meshdeform_bind(modifier=by_blender.name)
+    rest, base = scene.shown(model), scene.base(cage)
+    drag = 0.12 * scene.size(rest)
+    key = scene.set_key(cage, 'Pose', base)
+    key.value = 1
+
+    def moved_by(dragged):
+        points = base.copy()
+        points[dragged, 2] += drag
+        scene.set_key(cage, 'Pose', points)
+        bpy.context.view_layer.update()
+        return [((scene.shown(item) - rest)**2).sum(axis=1)**0.5 > 0.01 * drag for item in (other, model)]
+
+    for dragged in range(len(base)):
+        print('moved', dragged, *(f'{100 * moved.mean():.1f}' for moved in moved_by(dragged)))
+    tinted = moved_by(33)  # at the wrist
+    skin = material(SKIN, 0.5)
+    tint = skin.node_tree.nodes.new('ShaderNodeVertexColor')
+    tint.layer_name = 'moved'
+    skin.node_tree.links.new(tint.outputs[0], skin.node_tree.nodes['Principled BSDF'].inputs[0])
+    faces = [tuple(face.vertices) for face in model.data.polygons]
+    wire, items = as_tubes(cage), []
+    for item, moved in zip((other, model), tinted):
+        both = scene.add('moved', scene.shown(item), faces), wire.copy()
+        bpy.context.collection.objects.link(both[1])
+        colors = both[0].data.color_attributes.new('moved', 'FLOAT_COLOR', 'POINT')
+        for color, is_moved in zip(colors.data, moved):
+            color.color = MOVED if is_moved else SKIN
+        both[0].data.materials.append(skin)
+        for face in both[0].data.polygons:
+            face.use_smooth = True
+        for part in both:
+            part.location.x = len(items) * 0.55 * scene.size(rest)
+        items += both
+        item.hide_render = True
+    wire.hide_render = True
+    render(items)
+
+
+def render(items):
+    middle, size = center(items)
     turn = Euler((0.9, 0, 0.2)).to_matrix()
     camera = bpy.data.objects.new('camera', bpy.data.cameras.new('camera'))
     camera.data.type = 'ORTHO'
@@ -108,7 +169,7 @@ def take_pose():
 
 
 def take_panel():
-    bound_limb()
+    pose_limb(bound_limb()[1])
     there = scene.viewport()
     event = there['window'].event_simulate
     place = {'x': there['area'].x + there['area'].width // 2,
@@ -126,8 +187,8 @@ def take_panel():
 
 
 scene.enable(PROGRAM)
-if KIND == 'pose':
-    take_pose()
+if KIND in ('pose', 'moved'):
+    {'pose': take_pose, 'moved': take_moved}[KIND]()
 else:
     steps = take_panel()
     bpy.app.timers.register(lambda: next(steps) or 0.3, first_interval=0.5)

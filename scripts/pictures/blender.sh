@@ -19,5 +19,6 @@ Image.alpha_composite(white, picture).convert("RGB").quantize(128).save(sys.argv
     "$work/$1.png" "$images/blender_$1.png"
 }
 take pose blender --background
+take moved blender --background
 take panel xvfb-run -a -s "-screen 0 1200x760x24" \
   blender --enable-event-simulate --window-geometry 0 0 1200 760
