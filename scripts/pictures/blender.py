@@ -21,12 +21,16 @@ SKIN, WIRE = (0.67, 0.54, 0.42, 1), (0.015, 0.02, 0.03, 1)
 MOVED = (0.75, 0.16, 0.02, 1)
 
 
+def smooth(item):
+    for face in item.data.polygons:
+        face.use_smooth = True
+
+
 def bound_limb():
     model = scene.load(f'{MESHES}/3d/limb_model.obj')
     cage = scene.load(f'{MESHES}/3d/limb_cage.obj')
     cage.display_type = 'WIRE'
-    for face in model.data.polygons:
-        face.use_smooth = True
+    smooth(model)
     bpy.context.scene.flbc.cage = cage
     scene.select(model)
     bpy.ops.flbc.bind()
@@ -101,8 +105,6 @@ def take_moved():
     bpy.ops.object.meshdeform_bind(modifier=by_blender.name)
     rest, base = scene.shown(model), scene.base(cage)
     drag = 0.12 * scene.size(rest)
-    key = scene.set_key(cage, 'Pose', base)
-    key.value = 1
 
     def moved_by(dragged):
         points = base.copy()
@@ -127,8 +129,7 @@ def take_moved():
         for color, is_moved in zip(colors.data, moved):
             color.color = MOVED if is_moved else SKIN
         both[0].data.materials.append(skin)
-        for face in both[0].data.polygons:
-            face.use_smooth = True
+        smooth(both[0])
         for part in both:
             part.location.x = len(items) * 0.55 * scene.size(rest)
         items += both
@@ -187,8 +188,10 @@ def take_panel():
 
 
 scene.enable(PROGRAM)
-if KIND in ('pose', 'moved'):
-    {'pose': take_pose, 'moved': take_moved}[KIND]()
-else:
+if KIND == 'panel':
     steps = take_panel()
     bpy.app.timers.register(lambda: next(steps) or 0.3, first_interval=0.5)
+elif KIND == 'moved':
+    take_moved()
+else:
+    take_pose()
