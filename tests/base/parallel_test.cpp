@@ -57,6 +57,30 @@ TEST(Parallel, EachThreadHasItsOwnScratch) {
   });
 }
 
+// Bodies may use omp_get_thread_num(), also where the caller is in a team of its own.
+TEST(Parallel, OneThreadHasNumberZeroAndNoTeam) {
+  const auto check = [](bool several) {
+    const int level = omp_get_level();
+    const bool first = omp_get_thread_num() == 0;
+    int calls = 0;
+    in_threads(several, [&](int thread, int num_threads) {
+      ++calls;
+      EXPECT_EQ(thread, 0);
+      EXPECT_EQ(omp_get_thread_num(), 0);
+      EXPECT_EQ(num_threads, 1);
+      EXPECT_EQ(omp_get_level() == level, first);
+    });
+    EXPECT_EQ(calls, 1);
+  };
+  check(false);
+#pragma omp parallel num_threads(3)
+  {
+    const ThreadScope scope(1);
+    check(false);
+    check(true);
+  }
+}
+
 TEST(Parallel, TheLowestExceptionReachesTheCaller) {
   with_threads([] {
     testing::expect_error<std::runtime_error>(

@@ -16,19 +16,20 @@ using LongVector = Eigen::Matrix<Exact, Dim, 1>;
 //! Winding number of the cage around a point: the sum of the angles subtended by its facets.
 template <int Dim>
 double winding_number(const Cage<Dim>& cage, const Vector<Dim>& point) {
+  const double pi = std::acos(-1.0);
   double sum = 0;
   for (Index f = 0; f < cage.facets.cols(); ++f) {
     const Vector<Dim> a = cage.points.col(cage.facets(0, f)) - point;
     const Vector<Dim> b = cage.points.col(cage.facets(1, f)) - point;
     if constexpr (Dim == 2) {
-      sum += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)) / (2 * M_PI);
+      sum += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)) / (2 * pi);
     } else {
       const Vector<3> c = cage.points.col(cage.facets(2, f)) - point;
       const double la = a.norm(), lb = b.norm(), lc = c.norm();
       sum += 2 *
              std::atan2(a.dot(b.cross(c)),
                         la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb) /
-             (4 * M_PI);
+             (4 * pi);
     }
   }
   return sum;

@@ -49,6 +49,8 @@ constexpr int kFewestInParallel = 256;
 //! only. Teams do not differ in size otherwise, since OpenMP would end and start threads each time
 template <class Body>
 void in_threads(bool several, const Body& body) {
+  // Even a region of one thread creates and closes semaphores on Windows. They are slow under Wine.
+  if ((!several || omp_get_max_threads() == 1) && omp_get_thread_num() == 0) return body(0, 1);
   std::exception_ptr error;
   int first = omp_get_max_threads();
 #pragma omp parallel if (several)
