@@ -56,8 +56,12 @@ bool ActiveSetQp<Dim>::solve(const std::vector<Index>& support, double bound,
     if (support.size() <= Dim + 1 || !start_in_hull(support)) return false;
   }
   at_minimum_ = true;
-  if (!left_.empty()) descend_to_minimum();
-  return finish(weights);
+  if (!left_.empty()) {
+    descend_to_minimum();
+    if (!is_feasible()) return false;
+  }
+  finish(weights);
+  return true;
 }
 
 // Fast search for feasible weights: repeatedly removes the most negative weight of the free
@@ -101,7 +105,9 @@ void ActiveSetQp<Dim>::descend(PointWeights& weights, Index newcomer) {
   left_.clear();
   if (newcomer >= 0) enter(newcomer, 0);
   descend_to_minimum();
-  if (finish(lower_) && lower_.cost < weights.cost) std::swap(weights, lower_);
+  if (!is_feasible()) return;
+  finish(lower_);
+  if (lower_.cost < weights.cost) std::swap(weights, lower_);
 }
 
 // Moves toward the free minimum. A control point whose weight reaches zero is removed; at the
@@ -179,10 +185,9 @@ bool ActiveSetQp<Dim>::is_feasible() const {
   return sums.norm() <= kFeasible;
 }
 
-// \return false if the weights of the members are not feasible
+// \param weights  those of the members, without negligible ones
 template <int Dim>
-bool ActiveSetQp<Dim>::finish(PointWeights& weights) {
-  if (!is_feasible()) return false;
+void ActiveSetQp<Dim>::finish(PointWeights& weights) const {
   weights.support.clear();
   weights.values.clear();
   for (std::size_t k = 0; k < members_.size(); ++k) {
@@ -192,7 +197,6 @@ bool ActiveSetQp<Dim>::finish(PointWeights& weights) {
   }
   weights.cost =
       at_minimum_ && weights.support.size() == members_.size() ? free_.cost() : cost_of(weights);
-  return true;
 }
 
 template <int Dim>

@@ -77,7 +77,7 @@ class ActiveSetQp {
   double slope(const std::vector<Index>& members, const std::vector<double>& weights,
                Index outside) const;
   bool is_feasible() const;
-  bool finish(PointWeights& weights);
+  void finish(PointWeights& weights) const;
 
   EqualityQp<Dim> free_;
   const PointList<Dim>& control_points_;

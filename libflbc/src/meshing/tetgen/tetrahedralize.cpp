@@ -139,12 +139,12 @@ DomainMesh<3> refine_to_count(Index wanted, double first_bound, DomainMesh<3> co
                               const MeshMaker& make_mesh) {
   VertexCountGoal goal;
   goal.vertices = wanted;
-  goal.good_enough = kCountTolerance / 2;
+  goal.good_enough = kCountTolerance;
   DomainMesh<3> mesh = std::move(coarsest);
   for (double ratio : {kRadiusEdgeRatio, 1.3, 1.6, 1.2, 1.8}) {
     mesh = search_vertex_count<3>(goal, std::move(mesh), first_bound, kCountExponent,
                                   [&](double bound) { return make_mesh(ratio, bound); });
-    if (goal.is_met(mesh.num_vertices(), kCountTolerance)) break;
+    if (goal.is_met(mesh.num_vertices(), goal.good_enough)) break;
   }
   return mesh;
 }

@@ -113,6 +113,11 @@ class PoissonDescent {
   // influences, and the others get those of a neighbor.
   void start() {
     const auto num_points = static_cast<Index>(points_.cols());
+    // In the order of the points, because neighbors are read together.
+    for (PointWeights& weights : weights_) {
+      weights.support.reserve(options_.max_influences + 1);
+      weights.values.reserve(options_.max_influences + 1);
+    }
     LoopProgress progress(num_points);
     const auto make_work = [&] {
       return typename PointSparsifier<Dim>::Workspace(control_points_);
@@ -210,7 +215,7 @@ class PoissonDescent {
       if (!started[neighbour.point]) continue;
       const auto& support = weights_[neighbour.point].support;
       if (support == best.support || !qp.solve(support, best.cost, work.best)) continue;
-      if (work.best.cost < best.cost) std::swap(best, work.best);
+      if (work.best.cost < best.cost) best = work.best;
     }
     return !best.support.empty();
   }
