@@ -61,7 +61,7 @@ void set_color(cairo_t* cairo, Color color, float opacity = 1) {
 
 // Without hinting, widths of text are proportional to its height.
 void set_font(cairo_t* cairo, double height) {
-  cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_select_font_face(cairo, "Lato", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cairo, height / kDigitHeight);
   auto* options = cairo_font_options_create();
   cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
