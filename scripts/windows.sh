@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 scripts/install_dependencies.sh windows
 cmake --preset windows >/dev/null
 targets=(flbc_app)
-[ "${1:-}" != --tests ] || targets+=(io_tests meshing_tests solver_tests sparsify_tests)
+[ "${1:-}" != --tests ] || targets+=(base_tests io_tests meshing_tests solver_tests sparsify_tests)
 cmake --build --preset windows --target "${targets[@]}"
 # Threads wait for each other by calls to Wine's server: a parallel region of two takes 0.3 ms.
 export WINEDEBUG=-all OMP_NUM_THREADS=1
