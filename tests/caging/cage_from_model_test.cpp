@@ -306,6 +306,38 @@ TEST(CageLimitsTest, LegsOnBothSidesOfTheMirrorPlaneStayApart) {
   }
 }
 
+// Such as a mane or a fin: on both sides of the plane, and in it.
+TEST(CageLimitsTest, FlatPartsInTheMirrorPlane) {
+  const auto box = box_cage<3>(Vector<3>(-0.2, -0.5, -1), Vector<3>(0.2, 0.5, 1));
+  for (const double place : {0.0, 1e-5}) {
+    Cage<3> fin{PointList<3>(3, 4), FacetList<3>(3, 2)};
+    fin.points << place, place, place, place,  //
+        0.5, 0.5, 1, 1,                        //
+        -0.8, 0.3, 0.3, -0.8;
+    fin.facets << 0, 0, 1, 2, 2, 3;
+    const auto made = make(join(box, fin), {});
+    EXPECT_EQ(made.symmetry_axis, 0);
+    EXPECT_LE(measure_cage(made.cage).measure, kMaxCageVolume * measure_cage(box).measure);
+    EXPECT_NEAR(winding_number<3>(made.cage, Vector<3>(0.2, 0.9, 0)), 0, 1e-6);
+  }
+}
+
+// What they enclose but for an opening, such as the inside of a shirt, is in the cage.
+TEST(CageLimitsTest, OpenModelsAreFilled) {
+  const Eigen::AngleAxisd turn(0.6, Vector<3>(1, 2, 0.5).normalized());
+  for (const Index side : {0, 2, 4}) {
+    auto model = box_cage<3>(Vector<3>(-1, -0.4, -0.5), Vector<3>(1, 0.4, 0.5));
+    model.points = turn.toRotationMatrix() * model.points;
+    const PointList<3> inside = 0.5 * model.points;
+    model = without_facet(without_facet(model, side + 1), side);
+    const auto made = make(model, {});
+    for (const auto& p : inside.colwise()) {
+      EXPECT_NEAR(winding_number<3>(made.cage, p), 1, 1e-6) << side;
+    }
+    EXPECT_LE(measure_cage(made.cage).measure, kMaxCageVolume * 2 * 0.8);
+  }
+}
+
 // A detail of one side, such as a buckle, is in the cage of both sides.
 TEST(CageLimitsTest, DetailsOfOneSideDoNotHideASymmetry) {
   auto model = box_cage<3>(1);

@@ -172,12 +172,12 @@ class Caging {
                                              points.rowwise().maxCoeff());
     plane_ = find_symmetry<Dim>(model, box.center(), size_, options.symmetry);
     if constexpr (Dim == 3) {
-      volume_ = solid_volume(points, facets);
-      is_closed_ = is_closed(points, facets);
+      volume_ = solid_volume({points, facets});
+      is_closed_ = is_closed({points, facets});
     }
     // Adding the mirror image makes the model symmetric.
-    if (plane_.is_there()) model = whole_ = with_mirror_image(model, plane_);
-    model_.emplace(model.points, model.facets);
+    whole_ = plane_.is_there() ? with_mirror_image(model, plane_) : model;
+    model_.emplace(whole_.points, whole_.facets);
   }
 
   ModelCage<Dim> make() {
@@ -213,11 +213,13 @@ class Caging {
   // Closed, or its half; no facets if wrapping failed.
   Cage<Dim> wrap_of(const WrapSize& size) const {
     report(CagingStage::kWrap);
-    if (!plane_.is_there()) return wrap(*model_, size);
     const Parting parting{plane_, 2 * size.alpha, 1e-2 * size.offset, 0.3 * size.offset};
-    const auto apart = parting.part(whole_);
-    const Cage<Dim> surface = wrap(Enclosure<Dim>(apart.points, apart.facets), size);
-    if (surface.facets.cols() == 0) return surface;
+    Cage<Dim> solid = plane_.is_there() ? parting.part(whole_) : whole_;
+    if constexpr (Dim == 3) {
+      if (!is_closed_) solid = filled(solid, size.alpha);
+    }
+    const Cage<Dim> surface = wrap(Enclosure<Dim>(solid.points, solid.facets), size);
+    if (surface.facets.cols() == 0 || !plane_.is_there()) return surface;
     return parting.joined_half(surface);
   }
 
@@ -238,9 +240,9 @@ class Caging {
       options_.control_points =
           surface.facets.cols() > 0 ? number_by_shape(surface, size_) : kUsualNumber<2>;
     } else {
-      // Edges no longer than the wrap is thick leave three rings at a limb; longer ones take fewer
-      // control points. A model with thin limbs gets a finer wrap, unless it would take too many
-      // control points: then it is boxed in.
+      // Edges no longer than the wrap is thick leave three rings at a limb; longer ones take
+      // fewer control points. A model with thin limbs gets a finer wrap, unless it would take too
+      // many control points: then it is boxed in.
       constexpr double kUnlimited = std::numeric_limits<double>::infinity();
       const double most = 0.97 * kMaxCageVolume * volume_;
       options_.control_points = kMostByShape;
@@ -332,7 +334,7 @@ class Caging {
   double size_;
   CageLimits limits_{kMaxCageValence, kMaxCageDistance* size_};
   MirrorPlane plane_{};
-  Cage<Dim> whole_{};  // the model with its mirror image, if there is a plane
+  Cage<Dim> whole_{};  // the model, with its mirror image if there is a plane
   double volume_ = 0;  // of the model, in 3D; an estimate if it is open
   bool is_closed_ = false;
   std::optional<Enclosure<Dim>> model_{};

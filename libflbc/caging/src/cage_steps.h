@@ -22,10 +22,15 @@ double hull_volume(const PointList<3>& points);
 //! add up to zero. Lines that pass through an opening do not count. The result is the median of
 //! lines along x, y, and z.
 //! \return 0 if the triangles bound nothing, or are oriented at random
-double solid_volume(const PointList<3>& points, const FacetList<3>& facets);
+double solid_volume(const Cage<3>& model);
+
+//! The model with added points inside it, so that a wrap does not enter it through an opening. Most
+//! lines along x, y, and z that pass through no opening must say that a point is inside.
+//! \param spacing  of the points
+Cage<3> filled(const Cage<3>& model, double spacing);
 
 //! Whether an even number of triangles meet at every edge between two places.
-bool is_closed(const PointList<3>& points, const FacetList<3>& facets);
+bool is_closed(const Cage<3>& model);
 
 //! A closed surface (2D: lines) around a model, finer than the final cage.
 struct WrapSize {

@@ -86,21 +86,22 @@ class Cut {
 };
 
 template <int Dim>
-void reverse(Eigen::Ref<FacetList<Dim>> facets) {
-  facets.row(0).swap(facets.row(1));
+Cage<Dim> joined(const Cage<Dim>& one, const Cage<Dim>& other) {
+  Cage<Dim> both{PointList<Dim>(Dim, one.size() + other.size()),
+                 FacetList<Dim>(Dim, one.facets.cols() + other.facets.cols())};
+  both.points << one.points, other.points;
+  both.facets << one.facets, (other.facets.array() + one.size()).matrix();
+  return both;
 }
 
 }  // namespace
 
 template <int Dim>
 Cage<Dim> with_mirror_image(const Cage<Dim>& shape, const MirrorPlane& plane) {
-  const Index n = shape.size(), m = static_cast<Index>(shape.facets.cols());
-  Cage<Dim> both{PointList<Dim>(Dim, 2 * n), FacetList<Dim>(Dim, 2 * m)};
-  both.points << shape.points, shape.points;
-  both.points.row(plane.axis).tail(n) = 2 * plane.position - shape.points.row(plane.axis).array();
-  both.facets << shape.facets, (shape.facets.array() + n).matrix();
-  reverse<Dim>(both.facets.rightCols(m));
-  return both;
+  Cage<Dim> image = shape;
+  image.points.row(plane.axis) = 2 * plane.position - shape.points.row(plane.axis).array();
+  image.facets.row(0).swap(image.facets.row(1));
+  return joined(shape, image);
 }
 
 template <int Dim>
@@ -113,19 +114,27 @@ Cage<Dim> cut_half(const Cage<Dim>& surface, const MirrorPlane& plane, double ne
   return Cut<Dim>(moved, plane).half();
 }
 
-// Facets are cut where the stretched part ends, because they would have to bend there.
+// Facets are cut where the stretched part ends, because they would have to bend there. What is
+// between both ends is added at each of them, because it may touch neither.
 template <int Dim>
 Cage<Dim> Parting::part(const Cage<Dim>& shape) const {
   Cage<Dim> parted = shape;
-  for (const double end : {-nearest, nearest}) {
-    parted = Cut<Dim>(parted, {plane.axis, plane.position + end}).both();
+  const double low = plane.position - nearest, high = plane.position + nearest;
+  for (const double end : {low, high}) parted = Cut<Dim>(parted, {plane.axis, end}).both();
+  std::vector<FacetCorners<Dim>> between;
+  for (const FacetCorners<Dim> corners : parted.facets.colwise()) {
+    const auto places = parted.points.row(plane.axis)(corners).array();
+    if ((places >= low && places <= high).all()) between.push_back(corners);
   }
+  auto ends = compact<Dim>(parted.points, between);
+  ends.points.row(plane.axis).setConstant(high + width);
+  ends = with_mirror_image(ends, plane);
   for (double& x : parted.points.row(plane.axis)) {
     const double distance = x - plane.position;
     const double stretch = std::min(1.0, std::abs(distance) / nearest);
     x += std::copysign(stretch * width, distance);
   }
-  return parted;
+  return joined(parted, ends);
 }
 
 template <int Dim>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -12,19 +13,65 @@ namespace flbc {
 
 namespace {
 
-// Lines along each side of the bounding box.
-constexpr int kLines = 200;
+// Coordinates along x, y, and z, away from those that vertices of regular models have.
+struct LineGrid {
+  Vector<3> low, step;
+  Eigen::Array3i counts;
 
-// Parallel lines on a grid, and the places where triangles cross them.
-class Lines {
- public:
-  Lines(const PointList<3>& points, int axis)
-      : points_(points), axis_(axis), u_((axis + 1) % 3), v_((axis + 2) % 3) {
-    low_ = points.rowwise().minCoeff();
-    step_ = (points.rowwise().maxCoeff() - low_) / kLines;
-    crossings_.resize(kLines * kLines);
+  LineGrid(const PointList<3>& points, const Eigen::Array3i& numbers) : counts(numbers) {
+    low = points.rowwise().minCoeff();
+    step = (points.rowwise().maxCoeff() - low).array() / counts.cast<double>();
   }
 
+  double coordinate(int axis, int number) const {
+    return low(axis) + (number + 0.5 + 0.0618 * (axis + 1)) * step(axis);
+  }
+
+  Index number_of(const Eigen::Array3i& cell) const {
+    return (cell(0) * counts(1) + cell(1)) * counts(2) + cell(2);
+  }
+};
+
+// Lines of a grid along an axis, and the places where triangles cross them.
+class Lines {
+ public:
+  Lines(const Cage<3>& model, int axis, const LineGrid& grid)
+      : points_(model.points), axis_(axis), u_((axis + 1) % 3), v_((axis + 2) % 3), grid_(grid) {
+    crossings_.resize(static_cast<std::size_t>(grid.counts(u_) * grid.counts(v_)));
+    for (const auto& facet : model.facets.colwise()) cross(facet(0), facet(1), facet(2));
+    for (auto& line : crossings_) std::sort(line.begin(), line.end());
+  }
+
+  double volume() const {
+    double length = 0;
+    for (const auto& line : crossings_) {
+      if (passes_opening(line)) continue;
+      for_inside(line, [&](double begin, double end) { length += end - begin; });
+    }
+    return length * grid_.step(u_) * grid_.step(v_);
+  }
+
+  // Adds 1 for every cell of the grid whose point is inside, and -1 if it is outside.
+  void count_inside(std::vector<int>& counts) const {
+    Eigen::Array3i cell;
+    const auto add = [&](double begin, double end, int count) {
+      for (cell(axis_) = 0; cell(axis_) < grid_.counts(axis_); ++cell(axis_)) {
+        const double place = grid_.coordinate(axis_, cell(axis_));
+        if (place > begin && place < end) counts[grid_.number_of(cell)] += count;
+      }
+    };
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    for (cell(u_) = 0; cell(u_) < grid_.counts(u_); ++cell(u_)) {
+      for (cell(v_) = 0; cell(v_) < grid_.counts(v_); ++cell(v_)) {
+        const auto& line = crossings_[number(cell(u_), cell(v_))];
+        if (passes_opening(line)) continue;
+        add(-kFar, kFar, -1);
+        for_inside(line, [&](double begin, double end) { add(begin, end, 2); });
+      }
+    }
+  }
+
+ private:
   void cross(Index a, Index b, Index c) {
     const auto p = points_.col(a), q = points_.col(b), r = points_.col(c);
     const double area = (q(u_) - p(u_)) * (r(v_) - p(v_)) - (q(v_) - p(v_)) * (r(u_) - p(u_));
@@ -33,67 +80,96 @@ class Lines {
     const auto [v_begin, v_end] = range(v_, {p(v_), q(v_), r(v_)});
     for (int i = u_begin; i < u_end; ++i) {
       for (int j = v_begin; j < v_end; ++j) {
-        const double x = line(u_, i), y = line(v_, j);
+        const double x = grid_.coordinate(u_, i), y = grid_.coordinate(v_, j);
         const double s = ((x - p(u_)) * (r(v_) - p(v_)) - (y - p(v_)) * (r(u_) - p(u_))) / area;
         const double t = ((q(u_) - p(u_)) * (y - p(v_)) - (q(v_) - p(v_)) * (x - p(u_))) / area;
         if (s < 0 || t < 0 || s + t > 1) continue;
         const double place = p(axis_) + s * (q(axis_) - p(axis_)) + t * (r(axis_) - p(axis_));
-        crossings_[i * kLines + j].emplace_back(place, area > 0 ? 1 : -1);
+        crossings_[number(i, j)].emplace_back(place, area > 0 ? 1 : -1);
       }
     }
   }
 
-  double volume() {
-    double length = 0;
-    for (auto& line : crossings_) {
-      std::sort(line.begin(), line.end());
-      int winding = 0;
-      double inside = 0;
-      for (std::size_t k = 0; k < line.size(); ++k) {
-        if (winding != 0) inside += line[k].first - line[k - 1].first;
-        winding += line[k].second;
-      }
-      if (winding == 0) length += inside;
-    }
-    return length * step_(u_) * step_(v_);
+  // A place on the line, and whether the triangle there faces back (1) or along it (-1).
+  using Crossing = std::pair<double, int>;
+
+  static bool passes_opening(const std::vector<Crossing>& line) {
+    int winding = 0;
+    for (const auto& crossing : line) winding += crossing.second;
+    return winding != 0;
   }
 
- private:
-  // Away from coordinates that vertices of regular models have.
-  double line(int axis, int number) const {
-    return low_(axis) + (number + 0.5 + 0.0618 * (axis + 1)) * step_(axis);
+  // Calls the function with both ends of each part of a line that is inside.
+  template <class Function>
+  static void for_inside(const std::vector<Crossing>& line, const Function& function) {
+    int winding = 0;
+    for (std::size_t k = 0; k < line.size(); ++k) {
+      if (winding != 0) function(line[k - 1].first, line[k].first);
+      winding += line[k].second;
+    }
+  }
+
+  std::size_t number(int i, int j) const {
+    return static_cast<std::size_t>(i * grid_.counts(v_) + j);
   }
 
   std::pair<int, int> range(int axis, const std::array<double, 3>& places) const {
     const auto [least, most] = std::minmax_element(places.begin(), places.end());
-    if (!(step_(axis) > 0)) return {0, 0};
-    const double begin = (*least - low_(axis)) / step_(axis) - 1;
-    const double end = (*most - low_(axis)) / step_(axis) + 1;
-    return {std::max(0, static_cast<int>(begin)), std::min(kLines, static_cast<int>(end))};
+    if (!(grid_.step(axis) > 0)) return {0, 0};
+    const double begin = (*least - grid_.low(axis)) / grid_.step(axis) - 1;
+    const double end = (*most - grid_.low(axis)) / grid_.step(axis) + 1;
+    return {std::max(0, static_cast<int>(begin)),
+            std::min(grid_.counts(axis), static_cast<int>(end))};
   }
 
   const PointList<3>& points_;
   int axis_, u_, v_;
-  Vector<3> low_, step_;
-  std::vector<std::vector<std::pair<double, int>>> crossings_;
+  const LineGrid& grid_;
+  std::vector<std::vector<Crossing>> crossings_;
 };
+
+// A line through two openings may be wrong.
+bool is_majority(int count) {
+  return count > 0;
+}
 
 }  // namespace
 
-double solid_volume(const PointList<3>& points, const FacetList<3>& facets) {
+double solid_volume(const Cage<3>& model) {
+  constexpr int kLines = 200;
+  const LineGrid grid(model.points, Eigen::Array3i::Constant(kLines));
   std::array<double, 3> volumes{};
-  for (int axis = 0; axis < 3; ++axis) {
-    Lines lines(points, axis);
-    for (Index f = 0; f < facets.cols(); ++f) {
-      lines.cross(facets(0, f), facets(1, f), facets(2, f));
-    }
-    volumes[axis] = lines.volume();
-  }
+  for (int axis = 0; axis < 3; ++axis) volumes[axis] = Lines(model, axis, grid).volume();
   std::sort(volumes.begin(), volumes.end());
   return volumes[1];
 }
 
-bool is_closed(const PointList<3>& points, const FacetList<3>& facets) {
+Cage<3> filled(const Cage<3>& model, double spacing) {
+  const Vector<3> sides = model.points.rowwise().maxCoeff() - model.points.rowwise().minCoeff();
+  const LineGrid grid(model.points, (sides.array() / spacing).ceil().cast<int>().max(1));
+  std::vector<int> counts(static_cast<std::size_t>(grid.counts.prod()), 0);
+  for (int axis = 0; axis < 3; ++axis) Lines(model, axis, grid).count_inside(counts);
+  Cage<3> solid = model;
+  solid.points.conservativeResize(
+      3, model.size() + std::count_if(counts.begin(), counts.end(), is_majority));
+  Index next = model.size();
+  Eigen::Array3i cell;
+  for (cell(0) = 0; cell(0) < grid.counts(0); ++cell(0)) {
+    for (cell(1) = 0; cell(1) < grid.counts(1); ++cell(1)) {
+      for (cell(2) = 0; cell(2) < grid.counts(2); ++cell(2)) {
+        if (!is_majority(counts[grid.number_of(cell)])) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+          solid.points(axis, next) = grid.coordinate(axis, cell(axis));
+        }
+        ++next;
+      }
+    }
+  }
+  return solid;
+}
+
+bool is_closed(const Cage<3>& model) {
+  const auto& [points, facets] = model;
   std::map<std::array<double, 3>, Index> first_at;
   std::vector<Index> place;
   for (Index v = 0; v < points.cols(); ++v) {
