@@ -42,7 +42,7 @@ void adapt_to_system() {
   // kept, in pieces between others, which costs a fifth of what a solve takes.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
   // Smaller blocks are freed and allocated again and again; each new page costs a page fault.
-  mallopt(M_TOP_PAD, 64 << 20);
+  mallopt(M_TOP_PAD, 16 << 20);
 #endif
 }
 

@@ -114,9 +114,10 @@ class PoissonDescent {
   void start() {
     const auto num_points = static_cast<Index>(points_.cols());
     // In the order of the points, because neighbors are read together.
-    for (PointWeights& weights : weights_) {
-      weights.support.reserve(options_.max_influences + 1);
-      weights.values.reserve(options_.max_influences + 1);
+    for (Index a = 0; a < num_points; ++a) {
+      const Index most = std::min(options_.max_influences, projected_.count(a)) + 1;
+      weights_[a].support.reserve(most);
+      weights_[a].values.reserve(most);
     }
     LoopProgress progress(num_points);
     const auto make_work = [&] {
