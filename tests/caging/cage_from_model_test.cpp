@@ -306,7 +306,7 @@ TEST(CageLimitsTest, LegsOnBothSidesOfTheMirrorPlaneStayApart) {
   }
 }
 
-// Such as a mane or a fin: on both sides of the plane, and in it.
+// Such as a crest or a fin: on both sides of the plane, and in it.
 TEST(CageLimitsTest, FlatPartsInTheMirrorPlane) {
   const auto box = box_cage<3>(Vector<3>(-0.2, -0.5, -1), Vector<3>(0.2, 0.5, 1));
   for (const double place : {0.0, 1e-5}) {
