@@ -213,10 +213,12 @@ class Caging {
   // Closed, or its half; no facets if wrapping failed.
   Cage<Dim> wrap_of(const WrapSize& size) const {
     report(CagingStage::kWrap);
+    const bool is_open = Dim == 3 && !is_closed_;
+    if (!plane_.is_there() && !is_open) return wrap(*model_, size);
     const Parting parting{plane_, 2 * size.alpha, 1e-2 * size.offset, 0.3 * size.offset};
     Cage<Dim> solid = plane_.is_there() ? parting.part(whole_) : whole_;
     if constexpr (Dim == 3) {
-      if (!is_closed_) solid = filled(solid, size.alpha);
+      if (is_open) solid = filled(solid, size.alpha);
     }
     const Cage<Dim> surface = wrap(Enclosure<Dim>(solid.points, solid.facets), size);
     if (surface.facets.cols() == 0 || !plane_.is_there()) return surface;
@@ -240,9 +242,9 @@ class Caging {
       options_.control_points =
           surface.facets.cols() > 0 ? number_by_shape(surface, size_) : kUsualNumber<2>;
     } else {
-      // Edges no longer than the wrap is thick leave three rings at a limb; longer ones take
-      // fewer control points. A model with thin limbs gets a finer wrap, unless it would take too
-      // many control points: then it is boxed in.
+      // Edges no longer than the wrap is thick leave three rings at a limb; longer ones take fewer
+      // control points. A model with thin limbs gets a finer wrap, unless it would take too many
+      // control points: then it is boxed in.
       constexpr double kUnlimited = std::numeric_limits<double>::infinity();
       const double most = 0.97 * kMaxCageVolume * volume_;
       options_.control_points = kMostByShape;
