@@ -68,6 +68,7 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
                       " are for the cells of a mesh; make one by flbc mesh, and name it by "
                       "--domain of flbc solve");
   }
+  if (!settings.phi.empty()) refuse("--distances", "--phi gives a file of phi");
   if (!settings.domain.empty()) {
     refuse("--mesher", "--domain gives the mesh");
     refuse("--mesh-timeout", "--domain gives the mesh");

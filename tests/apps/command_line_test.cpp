@@ -283,6 +283,8 @@ TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
   expect("mesh " + cage + " --vertices 300 -q -o d.obj");
   expect_refused("solve " + cage + " --domain d.obj --mesher cgal -q -o w.npy", 1,
                  "--mesher: --domain gives the mesh");
+  expect_refused("solve " + cage + " --domain d.obj --phi phi.npy --distances exact -q -o w.npy", 1,
+                 "--distances: --phi gives a file of phi");
 }
 
 TEST_F(CommandLine, ResultsReplaceNeitherInputsNorEachOther) {

@@ -34,7 +34,7 @@ DomainMesh<Dim> search_vertex_count(const VertexCountGoal& goal, DomainMesh<Dim>
 
   double log_bound = std::log(first_bound);
   for (int run = 0; run < goal.max_runs; ++run) {
-    if (goal.is_met(best.num_vertices(), goal.good_enough)) break;
+    if (goal.is_met(best.num_vertices())) break;
     DomainMesh<Dim> mesh = make_mesh(std::exp(log_bound));
     const Sample sample{log_bound, std::log(double(mesh.num_vertices()))};
     if (goal.error(mesh.num_vertices()) < goal.error(best.num_vertices())) best = std::move(mesh);

@@ -15,7 +15,7 @@ struct VertexCountGoal {
   int max_runs = 12;          //!< of the mesher
 
   double error(Index count) const { return std::abs(double(count) / double(vertices) - 1); }
-  bool is_met(Index count, double tolerance) const { return error(count) <= tolerance; }
+  bool is_met(Index count) const { return error(count) <= good_enough; }
 };
 
 //! Secant search in the logarithms of count and bound, within the current bracket.

@@ -154,9 +154,8 @@ PlyReader::Number PlyReader::text_number(const PlyType& type) {
 
 PlyReader::Number PlyReader::binary_number(const PlyType& type) {
   if (bytes_left() < type.bytes) fail("the file ends within its numbers");
-  char bytes[8];
-  content_.copy(bytes, type.bytes, position_);
-  if (is_big_endian_) std::reverse(bytes, bytes + type.bytes);
+  std::string bytes(content_, position_, type.bytes);
+  if (is_big_endian_) std::reverse(bytes.begin(), bytes.end());
   const auto big = [this](NumberForm little_endian, NumberForm big_endian) {
     return is_big_endian_ ? big_endian : little_endian;
   };
@@ -165,7 +164,7 @@ PlyReader::Number PlyReader::binary_number(const PlyType& type) {
                                             : big(NumberForm::kDouble, NumberForm::kBigDouble);
   const NumberPlace place{position_, type.bytes, form};
   position_ += type.bytes;
-  return {decode_number(bytes, type.bytes, type.kind == 'f', type.kind == 'i'), place};
+  return {decode_number(bytes.data(), type.bytes, type.kind == 'f', type.kind == 'i'), place};
 }
 
 }  // namespace flbc::io

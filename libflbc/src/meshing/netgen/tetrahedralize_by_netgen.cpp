@@ -264,10 +264,7 @@ DomainMesh<3> fill_with(const Task& task, Index vertices, bool roughly) {
   const double first = guess_longest_edge(task, vertices);
   DomainMesh<3> mesh = fill(task, first);
   if (roughly) return mesh;
-  VertexCountGoal goal;
-  goal.vertices = vertices;
-  goal.good_enough = kCountTolerance;
-  goal.max_runs = 4;
+  const VertexCountGoal goal{vertices, kCountTolerance, 4};
   const double ratio = double(mesh.num_vertices()) / vertices;
   mesh =
       search_vertex_count<3>(goal, std::move(mesh), first * std::pow(ratio, 1 / kCountExponent),

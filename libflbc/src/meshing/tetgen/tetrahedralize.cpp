@@ -137,14 +137,12 @@ DomainMesh<3> compact(const Cage<3>& cage, const PointList<3>& input, DomainMesh
 // different shape bound then gives counts in between.
 DomainMesh<3> refine_to_count(Index wanted, double first_bound, DomainMesh<3> coarsest,
                               const MeshMaker& make_mesh) {
-  VertexCountGoal goal;
-  goal.vertices = wanted;
-  goal.good_enough = kCountTolerance;
+  const VertexCountGoal goal{wanted, kCountTolerance};
   DomainMesh<3> mesh = std::move(coarsest);
   for (double ratio : {kRadiusEdgeRatio, 1.3, 1.6, 1.2, 1.8}) {
     mesh = search_vertex_count<3>(goal, std::move(mesh), first_bound, kCountExponent,
                                   [&](double bound) { return make_mesh(ratio, bound); });
-    if (goal.is_met(mesh.num_vertices(), goal.good_enough)) break;
+    if (goal.is_met(mesh.num_vertices())) break;
   }
   return mesh;
 }
@@ -228,7 +226,7 @@ DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& optio
                   options.vertices,
                   options.roughly};
 
-  const VertexCountGoal goal{task.vertices};
+  const VertexCountGoal goal{task.vertices, kCountTolerance};
   DomainMesh<3> mesh;
   try {
     if (!options.roughly && has_coplanar_facets(cage)) {
@@ -236,7 +234,7 @@ DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& optio
     }
     const bool has_count =
         mesh.num_vertices() > 0 &&
-        (task.vertices == 0 || goal.is_met(mesh.num_vertices(), kCountTolerance));
+        (task.vertices == 0 || goal.is_met(mesh.num_vertices()));
     if (!has_count) mesh = fill(task, CoplanarFacets::kJoin, options.time_limit);
   } catch (const InputError& error) {
     if (mesh.num_vertices() == 0) throw InputError(error.what() + describe_thinnest(cage));
