@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc compare: several kinds of coordinates of a cage next to each other.
+#include <omp.h>
 #include <iostream>
 #include <memory>
-#include <thread>
 
 #include "commands/commands.h"
 #include "compare/comparison.h"
@@ -52,7 +52,7 @@ Json report_of(const Comparison<Dim>& all) {
               {"model", all.arguments.model},
               {"vertices", all.domain.num_vertices()},
               {"cells", all.domain.num_cells()},
-              {"threads", std::thread::hardware_concurrency()},
+              {"threads", omp_get_max_threads()},
               {"control_point", all.control_point},
               {"columns", Json::object()},
               {"failures", Json::object()}};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pages of flbc compare.
+#include <omp.h>
 #include <algorithm>
 #include <numeric>
 #include <sstream>
-#include <thread>
 
 #include "compare/comparison.h"
 #include "draw/canvas.h"
@@ -48,7 +48,7 @@ template <int Dim>
 std::string description(const Comparison<Dim>& all) {
   return std::to_string(all.domain.num_vertices()) + " vertices and " +
          std::to_string(all.domain.num_cells()) + " cells of the mesh, " + "up to " +
-         std::to_string(std::thread::hardware_concurrency()) + " threads, " +
+         std::to_string(omp_get_max_threads()) + " threads, " +
          (all.pose.cols() > 0 ? "the given pose"
                               : "poses: bent by 45 degrees, stretched by 40%, twisted by 60 "
                                 "degrees (3D)");

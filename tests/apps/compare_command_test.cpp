@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc compare, and other commands with kinds of coordinates for comparison.
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -171,6 +172,13 @@ TEST_F(CompareCommand, AMethodThatFailsSaysWhyAndTheOthersContinue) {
   EXPECT_EQ(report["columns"].size(), 1U);
   EXPECT_NE(report["failures"]["blended"].get<std::string>().find("in 2D"), std::string::npos);
   EXPECT_NE(slurp("compared/table.txt").find("blended failed: "), std::string::npos);
+}
+
+TEST_F(CompareCommand, ReportsTheThreadsThatItUsed) {
+  const auto command = "OMP_NUM_THREADS=1 " + std::string(FLBC_PROGRAM) +
+                       " compare 2d/letter_cage.obj -q --methods meanvalue -o compared";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(json_in("compared/table.json")["threads"], 1);
 }
 
 TEST_F(CompareCommand, GreenCoordinatesAndBiharmonicWeightsDeformModels) {

@@ -233,8 +233,7 @@ DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& optio
       mesh = keep_coplanar_edges(task, ample_time(task, options.time_limit));
     }
     const bool has_count =
-        mesh.num_vertices() > 0 &&
-        (task.vertices == 0 || goal.is_met(mesh.num_vertices()));
+        mesh.num_vertices() > 0 && (task.vertices == 0 || goal.is_met(mesh.num_vertices()));
     if (!has_count) mesh = fill(task, CoplanarFacets::kJoin, options.time_limit);
   } catch (const InputError& error) {
     if (mesh.num_vertices() == 0) throw InputError(error.what() + describe_thinnest(cage));
