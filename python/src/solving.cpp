@@ -42,16 +42,18 @@ DomainMesh<3> fill([[maybe_unused]] const Cage<3>& cage,
                    [[maybe_unused]] const MeshingOptions<3>& options) {
 #ifdef FLBC_WITH_TETGEN
   return tetrahedralize(cage, options);
+#elif defined(FLBC_WITH_NETGEN)
+  return tetrahedralize_by_netgen(cage, options);
 #else
   throw OptionError(
-      "this flbc was built without TetGen and cannot mesh 3D cages; give a DomainMesh");
+      "this flbc was built without TetGen and Netgen and cannot mesh 3D cages; give a DomainMesh");
 #endif
 }
 
 // Netgen can mesh some cages on which TetGen fails.
 template <int Dim>
 DomainMesh<Dim> fill_by_any(const Cage<Dim>& cage, const MeshingOptions<Dim>& options) {
-#ifdef FLBC_WITH_NETGEN
+#if defined(FLBC_WITH_TETGEN) && defined(FLBC_WITH_NETGEN)
   if constexpr (Dim == 3) {
     try {
       return fill(cage, options);

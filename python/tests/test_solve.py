@@ -3,7 +3,9 @@
 import gc
 import multiprocessing
 import os
+import pathlib
 import pickle
+import resource
 import signal
 import subprocess
 import sys
@@ -172,6 +174,15 @@ flbc.sparsify(numpy.concatenate([weights] * count), cage, many, 6, faces=polygon
 """
 
 
+def time_of_processor(process=None):
+    """Of a child that runs, or of all that have ended; unlike a clock, the same on a busy machine."""
+    if process is None:
+        usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return usage.ru_utime + usage.ru_stime
+    fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 @pytest.mark.parametrize("code", [SLOW, REDUCTION], ids=["solve", "reduction"])
 def test_ctrl_c_stops_work(code):
     code = code.format(cage=str(MESHES / "3d/limb_cage.obj"),
@@ -181,11 +192,11 @@ def test_ctrl_c_stops_work(code):
     )
     assert process.stdout.readline() == "ready\n"
     time.sleep(2)
+    start = time_of_processor(process) + time_of_processor()
     process.send_signal(signal.SIGINT)
-    start = time.perf_counter()
     _, errors = process.communicate(timeout=60)
     assert "KeyboardInterrupt" in errors and process.returncode == -signal.SIGINT
-    assert time.perf_counter() - start < 5  # with other tests at the same time
+    assert time_of_processor() - start < 20  # of 35 or more without Ctrl-C
 
 
 def test_other_threads_run_meanwhile(solid):
