@@ -162,15 +162,15 @@ flbc.solve(cage, mesh, tolerance=1e-30, gap=0, max_iterations=10**6, coarse_to_f
 
 
 REDUCTION = """
-import flbc, numpy
+import flbc, numpy, scipy.sparse
 cage = flbc.read_cage({cage!r})
 points, faces = flbc.read_model({model!r})
-count = 400
+count = 200
 many = numpy.concatenate([points] * count)
 polygons = numpy.concatenate([faces + k * len(points) for k in range(count)])
-weights = flbc.mean_value(cage, points)
+weights = scipy.sparse.csr_array(numpy.concatenate([flbc.mean_value(cage, points)] * count))
 print("ready", flush=True)
-flbc.sparsify(numpy.concatenate([weights] * count), cage, many, 6, faces=polygons)
+flbc.sparsify(weights, cage, many, 6, faces=polygons)
 """
 
 
@@ -196,7 +196,7 @@ def test_ctrl_c_stops_work(code):
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=60)
     assert "KeyboardInterrupt" in errors and process.returncode == -signal.SIGINT
-    assert time_of_processor() - start < 20  # of 35 or more without Ctrl-C
+    assert time_of_processor() - start < 5
 
 
 def test_other_threads_run_meanwhile(solid):

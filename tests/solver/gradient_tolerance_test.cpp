@@ -28,7 +28,10 @@ void expect_promise_kept(const LbcProblem<Dim>& problem, const std::vector<doubl
       options.non_negative = NonNegative::kOff;
       options.linear_solver = linear_solver;
       options.tolerance = tolerance;
-      options.max_iterations = 100000;  // the promise is about accuracy, whatever the mesh
+#ifdef _WIN32
+      // TetGen places vertices differently here, and the mesh of the arm takes more than usual.
+      options.max_iterations = 100000;
+#endif
       const auto [weights, report] = solve(problem, options);
       EXPECT_EQ(report.status, SolveStatus::kConverged);
       const double error = mean_squared_difference(problem.mesh, weights.dense(), exact);
