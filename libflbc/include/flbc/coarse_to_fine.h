@@ -5,7 +5,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
@@ -23,13 +22,6 @@ enum class CoarseToFine {
   kAuto,  //!< if there is a mesher and measurements show a gain
   kOn,    //!< always, even on small meshes where it costs time; needs a mesher
   kOff    //!< never
-};
-
-//! The meshes of a multilevel start.
-struct CoarseLevels {
-  //! Minimum number of vertices of a coarse mesh, >= 1. Default: 500 for CoarseToFine::kOn,
-  //! otherwise chosen by measurements, which means no coarse mesh for small meshes.
-  std::optional<Index> coarsest{};
 };
 
 }  // namespace flbc

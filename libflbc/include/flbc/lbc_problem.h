@@ -62,7 +62,7 @@ using VectorsAt = std::function<Eigen::Matrix<double, Eigen::Dynamic, Dim>(Index
 //! several parts; SolverError if distances cannot be computed
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceScheme scheme,
-                             double smoothness = 0);
+                             double smoothness);
 
 //! The same with known facets in the caller's order, for example from a half-edge mesh.
 //! \param cage  n control points
@@ -73,6 +73,6 @@ LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, DistanceSchem
 //! \throws InputError, SolverError as above
 template <int Dim>
 LbcProblem<Dim> make_problem(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology<Dim> topology,
-                             DistanceScheme scheme, double smoothness = 0);
+                             DistanceScheme scheme, double smoothness);
 
 }  // namespace flbc

@@ -15,9 +15,9 @@
 
 namespace flbc {
 
-//! The name of a value, such as "value" or "lbc2014".
+//! The name of a value, such as "weights" or "lbc2014".
 //! \tparam Enum  Method, Coordinates, NonNegative, DistanceScheme, Distances, Precision, ActiveSet,
-//! CoarseToFine, LinearSolver, SolveStatus, Criterion, DefectKind, or OutsidePoints
+//! CoarseToFine, SolveStatus, Criterion, DefectKind, or OutsidePoints
 template <class Enum>
 const char* name_of(Enum value);
 

@@ -31,12 +31,22 @@ struct Observer {
   //! exception leaves the solve.
   std::function<bool(const Progress&)> progress{};
 
-  //! Called before every iteration of Method::kValue, at least every ten iterations of other
+  //! Called before every iteration of Method::kWeights, at least every ten iterations of other
   //! methods, and very often during stages. Throw to cancel the solve without a result.
   std::function<void()> poll{};
 
   //! Called repeatedly during a stage with its progress in [0, 1]. May throw, as poll().
   std::function<void(Stage stage, double done)> stage{};
+};
+
+//! Limits the cost of one solve, for example to get one result per frame while a user drags a
+//! control point. A solve makes at least one iteration. The first one also takes coarse meshes of
+//! a multilevel start to their end.
+struct Budget {
+  int iterations = 0;  //!< maximum number, >= 1; 0 = as in the options
+  double seconds = 0;  //!< no iteration starts after this time, setup included; checked every ten
+                       //!< iterations of kGradient, kPaper, and kLbc2014. 0 = no limit. Results
+                       //!< then depend on machine speed.
 };
 
 }  // namespace flbc

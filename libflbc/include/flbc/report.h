@@ -65,7 +65,7 @@ struct LevelReport {
 //! - iterations, residuals, and phi_error are the maximum over the parts;
 //! - all other fields come from the part with the most iterations.
 struct SolveReport {
-  Method method = Method::kAuto;                 //!< method used; kAuto for compute_coordinates()
+  Method method = Method::kWeights;  //!< method used; kWeights for compute_coordinates()
   SolveStatus status = SolveStatus::kConverged;  //!< how the run ended
   Criterion criterion = Criterion::kNone;        //!< the criterion met, if the run converged
   Index control_points = 0;                      //!< n
@@ -76,13 +76,13 @@ struct SolveReport {
   double relative_dual_residual = 0;    //!< |r_d| divided by its threshold
   double penalty = 0;                   //!< final penalty, in the unit of SolverOptions::penalty
   double published_penalty = 0;  //!< the same in the scale of the literature (published_penalty())
-  //! Objective of the weights, sum_s sum_i phi A |grad w_i|, in units of the mesh^(dim - 1). NaN
-  //! for compute_coordinates().
+  //! Objective of the weights (SolverOptions::smoothness), in units of the mesh^(dim - 1). NaN for
+  //! compute_coordinates().
   double objective = 0;
   Certificate certificate{};                 //!< if requested or used as the criterion; same units
   double state_scalars_per_cell = 0;         //!< size of the iteration state
   DistanceReport distances{};                //!< for phi, if solve() set up the problem
-  ActiveSetReport active_set{};              //!< of Method::kValue
+  ActiveSetReport active_set{};              //!< of Method::kWeights
   StageSeconds seconds{};                    //!< wall-clock times of the phases
   Quality quality{};                         //!< of the weights
   std::vector<LevelReport> coarse_levels{};  //!< coarsest first; empty without a multilevel start

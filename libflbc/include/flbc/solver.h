@@ -28,13 +28,12 @@ using MesherArgument = std::common_type_t<CoarseMesher<Dim>>;
 
 //! Computes the coordinates of a cage.
 //!
-//! With a mesher, method kValue can use a multilevel start: it starts from weights and duals of a
-//! coarser mesh, which is solved in the same way. options.coarse_to_fine and coarse_levels control
-//! this. Distances may also come from the coarser mesh (SolverOptions::distances). The result is
-//! the same up to the tolerance. A coarse mesh is skipped if the mesher throws or returns a mesh
-//! that is not much smaller. The report describes the given mesh and lists the coarse meshes. Solve
-//! time includes time for coarse meshes and their meshing, and the observer is called on all
-//! meshes.
+//! With a mesher, method kWeights can use a multilevel start: it starts from weights and duals of a
+//! coarser mesh, which is solved in the same way. options.coarse_to_fine controls this. Distances
+//! may also come from the coarser mesh (SolverOptions::distances). The result is the same up to the
+//! tolerance. A coarse mesh is skipped if the mesher throws or returns a mesh that is not much
+//! smaller. The report describes the given mesh and lists the coarse meshes. Solve time includes
+//! time for coarse meshes and their meshing, and the observer is called on all meshes.
 //!
 //! If the cage has several parts, each is solved independently, and the result is bit-identical to
 //! solving that part alone. Weights are exactly 0 for control points of other parts. Penalties
@@ -60,7 +59,7 @@ Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
 
 //! Solves a problem from make_problem(). Several solves with different options may share it.
 //! Parameters and errors are as above.
-//! \param problem  made with options.phi and options.smoothness
+//! \param problem  made with options.phi, and with options.smoothness if that is set
 template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {},
                const MesherArgument<Dim>& mesher = {}, const Observer& observer = {});
@@ -69,14 +68,6 @@ Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {}
 //! the weights are small enough. It then takes much less memory.
 bool tries_active_set(int dim, Index control_points, Index vertices,
                       const SolverOptions& options = {});
-
-//! Limits the cost of one solve, for example to get one result per frame while a user drags a
-//! control point. A solve makes at least one iteration.
-struct Budget {
-  int iterations = 0;  //!< maximum number, >= 1; 0 = as in the options
-  double seconds = 0;  //!< no iteration starts after this time, setup included; 0 = no limit.
-                       //!< Results then depend on machine speed.
-};
 
 //! Keeps a problem and the state of its iteration, so each solve resumes from the last one. Use it
 //! to change the tolerance, to run a few iterations at a time, or to change the rest cage.
@@ -111,7 +102,7 @@ class Solver {
   //! over
   const Solution& solve(const Budget& budget = {}, const Observer& observer = {});
 
-  //! Moves the control points and the mesh, and solves. kValue starts from the duals of the
+  //! Moves the control points and the mesh, and solves. kWeights starts from the duals of the
   //! previous rest cage, other methods start over. If the current rest cage has no solution, it is
   //! solved first. An exception leaves the object unchanged.
   //! \param control_points  Dim x n, in the units of the cage
@@ -121,15 +112,16 @@ class Solver {
   const Solution& move(const PointList<Dim>& control_points, const Budget& budget = {},
                        const Observer& observer = {});
 
-  //! Makes the mesh follow by the current coordinates of the current rest cage. Use it for large
+  //! Makes the mesh follow by the current coordinates of the current rest cage, which is solved
+  //! first if it has no solution. Use it for large
   //! edits that would otherwise invert cells. Moving the cage back then no longer restores the mesh
   //! exactly.
   void anchor();
 
   //! Changes the options of the following solves. The next solve resumes from the last state if
-  //! only tolerance, gap, max_iterations, certify, or threads differ; otherwise it starts over.
-  //! \param options  with the same phi and distances
-  //! \throws OptionError; then options are unchanged
+  //! only tolerance, gap, max_iterations, certify, or threads differ and distances are accurate
+  //! enough. Otherwise the problem is set up again, as by a new Solver.
+  //! \throws OptionError, SolverError; then options are unchanged
   void set_options(const SolverOptions& options);
 
   //! Makes the next solve start over.

@@ -35,16 +35,4 @@ using CellList = Eigen::Matrix<Index, Dim + 1, Eigen::Dynamic>;
 //! With the control points C as columns, reproduction reads C W = X.
 using WeightMatrix = Eigen::MatrixXd;
 
-//! Solver of the linear systems in each iteration (Method::kValue, kLbc2014), or in start and
-//! recovery (Method::kGradient).
-enum class LinearSolver {
-  kAuto,       //!< the faster one: kMultigrid for kValue and kGradient on large meshes, otherwise
-               //!< kDirect
-  kDirect,     //!< one factorization, exact solves
-  kMultigrid,  //!< time and memory proportional to the mesh: one algebraic multigrid cycle per
-               //!< iteration; for kGradient, conjugate gradients preconditioned by such cycles
-  kNone  //!< no global system; kGradient and kPaper only. The start is the least-norm solution of
-         //!< the local constraints, and recovery is breadth-first, as in the paper
-};
-
 }  // namespace flbc

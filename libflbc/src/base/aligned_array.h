@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <utility>
 
 namespace flbc {
 
@@ -24,6 +25,14 @@ class AlignedArray {
     std::size_t bytes = room * sizeof(Scalar);
     std::align(kAlignment, size * sizeof(Scalar), aligned, bytes);
     data_ = {static_cast<Scalar*>(aligned), Free{block}};
+  }
+
+  AlignedArray(AlignedArray&& other) noexcept
+      : data_(std::move(other.data_)), size_(std::exchange(other.size_, 0)) {}
+  AlignedArray& operator=(AlignedArray&& other) noexcept {
+    data_ = std::move(other.data_);
+    size_ = std::exchange(other.size_, 0);
+    return *this;
   }
 
   Scalar* data() { return data_.get(); }

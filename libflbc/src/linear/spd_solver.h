@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "flbc/types.h"
+#include "linear/linear_solver.h"
 #include "linear/multigrid.h"
 #include "linear/panel_cholesky.h"
 

@@ -11,6 +11,7 @@
 #include "flbc/boundary_values.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/types.h"
+#include "linear/linear_solver.h"
 #include "linear/multigrid_cg.h"
 #include "linear/panel_cholesky.h"
 

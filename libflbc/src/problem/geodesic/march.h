@@ -113,14 +113,6 @@ class March {
 
   //! Runs to all vertices. \return distances of all vertices, valid until the next run
   const std::vector<Arrival>& run(Index source) {
-    return run(source, [](Index, float) { return true; });
-  }
-
-  //! Runs until the callback stops it.
-  //! \param goes_on  called with each passed vertex and its distance; returns false to end the
-  //! march
-  template <class GoesOn>
-  const std::vector<Arrival>& run(Index source, GoesOn&& goes_on) {
     arrivals_.assign(mesh_.num_vertices(), Arrival{});
     passed_.assign(mesh_.cells.size(), 0);
     queue_.restart();
@@ -136,7 +128,6 @@ class March {
       pass_on_along_edges(v);
       if constexpr (Dim == 3) pass_on_round_bends(v);
       pass_on_through_cells(v);
-      if (!goes_on(v, arrivals_[v].distance)) break;
     }
     return arrivals_;
   }

@@ -51,7 +51,7 @@ std::optional<Enum> value_named(const std::string& name) {
   template std::vector<std::string> names_of<Enum>(); \
   template std::optional<Enum> value_named(const std::string&);
 
-FLBC_NAMES(Method, {Method::kAuto, "auto"}, {Method::kValue, "value"},
+FLBC_NAMES(Method, {Method::kWeights, "weights"}, {Method::kAuto, "auto"},
            {Method::kGradient, "gradient"}, {Method::kPaper, "paper"},
            {Method::kLbc2014, "lbc2014"})
 FLBC_NAMES(Coordinates, {Coordinates::kHarmonic, "harmonic"},
@@ -64,13 +64,11 @@ FLBC_NAMES(DistanceScheme, {DistanceScheme::kSquare, "square"}, {DistanceScheme:
            {DistanceScheme::kSquareRoot, "sqrt"}, {DistanceScheme::kConstant, "constant"})
 FLBC_NAMES(Distances, {Distances::kAuto, "auto"}, {Distances::kExact, "exact"},
            {Distances::kInterpolated, "interpolated"})
-FLBC_NAMES(Precision, {Precision::kAuto, "auto"}, {Precision::kSingle, "single"},
+FLBC_NAMES(Precision, {Precision::kSingle, "single"}, {Precision::kAuto, "auto"},
            {Precision::kDouble, "double"})
 FLBC_NAMES(ActiveSet, {ActiveSet::kAuto, "auto"}, {ActiveSet::kOn, "on"}, {ActiveSet::kOff, "off"})
 FLBC_NAMES(CoarseToFine, {CoarseToFine::kAuto, "auto"}, {CoarseToFine::kOn, "on"},
            {CoarseToFine::kOff, "off"})
-FLBC_NAMES(LinearSolver, {LinearSolver::kAuto, "auto"}, {LinearSolver::kDirect, "direct"},
-           {LinearSolver::kMultigrid, "multigrid"}, {LinearSolver::kNone, "none"})
 FLBC_NAMES(SolveStatus, {SolveStatus::kConverged, "converged"},
            {SolveStatus::kIterationLimit, "iteration limit"}, {SolveStatus::kStopped, "stopped"})
 FLBC_NAMES(Criterion, {Criterion::kNone, "none"}, {Criterion::kTolerance, "tolerance"},

@@ -35,16 +35,21 @@
 namespace flbc {
 namespace {
 
-void require_valid(const SolverOptions& options, bool has_mesher) {
+void require_valid(const SolverOptions& options, Index control_points, bool has_mesher) {
   validate(options);
+  if (options.active_set == ActiveSet::kOn && control_points > plan::kMostActiveControlPoints) {
+    throw OptionError("active_set on is for at most " +
+                      std::to_string(plan::kMostActiveControlPoints) + " control points, not " +
+                      std::to_string(control_points) + "; choose active_set auto");
+  }
   if (options.coarse_to_fine == CoarseToFine::kOn && !has_mesher) {
     throw OptionError("coarse_to_fine cannot be on without a mesher for the coarser meshes");
   }
 }
 
 // The same before the problem is set up.
-void require_valid_setup(const SolverOptions& options, bool has_mesher) {
-  require_valid(options, has_mesher);
+void require_valid_setup(const SolverOptions& options, Index control_points, bool has_mesher) {
+  require_valid(options, control_points, has_mesher);
   if (options.distances == Distances::kInterpolated && !has_mesher) {
     throw OptionError("distances cannot be interpolated without a mesher for a coarser mesh");
   }
@@ -98,11 +103,12 @@ Certificate certify(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run,
   return certificate;
 }
 
-// Whether the end of a run says nothing about the objective: a tolerance only estimates errors, and
-// without smoothness a small change may be far from the optimum.
-bool is_only_estimated(const plan::Settings& settings, const SolveReport& report) {
-  return report.criterion == Criterion::kTolerance && *settings.gap == 0 &&
-         *settings.smoothness == 0 && settings.non_negative != NonNegative::kOff;
+// Whether to certify the solution. Without smoothness a small change may be far from the optimum,
+// so the gap tells more than the estimate by which the run ended.
+bool certifies(const plan::Settings& settings, const SolveReport& report) {
+  if (settings.certify || report.criterion == Criterion::kGap) return true;
+  return report.criterion == Criterion::kTolerance && *settings.smoothness == 0 &&
+         settings.non_negative != NonNegative::kOff;
 }
 
 //! Makes a solution from the weights of a run: projection, certificate, measures.
@@ -111,7 +117,7 @@ Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weigh
                 const plan::Settings& settings, const Reporter& reporter, SolveReport report) {
   Stopwatch watch;
   const bool is_splitting =
-      settings.method == Method::kValue || settings.method == Method::kLbc2014;
+      settings.method == Method::kWeights || settings.method == Method::kLbc2014;
   // Weights of the splitting have the precision of its iteration.
   if (is_splitting && settings.non_negative == NonNegative::kOff) {
     weights.is_sparse() ? project_interior(problem, weights.sparse)
@@ -126,8 +132,7 @@ Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weigh
   }
   weights = {};
   report.seconds.recover += watch.lap();
-  if (settings.certify || report.criterion == Criterion::kGap ||
-      is_only_estimated(settings, report)) {
+  if (run.can_certify() && certifies(settings, report)) {
     const StageScope scope(reporter.stage(Stage::kCertificate));
     const auto proof = settings.certify ? std::make_shared<Proof>() : nullptr;
     report.certificate = certify(problem, run, solution.weights.dense(), proof.get());
@@ -145,10 +150,11 @@ Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weigh
 template <int Dim>
 SolvePart<Dim> part_solver(const DomainMesh<Dim>& mesh, const SolverOptions& given,
                            const CoarseMesher<Dim>& mesher, const MeshTopology<Dim>* topology) {
-  require_valid_setup(given, bool(mesher));
+  require_valid_setup(given, 0, bool(mesher));
   return [&mesh, &mesher, topology, common = plan::settings_of(given)](
              const Cage<Dim>& part, const DomainMesh<Dim>& domain, const Reporter& reporter,
              bool stopped) {
+    require_valid(common, part.size(), bool(mesher));
     auto settings = common;
     if (stopped) settings.max_iterations = 1;
     const auto* facets = &domain == &mesh ? topology : nullptr;
@@ -156,8 +162,8 @@ SolvePart<Dim> part_solver(const DomainMesh<Dim>& mesh, const SolverOptions& giv
     auto ready = set_up<Dim>(part, domain, settings, mesher, reporter, nullptr, facets);
     MethodRun<Dim> run(ready.problem);
     SolveReport report;
-    auto weights =
-        solve_in_cascade(ready.problem, run, std::move(ready.coarse), settings, reporter, report);
+    auto weights = solve_in_cascade(ready.problem, run, std::move(ready.coarse), settings, {},
+                                    reporter, report);
     auto solution = finish(ready.problem, run, std::move(weights), settings, reporter, report);
     solution.report.seconds.setup = ready.seconds;
     solution.report.distances = ready.distances;
@@ -198,14 +204,14 @@ void require_points_for(const Cage<Dim>& cage, const PointList<Dim>& control_poi
                    " control points were given for a cage that has " + std::to_string(cage.size()));
 }
 
-// Options that stay the same during a run. All others take effect when it resumes, except phi and
-// distances, which cannot change. Names all options, so that a new one cannot be forgotten.
+// Options that stay the same during a run; all others take effect when it resumes. Names all
+// options, so that a new one cannot be forgotten.
 auto fixed_in_a_run(const SolverOptions& options) {
-  const auto& [method, phi, smoothness, distances, precision, non_negative, linear_solver,
-               coarse_to_fine, coarse_levels, tolerance, gap, active_set, max_iterations, penalty,
-               relaxation, certify, threads] = resolve(options);
-  return std::tuple(method, smoothness, precision, non_negative, linear_solver, coarse_to_fine,
-                    coarse_levels.coarsest, active_set, penalty, relaxation);
+  const auto& [method, phi, smoothness, distances, precision, non_negative, coarse_to_fine,
+               tolerance, gap, active_set, max_iterations, penalty, certify, threads] =
+      resolve(options);
+  return std::tuple(method, phi, smoothness, distances, precision, non_negative, coarse_to_fine,
+                    active_set, penalty);
 }
 
 }  // namespace
@@ -217,15 +223,17 @@ bool tries_active_set(int dim, Index control_points, Index vertices, const Solve
 template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& given,
                const MesherArgument<Dim>& mesher, const Observer& observer) {
-  require_valid(given, bool(mesher));
-  const auto settings = plan::settings_of(given);
+  auto options = given;
+  if (!options.smoothness) options.smoothness = problem.smoothness;
+  require_valid(options, problem.num_control_points(), bool(mesher));
+  const auto settings = plan::settings_of(options);
   require_objective(problem, settings);
   const ThreadScope threads(num_threads(problem, settings));
   const Reporter reporter(observer);
   MethodRun<Dim> run(problem);
   SolveReport report;
   auto weights = solve_in_cascade(problem, run, coarse_starts<Dim>(problem, mesher, settings),
-                                  settings, reporter, report);
+                                  settings, {}, reporter, report);
   return finish(problem, run, std::move(weights), settings, reporter, std::move(report));
 }
 
@@ -256,11 +264,29 @@ struct Solver<Dim>::State {
     std::optional<MethodRun<Dim>> run{};
   };
 
-  static Budget left(Budget budget, double spent) {
-    // At least one iteration is made.
-    constexpr double kNone = 1e-9;
-    if (budget.seconds > 0) budget.seconds = std::max(budget.seconds - spent, kNone);
-    return budget;
+  // Sets up the problem of a rest cage, as a new Solver does.
+  void begin(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& given) {
+    require_valid_setup(given, cage.size(), bool(mesher));
+    const ThreadScope threads(threads_for(given.threads, cage.size(), mesh.num_vertices()));
+    std::optional<CoarseProblem<Dim>> coarsest;
+    const Observer nobody;
+    auto ready = set_up(cage, mesh, plan::settings_of(given), mesher, Reporter(nobody), &coarsest);
+    moving_distances.reset();
+    if (coarsest) moving_distances.emplace(std::move(*coarsest), ready.problem);
+    if (coarsest && anchor_weights.num_points() > 0) moving_distances->anchor(mesh, anchor_weights);
+    shape =
+        std::make_unique<Shape>(Shape{std::move(cage), std::move(mesh), std::move(ready.problem),
+                                      ready.distances, ready.seconds});
+    restart();
+    coarse = std::move(ready.coarse);
+    options = given;
+  }
+
+  // Whether phi of the present problem is not what a new Solver would use, or is too inaccurate.
+  bool needs_other_phi(const SolverOptions& given) const {
+    const auto& [source, vertices, error] = shape->distances;
+    return source == Distances::kInterpolated && given.distances == Distances::kAuto &&
+           !plan::accepts_phi_error(error, *resolve(given).tolerance);
   }
 
   void restart() {
@@ -290,24 +316,21 @@ struct Solver<Dim>::State {
   }
 
   // Solves from the start, or resumes the run. The solution is unchanged if it throws.
-  void solve_on(Shape& on, const Transfer<Dim>* start, const Budget& budget,
+  // \param spent  seconds of the budget
+  void solve_on(Shape& on, const Transfer<Dim>* start, const Budget& budget, double spent,
                 const Observer& observer) {
-    auto settings = plan::settings_of(options);
-    if (budget.iterations > 0) {
-      settings.max_iterations = std::min(settings.max_iterations, budget.iterations);
-    }
-    const Reporter unlimited(observer);
-    const Reporter reporter = budget.seconds > 0 ? unlimited.with_limit(budget.seconds) : unlimited;
+    const auto settings = plan::settings_of(options);
+    const Reporter reporter(observer);
     const ThreadScope threads(num_threads(on.problem, settings));
     SolveReport report;
     Weights weights;
     if (start != nullptr || on.run->has_begun() || &on != shape.get()) {
-      weights = on.run->solve(settings, reporter, report, {start});
+      weights = solve_within<Dim>(budget, spent, *on.run, settings, reporter, report, {start});
     } else {
       auto levels = std::exchange(coarse, {});
       if (levels.empty()) levels = coarse_starts(on.problem, mesher, settings);
-      weights =
-          solve_in_cascade(on.problem, *on.run, std::move(levels), settings, reporter, report);
+      weights = solve_in_cascade(on.problem, *on.run, std::move(levels), settings, budget, reporter,
+                                 report);
     }
     solution =
         finish(on.problem, *on.run, std::move(weights), settings, reporter, std::move(report));
@@ -329,18 +352,8 @@ template <int Dim>
 Solver<Dim>::Solver(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
                     const MesherArgument<Dim>& mesher)
     : state_(std::make_unique<State>(State{options, mesher})) {
-  require_valid_setup(options, bool(mesher));
-  const ThreadScope threads(threads_for(options.threads, cage.size(), mesh.num_vertices()));
   normalize_and_validate(mesh);
-  std::optional<CoarseProblem<Dim>> coarsest;
-  const Observer nobody;
-  auto ready =
-      set_up(cage, mesh, plan::settings_of(options), state_->mesher, Reporter(nobody), &coarsest);
-  if (coarsest) state_->moving_distances.emplace(std::move(*coarsest), ready.problem);
-  state_->shape = std::make_unique<typename State::Shape>(typename State::Shape{
-      std::move(cage), std::move(mesh), std::move(ready.problem), ready.distances, ready.seconds});
-  state_->restart();
-  state_->coarse = std::move(ready.coarse);
+  state_->begin(std::move(cage), std::move(mesh), options);
 }
 
 template <int Dim>
@@ -354,7 +367,7 @@ template <int Dim>
 const Solution& Solver<Dim>::solve(const Budget& budget, const Observer& observer) {
   validate(budget);
   try {
-    state_->solve_on(*state_->shape, nullptr, budget, observer);
+    state_->solve_on(*state_->shape, nullptr, budget, 0, observer);
   } catch (...) {
     restart();
     throw;
@@ -375,13 +388,13 @@ const Solution& Solver<Dim>::move(const PointList<Dim>& control_points, const Bu
   const ThreadScope threads(num_threads(before.problem, settings));
   auto shape = state.moved(control_points, settings);
   shape->setup_seconds = watch.lap();
-  const auto rest = State::left(budget, shape->setup_seconds);
+  const double spent = shape->setup_seconds;
   if (plan::inherits(settings.method) && before.run->has_duals()) {
     const auto duals = before.run->duals();
     const auto transfer = Transfer<Dim>::between_shapes(before.problem, duals, shape->problem);
-    state.solve_on(*shape, &transfer, rest, observer);
+    state.solve_on(*shape, &transfer, budget, spent, observer);
   } else {
-    state.solve_on(*shape, nullptr, rest, observer);
+    state.solve_on(*shape, nullptr, budget, spent, observer);
   }
   state.shape = std::move(shape);
   state.coarse.clear();
@@ -390,6 +403,7 @@ const Solution& Solver<Dim>::move(const PointList<Dim>& control_points, const Bu
 
 template <int Dim>
 void Solver<Dim>::anchor() {
+  if (state_->solution.weights.num_points() == 0) solve();
   state_->anchor_mesh = mesh();
   state_->anchor_weights = solution().weights;
   if (state_->moving_distances) state_->moving_distances->anchor(mesh(), state_->anchor_weights);
@@ -397,16 +411,15 @@ void Solver<Dim>::anchor() {
 
 template <int Dim>
 void Solver<Dim>::set_options(const SolverOptions& options) {
-  auto& present = state_->options;
-  require_valid(options, bool(state_->mesher));
-  if (options.phi != present.phi || options.distances != present.distances) {
-    throw OptionError(
-        "phi and distances cannot be changed once the problem is set up; make another Solver");
+  auto& state = *state_;
+  require_valid(options, state.shape->cage.size(), bool(state.mesher));
+  const auto& [cage, mesh, problem, distances, seconds, run] = *state.shape;
+  if (run->has_begun() && fixed_in_a_run(options) == fixed_in_a_run(state.options) &&
+      !state.needs_other_phi(options)) {
+    state.options = options;
+  } else {
+    state.begin(cage, mesh, options);
   }
-  if (fixed_in_a_run(options) != fixed_in_a_run(present)) restart();
-  state_->coarse.clear();  // made for the previous options
-  present = options;
-  state_->shape->problem.smoothness = options.smoothness.value_or(0);
 }
 
 template <int Dim>

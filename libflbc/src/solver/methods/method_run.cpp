@@ -17,26 +17,10 @@
 namespace flbc {
 namespace {
 
-template <int Dim>
-Origin origin_of(const Transfer<Dim>* from) {
-  if (from == nullptr) return Origin::kCold;
-  return from->is_between_shapes() ? Origin::kNearby : Origin::kCoarserMesh;
-}
-
 // A penalty in published units of length relative to one in problem units.
 template <int Dim>
 double published_unit(const LbcProblem<Dim>& problem, Method method) {
   return plan::penalty_unit(method, Dim, plan::published_scale(problem.mesh));
-}
-
-// For kPaper, r_p has the unit of gradients, 1 / length, and r_d is mu times that. For kLbc2014
-// they are gradients times a measure, and rho times that.
-template <int Dim>
-std::unique_ptr<StopRule<Dim>> published_criterion(const LbcProblem<Dim>& problem, Method method) {
-  using Rule = PublishedCriterion<Dim>;
-  const double length = plan::published_scale(problem.mesh);
-  if (method == Method::kPaper) return std::make_unique<Rule>(1 / length, std::pow(length, Dim));
-  return std::make_unique<Rule>(std::pow(length, Dim - 1), 1);
 }
 
 // The sum of squared measures divided by the sum of measures.
@@ -65,28 +49,25 @@ splitting::Parameters common_parameters(const LbcProblem<Dim>& problem,
                                         const plan::Settings& settings, double penalty) {
   splitting::Parameters parameters;
   parameters.penalty = settings.penalty.value_or(penalty);
-  parameters.relaxation = *settings.relaxation;
-  parameters.linear_solver = plan::linear_solver(plan::sizes_of(problem), settings);
+  parameters.relaxation = settings.relaxation;
+  parameters.linear_solver = plan::linear_solver(plan::sizes_of(problem), settings.method);
   return parameters;
 }
 
-// Method::kValue. \param from  its start, or cold
+// Method::kWeights. \param part  factor of the automatic penalty
 template <int Dim>
-splitting::Parameters value_parameters(const LbcProblem<Dim>& problem,
-                                       const plan::Settings& settings, const Transfer<Dim>* from) {
-  const bool cold = from == nullptr;
+splitting::Parameters weights_parameters(const LbcProblem<Dim>& problem,
+                                         const plan::Settings& settings, double part = 1) {
   auto parameters = common_parameters(
-      problem, settings,
-      cold ? plan::with_smoothness(plan::kFirstPenalty, problem.smoothness) : from->penalty());
-  parameters.half = plan::half_precision(problem.mesh.num_cells(), settings);
-  parameters.balances = cold && !settings.penalty;
+      problem, settings, plan::kPenalty + plan::kPenaltyOfSmoothness * problem.smoothness);
+  if (!settings.penalty) parameters.part = part;
   return parameters;
 }
 
 // Method::kLbc2014: the augmented Lagrangian of (2), in which the weight of a cell is its squared
 // measure. With a given penalty, W = w has the same weight as all other constraints. Otherwise,
-// penalty and weight of W = w match those of kValue on average. In published units W = w has weight
-// 1; relative to squared cell measures this is length^-(2 Dim - 2) here.
+// penalty and weight of W = w match those of kWeights on average. In published units W = w has
+// weight 1; relative to squared cell measures this is length^-(2 Dim - 2) here.
 template <int Dim>
 std::unique_ptr<Iteration<Dim>> make_lbc2014(const LbcProblem<Dim>& problem,
                                              const plan::Settings& settings) {
@@ -123,31 +104,32 @@ std::unique_ptr<Iteration<Dim>> make_gradient(const LbcProblem<Dim>& problem,
                                               const plan::Settings& settings) {
   gradient::Parameters parameters;
   parameters.penalty = gradient_penalty(problem, settings);
-  parameters.relaxation = *settings.relaxation;
-  parameters.harmonic =
-      settings.method == Method::kGradient && settings.linear_solver != LinearSolver::kNone;
-  parameters.breadth_first =
-      settings.method == Method::kPaper || settings.linear_solver == LinearSolver::kNone;
-  parameters.linear_solver = plan::linear_solver(plan::sizes_of(problem), settings);
+  parameters.relaxation = settings.relaxation;
+  parameters.as_published = settings.method == Method::kPaper;
+  parameters.linear_solver = plan::linear_solver(plan::sizes_of(problem), settings.method);
   return make_in<gradient::GradientIteration>(settings.precision, problem, parameters);
 }
 
 }  // namespace
 
 template <int Dim>
-std::unique_ptr<StopRule<Dim>> MethodRun<Dim>::make_stop_rule(const plan::Settings& settings,
-                                                              const WarmStart<Dim>& start) const {
-  const bool in_double = settings.precision == Precision::kDouble;
+StopRule MethodRun<Dim>::make_stop_rule(const plan::Settings& settings) const {
+  const auto n = static_cast<double>(problem_->num_control_points());
+  const double length = plan::published_scale(problem_->mesh);
   switch (settings.method) {
-    case Method::kValue: {
-      const bool looks = !start.for_finer_mesh && problem_->smoothness == 0;
-      return std::make_unique<EstimatedError<Dim>>(*problem_, *iteration_, in_double,
-                                                   origin_of(start.from), looks);
-    }
+    case Method::kWeights:
+      return StopRule::estimate(
+          1 / (n * std::max(1.0, double(problem_->boundary.interior_vertices().size()))),
+          iteration_->interval());
     case Method::kGradient:
-      return std::make_unique<RecoveredError<Dim>>(*problem_, *iteration_, in_double);
+      return StopRule::estimate(plan::kSquaredWeightOfGradient / (n * problem_->mesh.num_cells()),
+                                iteration_->interval());
+    case Method::kPaper:
+      // r_p has the unit of gradients, 1 / length, and r_d is mu times that.
+      return StopRule::residuals(1 / length, std::pow(length, Dim));
     default:
-      return published_criterion(*problem_, settings.method);
+      // Gradients times a measure, and rho times that.
+      return StopRule::residuals(std::pow(length, Dim - 1), 1);
   }
 }
 
@@ -160,19 +142,15 @@ bool MethodRun<Dim>::begin_on_active_set(const plan::Settings& settings,
   const bool cold = start.from == nullptr;
   active_set::ColdStart<Dim> harmonic;
   if (cold) {
-    harmonic = start.cold != nullptr
-                   ? *start.cold
-                   : active_set::cold_start(*problem_, plan::linear_solver(sizes, settings));
+    harmonic = active_set::cold_start(*problem_, plan::linear_solver(sizes, settings.method));
   }
   auto active = cold ? std::move(harmonic.active)
                      : active_set::active_from(*problem_, *start.from,
                                                active_set::threshold_for(*settings.tolerance));
   if (!plan::active_set_pays(active_set::density(*problem_, active), settings)) return false;
   const auto from = cold ? harmonic.start : start.from->start();
-  auto parameters = value_parameters(*problem_, settings, start.from);
-  if (!settings.penalty) {
-    parameters.part = cold ? plan::kActivePenaltyCold : plan::kActivePenaltyWarm;
-  }
+  const auto parameters = weights_parameters(
+      *problem_, settings, cold ? plan::kActivePenaltyCold : plan::kActivePenaltyWarm);
   iteration_ = make_in<active_set::ActiveSplitting>(
       settings.precision, *problem_, metric_of(*problem_, settings), parameters, std::move(active));
   iteration_->start(from);
@@ -183,12 +161,10 @@ template <int Dim>
 void MethodRun<Dim>::begin(const plan::Settings& settings, const WarmStart<Dim>& start) {
   is_active_ = begin_on_active_set(settings, start);
   if (is_active_) return;
-  if (settings.method == Method::kValue) {
-    auto parameters = value_parameters(*problem_, settings, start.from);
-    // A finer mesh needs the penalty of the first iterations.
-    parameters.looks = !settings.penalty && !start.for_finer_mesh;
+  if (settings.method == Method::kWeights) {
     iteration_ = make_in<compact::CompactSplitting>(settings.precision, *problem_,
-                                                    metric_of(*problem_, settings), parameters);
+                                                    metric_of(*problem_, settings),
+                                                    weights_parameters(*problem_, settings));
     iteration_->start(start.from != nullptr ? start.from->start() : Start<Dim>{});
     return;
   }
@@ -198,30 +174,21 @@ void MethodRun<Dim>::begin(const plan::Settings& settings, const WarmStart<Dim>&
 }
 
 template <int Dim>
-Weights MethodRun<Dim>::solve(const plan::Settings& given, const Reporter& reporter,
+Weights MethodRun<Dim>::solve(const plan::Settings& settings, const Reporter& reporter,
                               SolveReport& report, WarmStart<Dim> start) {
   Stopwatch watch;
   report = {};
-  report.method = given.method;
+  report.method = settings.method;
   report.control_points = problem_->num_control_points();
   report.vertices = problem_->mesh.num_vertices();
   report.cells = problem_->mesh.num_cells();
-  auto settings = given;
   if (is_active_ && plan::proves(settings)) iteration_ = nullptr;
   if (!iteration_) {
     begin(settings, start);
-    state_ = {make_stop_rule(settings, start)};
-    // Meanwhile, small changes do not imply a small error.
-    if (is_active_ && start.from == nullptr) {
-      state_.earliest = plan::kUntilDualsAreThere;
-      if (start.for_finer_mesh) {
-        settings.max_iterations = std::min(settings.max_iterations, plan::kUntilDualsAreThere);
-      }
-    }
+    state_ = RunState{make_stop_rule(settings)};
   }
   if (start.started) start.started();
-  if (is_active_) settings.gap = 0;
-  run(*iteration_, state_, {*problem_, settings, reporter}, report);
+  run(*iteration_, *state_, {*problem_, settings, reporter}, report);
   iteration_->describe(report);
   report.seconds.solve = watch.lap();
   auto weights = iteration_->weights();

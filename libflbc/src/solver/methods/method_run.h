@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "solver/methods/active_set/active_lists.h"
 #include "solver/run/run.h"
@@ -17,10 +18,7 @@ template <int Dim>
 struct WarmStart {
   const Transfer<Dim>* from = nullptr;  //!< duals of another mesh or rest cage, for methods with
                                         //!< plan::inherits()
-  const active_set::ColdStart<Dim>* cold = nullptr;  //!< if already computed
-  std::function<void()> started{};                   //!< called when neither is needed anymore
-  bool for_finer_mesh = false;  //!< the result is only a start for a finer mesh, so a rough one
-                                //!< suffices
+  std::function<void()> started{};      //!< called when it is not needed anymore
 };
 
 //! Owns the iteration of a method and the state of its run. Keeps a reference to the problem.
@@ -41,6 +39,7 @@ class MethodRun {
   Certificate certify(const WeightMatrix& weights, Proof* proof) const {
     return iteration_->certify(weights, proof);
   }
+  bool can_certify() const { return iteration_->can_certify(); }
 
   //! Whether the next solve resumes an iteration.
   bool has_begun() const { return bool(iteration_); }
@@ -55,12 +54,11 @@ class MethodRun {
  private:
   void begin(const plan::Settings& settings, const WarmStart<Dim>& start);
   bool begin_on_active_set(const plan::Settings& settings, const WarmStart<Dim>& start);
-  std::unique_ptr<StopRule<Dim>> make_stop_rule(const plan::Settings& settings,
-                                                const WarmStart<Dim>& start) const;
+  StopRule make_stop_rule(const plan::Settings& settings) const;
 
   const LbcProblem<Dim>* problem_;
   std::unique_ptr<Iteration<Dim>> iteration_;
-  RunState<Dim> state_;
+  std::optional<RunState> state_;
   bool is_active_ = false;
 };
 

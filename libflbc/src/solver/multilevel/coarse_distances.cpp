@@ -12,6 +12,7 @@
 #include "flbc/interpolate.h"
 #include "mesh/cell_geometry.h"
 #include "problem/problem_geometry.h"
+#include "solver/plan/choices.h"
 #include "solver/plan/constants.h"
 #include "solver/start/transfer.h"
 
@@ -21,7 +22,7 @@ namespace {
 // A sample of control points, evenly spaced in the order of their largest distance to the domain.
 std::vector<Index> choose_control_points(const DistanceMatrix& distances) {
   const auto n = static_cast<Index>(distances.rows());
-  const Index count = std::min({n, 2 + n / plan::kCheckedOneIn, plan::kCheckedMost});
+  const Index count = std::min(n, plan::kCheckedControlPoints);
   const Eigen::VectorXf farthest = distances.rowwise().maxCoeff();
   std::vector<Index> order(n);
   std::iota(order.begin(), order.end(), 0);
@@ -33,11 +34,10 @@ std::vector<Index> choose_control_points(const DistanceMatrix& distances) {
   return chosen;
 }
 
-// Inserts exact distances for some control points and returns the error of phi there, within the
-// reaches.
+// Inserts exact distances for some control points and returns the error of phi there.
 template <int Dim>
 double check_on_sample(const LbcProblem<Dim>& problem, DistanceScheme scheme,
-                       const Eigen::VectorXf& reach, DistanceMatrix& distances) {
+                       DistanceMatrix& distances) {
   const auto chosen = choose_control_points(distances);
   const auto count = static_cast<Index>(chosen.size());
   std::vector<Index> sources;
@@ -49,8 +49,6 @@ double check_on_sample(const LbcProblem<Dim>& problem, DistanceScheme scheme,
   both.bottomRows(count) = geodesic_distances(problem.mesh, problem.topology, sources);
   for (Index k = 0; k < count; ++k) {
     distances.row(chosen[k]) = both.row(count + k);
-    if (reach.size() == 0) continue;
-    for (const Index row : {k, count + k}) both.row(row) = both.row(row).cwiseMin(reach[chosen[k]]);
   }
   const WeightFunctions phi(scheme, std::move(both), problem.mesh, 2 * count);
   const Eigen::Vector2d zero = Eigen::Vector2d::Zero();
@@ -82,10 +80,9 @@ template <int Dim>
 DistanceMatrix choose_distances(const CoarseProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
                                 const plan::Settings& settings, DistanceReport& report) {
   auto distances = distances_from(coarse.problem, problem, coarse.finest_vertices);
-  const double error = check_on_sample(problem, settings.phi, coarse.reach, distances);
-  const double change = plan::kWeightsOfPhi * error * error;
+  const double error = check_on_sample(problem, settings.phi, distances);
   if (settings.distances == Distances::kAuto &&
-      change > plan::kPartOfTolerance * *settings.tolerance) {
+      !plan::accepts_phi_error(error, *settings.tolerance)) {
     report = {};
     return distances_for(settings.phi, problem);
   }
@@ -98,7 +95,6 @@ MovingDistances<Dim>::MovingDistances(CoarseProblem<Dim> coarse, const LbcProble
     : coarse_(std::move(coarse)),
       first_(coarse_.problem.mesh),
       places_(places_in(fine, coarse_.problem.mesh.points)) {
-  coarse_.reach = {};
 }
 
 template <int Dim>

@@ -9,7 +9,6 @@
 #include "base/instantiate.h"
 #include "base/stopwatch.h"
 #include "flbc/domain_mesh.h"
-#include "problem/geodesic/bounded_distances.h"
 #include "problem/geodesic/interpolated_distances.h"
 #include "problem/problem_geometry.h"
 #include "solver/plan/choices.h"
@@ -38,28 +37,6 @@ std::optional<DomainMesh<Dim>> make_mesh(const CoarseMesher<Dim>& mesher, const 
   }
 }
 
-// Distances, limited to the needs of the active set if there will be one.
-template <int Dim>
-std::optional<DistanceMatrix> measure_on_active_set(CoarseProblem<Dim>& level,
-                                                    const plan::Settings& settings) {
-  const auto& geometry = level.problem;
-  const auto sizes = plan::sizes_of(geometry);
-  if (settings.phi == DistanceScheme::kConstant || !plan::active_set(sizes, settings)) return {};
-  auto cold = active_set::cold_start(geometry, plan::linear_solver(sizes, settings));
-  const double density = active_set::density(geometry, cold.active);
-  if (!plan::active_set_pays(density, settings)) return {};
-  const auto needed = items_by_vertex<Index>(sizes.control_points, [&](const auto& visit) {
-    for (Index v = 0; v < sizes.vertices; ++v) {
-      for (const auto i : cold.active.of(v)) visit(i, v);
-    }
-  });
-  auto bounded = bounded_distances(geometry.mesh, geometry.topology,
-                                   geometry.boundary.control_vertices, needed);
-  level.cold = std::move(cold);
-  level.reach = std::move(bounded.reach);
-  return std::move(bounded.distances);
-}
-
 // Inherited distances are checked when the finest mesh uses them.
 // \param below  next coarser problem; null: none
 template <int Dim>
@@ -67,11 +44,8 @@ void measure_phi(const CoarseProblem<Dim>* below, const plan::Settings& settings
                  CoarseProblem<Dim>& level) {
   std::optional<DistanceMatrix> distances;
   if (use.distances && below != nullptr) {
-    level.reach = below->reach;
     distances = distances_from(below->problem, level.problem,
                                places_in(below->problem, level.problem.mesh.points));
-  } else if (use.distances && use.start) {
-    distances = measure_on_active_set(level, settings);
   }
   if (!distances) distances = distances_for(settings.phi, level.problem);
   set_phi(level.problem, settings.phi, std::move(*distances));

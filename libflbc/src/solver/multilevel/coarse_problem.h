@@ -3,14 +3,12 @@
 //! Problems on coarser meshes of the same cage.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "flbc/cell_locator.h"
 #include "flbc/coarse_to_fine.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/report.h"
-#include "solver/methods/active_set/active_lists.h"
 #include "solver/plan/settings.h"
 
 namespace flbc {
@@ -22,9 +20,6 @@ struct CoarseProblem {
   std::vector<Location<Dim>> finest_vertices{};  //!< locations of the vertices of the finest mesh,
                                                  //!< if known
   LevelReport report{};                          //!< sizes, and times of meshing and setup
-  //! The reach of known distances per control point, see BoundedDistances; empty: unlimited.
-  Eigen::VectorXf reach{};
-  std::optional<active_set::ColdStart<Dim>> cold{};  //!< the start that limited the distances
 };
 
 //! The purposes of coarse problems.
@@ -41,8 +36,7 @@ DistanceMatrix distances_from(const LbcProblem<Dim>& coarse, const LbcProblem<Di
 
 //! Meshes the cage and sets up the coarse problems. Skips meshes on which the mesher fails (the
 //! cage may need more vertices), or that are not clearly coarser than the next. If finer meshes
-//! interpolate distances, only the coarsest mesh computes them; with an active set, only as far as
-//! needed.
+//! interpolate distances, only the coarsest mesh computes them.
 //! \param problem  the finest problem; phi is not needed
 //! \param mesher  not empty
 //! \param sizes  numbers of vertices, ascending

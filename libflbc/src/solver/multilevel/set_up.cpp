@@ -7,17 +7,15 @@
 #include <memory>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 #include "base/instantiate.h"
 #include "base/stage_progress.h"
 #include "base/stopwatch.h"
-#include "flbc/bounding_box.h"
 #include "flbc/domain_mesh.h"
 #include "problem/problem_geometry.h"
 #include "problem/unit_scale.h"
 #include "solver/multilevel/coarse_distances.h"
 #include "solver/plan/choices.h"
+#include "solver/plan/constants.h"
 #include "solver/start/transfer.h"
 
 namespace flbc {
@@ -29,46 +27,12 @@ struct CoarsePlan {
   CoarseUse use;
 };
 
-// Whether all control points are on one side of every facet.
-template <int Dim>
-bool is_convex(const Cage<Dim>& cage) {
-  const double size = bounding_box_diagonal(cage.points);
-  for (Index f = 0; f < cage.facets.cols(); ++f) {
-    const Eigen::Matrix<double, Dim, 1> corner = cage.points.col(cage.facets(0, f));
-    const Eigen::Matrix<double, Dim, 1> edge = cage.points.col(cage.facets(1, f)) - corner;
-    Eigen::Matrix<double, Dim, 1> normal;
-    if constexpr (Dim == 2) {
-      normal << edge[1], -edge[0];
-    } else {
-      normal = edge.cross(cage.points.col(cage.facets(2, f)) - corner);
-    }
-    const Eigen::RowVectorXd heights = normal.transpose() * (cage.points.colwise() - corner);
-    const double rounding = 1e-12 * size * normal.norm();
-    if (heights.minCoeff() < -rounding && heights.maxCoeff() > rounding) return false;
-  }
-  return true;
-}
-
-// Weights of round cages are nearly undetermined, and small errors of distances move them far. The
-// check of interpolated distances does not predict this.
-template <int Dim>
-bool needs_exact_distances(const Cage<Dim>& cage, const plan::Settings& settings) {
-  return settings.distances == Distances::kAuto && *settings.tolerance < plan::kConvexTolerance &&
-         is_convex(cage);
-}
-
-template <int Dim>
-CoarsePlan plan_coarse(const Cage<Dim>& cage, Index vertices, const plan::Settings& settings,
-                       bool has_mesher) {
-  const plan::Sizes sizes{Dim, cage.size(), vertices};
+CoarsePlan plan_coarse(const plan::Sizes& sizes, const plan::Settings& settings, bool has_mesher) {
   if (!has_mesher) return {{}, {false, false}};
   auto coarse = plan::coarse_sizes(sizes, settings);
   const bool starts = !coarse.empty();
-  const bool interpolates = plan::interpolates_distances(sizes, settings, starts) &&
-                            !needs_exact_distances(cage, settings);
-  if (interpolates && !starts) {
-    coarse = {plan::distances_mesh_size(sizes.vertices, *settings.tolerance)};
-  }
+  const bool interpolates = plan::interpolates_distances(sizes, settings, starts);
+  if (interpolates && !starts) coarse = {sizes.vertices / plan::kCoarseFactor};
   return {std::move(coarse), {starts, interpolates}};
 }
 
@@ -108,7 +72,8 @@ SetUp<Dim> set_up(Cage<Dim> cage, DomainMesh<Dim> mesh, const plan::Settings& se
                   std::optional<CoarseProblem<Dim>>* coarsest, const MeshTopology<Dim>* topology) {
   Stopwatch watch;
   require_connected(mesh);
-  const auto [sizes, use] = plan_coarse(cage, mesh.num_vertices(), settings, bool(mesher));
+  const auto [sizes, use] =
+      plan_coarse({Dim, cage.size(), mesh.num_vertices()}, settings, bool(mesher));
   const auto begun_mesher = mesh_ahead(cage, sizes, mesher);
   SetUp<Dim> result{topology == nullptr
                         ? make_geometry(std::move(cage), std::move(mesh))

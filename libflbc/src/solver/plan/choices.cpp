@@ -11,51 +11,31 @@
 #include "solver/plan/constants.h"
 
 namespace flbc::plan {
-namespace {
-
-// Indices of control points are stored in 16 bits.
-constexpr Index kMostActiveControlPoints = 65000;
-
-bool gains_by_coarse_start(const Sizes& sizes, const Settings& settings) {
-  const bool is_open =
-      settings.coarse_to_fine == CoarseToFine::kAuto && !settings.coarse_levels.coarsest;
-  return sizes.dim == 2 || !is_open || *settings.tolerance >= kCoarseStartTolerance ||
-         active_set(sizes, settings);
-}
-
-}  // namespace
 
 bool smooths(Method method) {
-  return method == Method::kAuto || method == Method::kValue || method == Method::kGradient;
+  return method == Method::kWeights || method == Method::kGradient;
 }
 
 bool inherits(Method method) {
-  return method == Method::kValue;
+  return method == Method::kWeights;
 }
 
-LinearSolver linear_solver(const Sizes& sizes, const Settings& settings) {
-  if (settings.linear_solver != LinearSolver::kAuto) return settings.linear_solver;
-  if (settings.method == Method::kLbc2014) return LinearSolver::kDirect;  // as published
+LinearSolver linear_solver(const Sizes& sizes, Method method) {
+  if (method == Method::kLbc2014) return LinearSolver::kDirect;  // as published
   return sizes.vertices > most_factored(sizes.dim) ? LinearSolver::kMultigrid
                                                    : LinearSolver::kDirect;
 }
 
-bool half_precision(Index cells, const Settings& settings) {
-  return settings.method == Method::kValue && settings.precision == Precision::kAuto &&
-         *settings.tolerance >= kHalfIsEnough && cells >= kHalfCells &&
-         *settings.smoothness <= kHalfSmoothness;
-}
-
 bool active_set(const Sizes& sizes, const Settings& settings) {
   const auto [dim, n, vertices] = sizes;
-  if (settings.method != Method::kValue || n > kMostActiveControlPoints) return false;
+  if (settings.method != Method::kWeights || n > kMostActiveControlPoints) return false;
   if (settings.active_set != ActiveSet::kAuto) return settings.active_set == ActiveSet::kOn;
   if (static_cast<double>(n) * vertices < kActivePairs) return false;
   return dim == 3 && n >= kActiveControlPoints && !proves(settings);
 }
 
 bool proves(const Settings& settings) {
-  return settings.certify || (*settings.gap > 0 && !settings.gap_settles);
+  return settings.certify || *settings.gap > 0;
 }
 
 bool active_set_pays(double density, const Settings& settings) {
@@ -63,26 +43,25 @@ bool active_set_pays(double density, const Settings& settings) {
 }
 
 double penalty_unit(Method method, int dim, double size) {
-  const int measures = method == Method::kLbc2014 ? 2 : method == Method::kValue ? 1 : 0;
+  const int measures = method == Method::kLbc2014 ? 2 : method == Method::kWeights ? 1 : 0;
   return std::pow(size, dim + 1 - measures * dim);
 }
 
 std::vector<Index> coarse_sizes(const Sizes& sizes, const Settings& settings) {
   if (settings.coarse_to_fine == CoarseToFine::kOff || !inherits(settings.method)) return {};
-  if (!gains_by_coarse_start(sizes, settings)) return {};
+  const bool always = settings.coarse_to_fine == CoarseToFine::kOn;
   const auto limits = worthwhile(sizes.dim, active_set(sizes, settings));
-  const auto& levels = settings.coarse_levels;
-  const Index coarsest = levels.coarsest.value_or(limits.coarsest);
+  const Index coarsest = always ? kCoarsest : limits.coarsest;
   const double numbers = static_cast<double>(sizes.vertices) * sizes.control_points;
-  if (!levels.coarsest && numbers < limits.numbers) return {};
+  if (!always && numbers < limits.numbers) return {};
   std::vector<Index> vertices;
-  double size = sizes.vertices / limits.factor;
+  double size = sizes.vertices / kCoarseFactor;
   while (size >= coarsest) {
     vertices.push_back(static_cast<Index>(size));
-    size /= limits.factor;
+    size /= kCoarseFactor;
   }
   // An explicit request always gives a coarse mesh.
-  if (vertices.empty() && levels.coarsest && sizes.vertices >= 2 * coarsest) {
+  if (vertices.empty() && always && sizes.vertices >= 2 * coarsest) {
     vertices.push_back(coarsest);
   }
   std::reverse(vertices.begin(), vertices.end());
@@ -92,13 +71,12 @@ std::vector<Index> coarse_sizes(const Sizes& sizes, const Settings& settings) {
 bool interpolates_distances(const Sizes& sizes, const Settings& settings, bool has_coarse_mesh) {
   if (settings.phi == DistanceScheme::kConstant) return false;
   if (settings.distances != Distances::kAuto) return settings.distances == Distances::kInterpolated;
-  if (settings.method != Method::kValue || *settings.tolerance < kInterpolatedTolerance)
-    return false;
+  if (settings.method != Method::kWeights) return false;
   return has_coarse_mesh || (sizes.dim == 3 && sizes.vertices >= kInterpolatedVertices);
 }
 
-Index distances_mesh_size(Index vertices, double tolerance) {
-  return tolerance >= kCoarsestDistances ? 1 : vertices / kDistancesRatio;
+bool accepts_phi_error(double error, double tolerance) {
+  return kWeightsOfPhi * error * error <= kPartOfTolerance * tolerance;
 }
 
 }  // namespace flbc::plan
@@ -113,7 +91,6 @@ double published_penalty(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, Met
   validate(options);
   check_elements(cage.points, cage.facets, kCageNames);
   check_elements(mesh.points, mesh.cells, kMeshNames);
-  if (method == Method::kAuto) method = resolve({}).method;
   const double size = plan::published_scale(mesh) * bounding_box_diagonal(cage.points);
   return penalty / plan::penalty_unit(method, Dim, size);
 }

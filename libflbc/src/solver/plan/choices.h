@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "flbc/lbc_problem.h"
+#include "linear/linear_solver.h"
 #include "solver/plan/settings.h"
 
 namespace flbc::plan {
@@ -29,10 +30,10 @@ bool smooths(Method method);
 bool inherits(Method method);
 
 //! The linear solver: a factor of a large mesh takes more time and memory than the iteration.
-LinearSolver linear_solver(const Sizes& sizes, const Settings& settings);
+LinearSolver linear_solver(const Sizes& sizes, Method method);
 
-//! Whether cell duals are initially stored in half precision.
-bool half_precision(Index cells, const Settings& settings);
+//! Indices of control points in an active set are stored in 16 bits.
+constexpr Index kMostActiveControlPoints = 65000;
 
 //! Whether to try an active set, because it may be faster and supports all settings.
 bool active_set(const Sizes& sizes, const Settings& settings);
@@ -44,8 +45,9 @@ bool proves(const Settings& settings);
 bool active_set_pays(double density, const Settings& settings);
 
 //! The factor that converts a penalty for a cage of size 1 to a cage of another size. The penalty
-//! term must scale like total variation, length^(dim - 1). It is mu A |grad w|^2 for kValue, mu A^2
-//! |grad w|^2 for kLbc2014, and mu |grad w|^2 for other methods; gradients scale like 1 / length.
+//! term must scale like total variation, length^(dim - 1). It is mu A |grad w|^2 for kWeights, mu
+//! A^2 |grad w|^2 for kLbc2014, and mu |grad w|^2 for other methods; gradients scale like 1 /
+//! length.
 //! \param size  of the cage (bounding_box_diagonal)
 double penalty_unit(Method method, int dim, double size);
 
@@ -68,7 +70,7 @@ std::vector<Index> coarse_sizes(const Sizes& sizes, const Settings& settings);
 //! \param has_coarse_mesh  whether the multilevel start has a coarse mesh
 bool interpolates_distances(const Sizes& sizes, const Settings& settings, bool has_coarse_mesh);
 
-//! Number of vertices of a coarse mesh used only for distances.
-Index distances_mesh_size(Index vertices, double tolerance);
+//! Whether interpolated distances are accurate enough. \param error  DistanceReport::phi_error
+bool accepts_phi_error(double error, double tolerance);
 
 }  // namespace flbc::plan

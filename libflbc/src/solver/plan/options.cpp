@@ -37,13 +37,10 @@ void validate(const SolverOptions& options) {
   require(std::isfinite(smoothness) && smoothness >= 0, "smoothness", smoothness,
           "positive, or 0 for none");
   require(options.max_iterations >= 1, "max_iterations", options.max_iterations, "at least 1");
-  const double relaxation = options.relaxation.value_or(1);
-  require(relaxation > 0 && relaxation < 2, "relaxation", relaxation, "in (0, 2)");
-  const bool splitting = options.method == Method::kAuto || options.method == Method::kValue ||
-                         options.method == Method::kLbc2014;
+  const bool splitting = options.method == Method::kWeights || options.method == Method::kLbc2014;
   if (options.non_negative == NonNegative::kConstraint && !splitting) {
     throw OptionError(
-        "non_negative constraint is for the methods value and lbc2014 only; choose project");
+        "non_negative constraint is for the methods weights and lbc2014 only; choose project");
   }
   validate_gap(options);
   if (options.active_set == ActiveSet::kOn && (options.certify || options.gap.value_or(0) > 0)) {
@@ -51,17 +48,11 @@ void validate(const SolverOptions& options) {
         "active_set on has no certificate, which needs the duals of all pairs; choose active_set "
         "auto, or leave certify and gap out");
   }
-  const bool gradients = options.method == Method::kGradient || options.method == Method::kPaper;
-  if (options.linear_solver == LinearSolver::kNone && !gradients) {
-    throw OptionError("linear_solver none is for the methods gradient and paper only");
-  }
   require(options.threads >= 0 && options.threads <= 1024, "threads", options.threads,
           "in [1, 1024], or 0 for all");
   if (smoothness > 0 && !plan::smooths(options.method)) {
-    throw OptionError("smoothness is for the methods value and gradient only");
+    throw OptionError("smoothness is for the methods weights and gradient only");
   }
-  const Index coarsest = options.coarse_levels.coarsest.value_or(1);
-  require(coarsest >= 1, "coarse_levels.coarsest", coarsest, "at least 1 vertex");
 }
 
 }  // namespace flbc

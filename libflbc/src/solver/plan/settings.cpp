@@ -10,7 +10,7 @@ namespace {
 NonNegative choose_non_negative(Method method, NonNegative given) {
   if (given != NonNegative::kAuto) return given;
   switch (method) {
-    case Method::kValue:
+    case Method::kWeights:
     case Method::kLbc2014:
       return NonNegative::kConstraint;
     case Method::kGradient:
@@ -20,14 +20,9 @@ NonNegative choose_non_negative(Method method, NonNegative given) {
   }
 }
 
-bool has_default_gap(const SolverOptions& options, Method method, NonNegative non_negative) {
-  const bool by_default = method == Method::kValue || method == Method::kGradient;
-  return by_default && non_negative != NonNegative::kOff && !options.gap && !options.tolerance;
-}
-
 double choose_relaxation(Method method, bool has_penalty) {
   switch (method) {
-    case Method::kValue:
+    case Method::kWeights:
       return plan::kRelaxation;
     case Method::kLbc2014:
       return has_penalty ? plan::kPublishedRelaxation : plan::kRelaxation;
@@ -42,27 +37,18 @@ double choose_relaxation(Method method, bool has_penalty) {
 
 plan::Settings plan::settings_of(const SolverOptions& options) {
   Settings settings{options};
-  const auto method = options.method == Method::kAuto ? Method::kValue : options.method;
-  settings.method = method;
-  settings.smoothness = options.smoothness.value_or(0);
+  const auto method = options.method;
+  const bool smooths = plan::smooths(method);
+  settings.smoothness = options.smoothness.value_or(smooths ? kSmoothness : 0);
   settings.non_negative = choose_non_negative(method, options.non_negative);
-  if (options.coarse_to_fine == CoarseToFine::kOn && !options.coarse_levels.coarsest) {
-    settings.coarse_levels.coarsest = kCoarsest;
-  }
-  settings.tolerance =
-      options.tolerance.value_or(method == Method::kGradient ? kGradientTolerance : kTolerance);
-  // The default gap waits for settled weights. A gap that is asked for means what it says.
-  settings.gap_settles = has_default_gap(options, method, settings.non_negative);
-  settings.gap = options.gap.value_or(settings.gap_settles ? kGap : 0);
-  settings.relaxation =
-      options.relaxation.value_or(choose_relaxation(method, options.penalty.has_value()));
+  settings.tolerance = options.tolerance.value_or(smooths ? kTolerance : kPublishedTolerance);
+  const bool needs_gap = smooths && *settings.smoothness == 0 && !options.tolerance &&
+                         settings.non_negative != NonNegative::kOff &&
+                         options.active_set != ActiveSet::kOn;
+  settings.gap = options.gap.value_or(needs_gap ? kGap : 0);
+  settings.ends_by_gap = needs_gap && *settings.gap > 0;
+  settings.relaxation = choose_relaxation(method, options.penalty.has_value());
   return settings;
-}
-
-void make_smooth(SolverOptions& options) {
-  if (!options.smoothness && plan::smooths(options.method)) {
-    options.smoothness = kDeformationSmoothness;
-  }
 }
 
 SolverOptions resolve(SolverOptions options) {

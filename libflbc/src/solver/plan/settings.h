@@ -9,9 +9,10 @@ namespace flbc::plan {
 
 //! Options in which every field has a value, except for a penalty that is chosen from the mesh.
 struct Settings : SolverOptions {
-  //! Whether the gap waits until the weights hardly move (kSettled), unless it is very small
-  //! (kSmallGap).
-  bool gap_settles = false;
+  //! Whether the gap alone ends a run, because the optimum does not determine the weights.
+  bool ends_by_gap = false;
+  //! Over-relaxation in (0, 2).
+  double relaxation = 1;
 };
 
 //! \param options  valid

@@ -15,11 +15,8 @@ namespace flbc {
 //! Result of the last iteration of a call.
 struct Step {
   double change = 0;  //!< squared change of all weights or gradients
-  //! Squared violation of the constraints that couple the copies, in the metric of the iteration;
-  //! -1 if not measured.
-  double violation = -1;
-  //! Norms of r_p and r_d of the paper divided by their number of components; -1 if not measured.
-  double primal = -1, dual = -1;
+  //! Norms of r_p and r_d of the paper divided by their number of components; 0 if not measured.
+  double primal = 0, dual = 0;
 };
 
 //! Weights in the format of an iteration: dense, or sparse for an active set.
@@ -36,7 +33,6 @@ struct Weights {
 //! The point that a run has reached, as an iteration needs it to adapt.
 struct Milestone {
   int made;          //!< iterations since the start, over all runs that resumed
-  Step step;         //!< the last of them
   double error;      //!< estimated mean squared error of the weights
   double tolerance;  //!< its target
   bool ends;         //!< whether the run would end here
@@ -53,26 +49,28 @@ class Iteration {
   //! Starts from weights and duals, or cold. Must be called before iterate().
   virtual void start(const Start<Dim>& start) = 0;
 
+  //! Iterations between two evaluations of the run.
+  virtual int interval() const { return 1; }
+
   //! Iterates. adapt() must follow before the next call. \param made  iterations since the start
-  //! \param count  >= 1; 1 if the iteration adapts its penalty \param measure  whether to measure
-  //! residuals in the last iteration
-  virtual Step iterate(int made, int count, bool measure) = 0;
+  //! \param count  >= 1; at most up to the next multiple of interval()
+  virtual Step iterate(int made, int count) = 0;
+
+  //! Lets the iteration change the pairs it works on.
+  //! \return whether it works on other pairs, so that changes so far say nothing about the error
+  virtual bool adapt(const Milestone&) { return false; }
 
   virtual Weights weights() const = 0;
-
-  //! Writes the n weights of an interior vertex.
-  virtual void read_weights(Index vertex, double* weights) const = 0;
 
   //! A start for another iteration: views, valid until the next call of iterate() or adapt(). Cold
   //! if not supported.
   virtual Start<Dim> state() const { return {}; }
 
+  //! Whether certify() has the duals that it needs.
+  virtual bool can_certify() const { return true; }
+
   //! Certificate of weights (n x V) from the current duals. \param proof  receives them, if given
   virtual Certificate certify(const WeightMatrix& weights, Proof* proof) const = 0;
-
-  //! Lets the iteration change its penalty, its precision, or the pairs it works on.
-  //! \return iterations to make before the run may end; 0 for none
-  virtual int adapt(const Milestone&) { return 0; }
 
   //! Fills in the penalty, the size of the state, and the active set.
   virtual void describe(SolveReport& report) const = 0;

@@ -5,11 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <utility>
 
 #include "base/instantiate.h"
 #include "base/parallel.h"
-#include "base/stopwatch.h"
 #include "flbc/errors.h"
 #include "flbc/quality.h"
 #include "solver/run/thread_choice.h"
@@ -28,29 +26,22 @@ Progress progress_of(const Iteration<Dim>& iteration, const LbcProblem<Dim>& pro
   return progress;
 }
 
-// Ends the run or reports progress, if due. Sets status and criterion. \param last  whether the
-// limit is reached \return whether to end
+// Whether the run ends at an evaluation: sets status and criterion. Reports progress, if due.
 template <int Dim>
-bool is_finished(const Iteration<Dim>& iteration, RunState<Dim>& state,
-                 const RunContext<Dim>& context, bool last, SolveReport& report) {
-  const bool converged = report.relative_primal_residual <= 1 && report.relative_dual_residual <= 1;
-  const bool due = converged ? state.made >= std::max(plan::kFewestIterations, state.earliest)
-                             : state.made % plan::kCheckInterval == 0;
-  if (!due && !last) return false;
-  report.status = SolveStatus::kConverged;
-  report.criterion = Criterion::kTolerance;
-  if (converged) return true;
-  report.criterion = Criterion::kGap;
-  if (state.gap.is_met(context.settings, iteration, state.made, last,
-                       report.relative_primal_residual)) {
+bool is_finished(const Iteration<Dim>& iteration, RunState& state, const RunContext<Dim>& context,
+                 SolveReport& report) {
+  const bool converged = !context.settings.ends_by_gap && report.relative_primal_residual <= 1 &&
+                         report.relative_dual_residual <= 1 &&
+                         state.made >= plan::kFewestIterations;
+  if (converged || state.gap.is_met(*context.settings.gap, iteration, state.made)) {
+    report.status = SolveStatus::kConverged;
+    report.criterion = converged ? Criterion::kTolerance : Criterion::kGap;
     return true;
   }
-  report.criterion = Criterion::kNone;
-  report.status = SolveStatus::kIterationLimit;
-  if (last) return true;
-  report.status = SolveStatus::kStopped;
-  return context.reporter.listens() &&
-         !context.reporter.progress(progress_of(iteration, context.problem, report));
+  const bool stopped = state.made % plan::kCheckInterval == 0 && context.reporter.listens() &&
+                       !context.reporter.progress(progress_of(iteration, context.problem, report));
+  if (stopped) report.status = SolveStatus::kStopped;
+  return stopped;
 }
 
 }  // namespace
@@ -58,8 +49,8 @@ bool is_finished(const Iteration<Dim>& iteration, RunState<Dim>& state,
 void require_finite(bool finite, const SolveReport& report) {
   if (finite) return;
   throw SolverError("the computation broke down within " + std::to_string(report.iterations) +
-                    " iterations: its numbers are not finite; try the default penalty and "
-                    "relaxation, or double precision");
+                    " iterations: its numbers are not finite; try the default penalty, or "
+                    "double precision");
 }
 
 template <int Dim>
@@ -68,47 +59,36 @@ double unscaled(const LbcProblem<Dim>& problem, double objective) {
 }
 
 template <int Dim>
-void run(Iteration<Dim>& iteration, RunState<Dim>& state, const RunContext<Dim>& context,
+void run(Iteration<Dim>& iteration, RunState& state, const RunContext<Dim>& context,
          SolveReport& report) {
   const double tolerance = *context.settings.tolerance;
+  const int interval = iteration.interval();
   const int before = state.made;
   const int limit =
       before + std::min(context.settings.max_iterations, std::numeric_limits<int>::max() - before);
-  const int interval = state.stop->interval();
   ThreadChoice choice(omp_get_max_threads());
-  while (state.made < limit) {
-    context.reporter.poll();
-    const int until = std::min(interval - state.made % interval, limit - state.made);
-    const int count = context.reporter.has_limit() ? 1 : until;
-    Step step;
-    {
-      const ThreadScope scope(choice.threads());
-      const double on_core = seconds_on_core();
-      Stopwatch watch;
-      step = iteration.iterate(state.made, count, state.stop->wants_residuals());
-      choice.note(count, watch.lap(), seconds_on_core() - on_core);
-    }
-    state.made += count;
-    report.iterations = state.made - before;
-    const bool is_late = context.reporter.is_late();
-    if (count < until) {
-      if (is_late) break;
-      continue;
-    }
-    const auto [primal, dual] = state.stop->judge(step, iteration, state.made, tolerance);
-    report.relative_primal_residual = primal;
-    report.relative_dual_residual = dual;
-    require_finite(std::isfinite(primal) && std::isfinite(dual), report);
-    const bool ends = is_finished(iteration, state, context, state.made == limit, report);
-    const bool converged = ends && report.status == SolveStatus::kConverged;
-    const int to_make = iteration.adapt(
-        {state.made, step, tolerance * std::max(primal, 1.0), tolerance, converged});
-    if (to_make > 0) state.earliest = state.made + to_make;
-    if (ends && !(converged && to_make > 0)) return;
-    if (is_late) break;
-  }
   report.status = SolveStatus::kIterationLimit;
   report.criterion = Criterion::kNone;
+  while (state.made < limit && (state.made == before || !context.reporter.is_late())) {
+    context.reporter.poll();
+    const int count = std::min(interval - state.made % interval, limit - state.made);
+    const auto step =
+        choice.with_threads(count, [&] { return iteration.iterate(state.made, count); });
+    state.made += count;
+    report.iterations = state.made - before;
+    const bool evaluates = state.made % interval == 0;
+    const auto [primal, dual] = state.stop.judge(step, tolerance, evaluates);
+    require_finite(std::isfinite(primal) && std::isfinite(dual), report);
+    report.relative_primal_residual = primal;
+    report.relative_dual_residual = dual;
+    const bool ends = evaluates && is_finished(iteration, state, context, report);
+    const bool converged = ends && report.status == SolveStatus::kConverged;
+    const bool moves_on = iteration.adapt({state.made, tolerance * primal, tolerance, converged});
+    if (moves_on) state.stop.restart();
+    if (ends && !(converged && moves_on)) return;
+    report.status = SolveStatus::kIterationLimit;
+    report.criterion = Criterion::kNone;
+  }
 }
 
 FLBC_INSTANTIATE_FUNCTION(unscaled)

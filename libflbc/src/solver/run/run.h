@@ -3,9 +3,8 @@
 //! The loop of every iterative method.
 #pragma once
 
-#include <memory>
-
-#include "solver/plan/choices.h"
+#include "solver/plan/constants.h"
+#include "solver/plan/settings.h"
 #include "solver/run/iteration.h"
 #include "solver/run/reporter.h"
 #include "solver/run/stop_rule.h"
@@ -16,19 +15,14 @@ namespace flbc {
 //! runs are reproducible.
 class GapCriterion {
  public:
-  //! Certifies if due. \param made  iterations since the start \param last  whether this is the
-  //! last iteration of the run \param error  estimated error of the weights relative to the
-  //! tolerance
+  //! Certifies if due. \param target  relative gap, 0 for none \param made  iterations since the
+  //! start
   //! \return whether the target is met
   template <int Dim>
-  bool is_met(const plan::Settings& settings, const Iteration<Dim>& iteration, int made, bool last,
-              double error) {
-    const bool due = made >= next_;
-    if (*settings.gap == 0 || !(due || (last && made >= plan::kFirstCertified))) return false;
-    if (due) next_ = static_cast<int>(plan::kCertifiedGrowth * made);
-    const double gap = iteration.certify(iteration.weights().to_dense(), nullptr).relative_gap;
-    const bool waits = settings.gap_settles && error > plan::kSettled;
-    return gap <= (waits ? plan::kSmallGap : *settings.gap);
+  bool is_met(double target, const Iteration<Dim>& iteration, int made) {
+    if (target == 0 || made < next_ || !iteration.can_certify()) return false;
+    next_ = static_cast<int>(plan::kCertifiedGrowth * made);
+    return iteration.certify(iteration.weights().to_dense(), nullptr).relative_gap <= target;
   }
 
  private:
@@ -37,12 +31,10 @@ class GapCriterion {
 
 //! The state of a run besides its iteration. A run that resumes keeps it, so iterations are counted
 //! and judged as if it had never been interrupted.
-template <int Dim>
 struct RunState {
-  std::unique_ptr<StopRule<Dim>> stop;
+  StopRule stop;
   GapCriterion gap{};
-  int made = 0;      //!< iterations since the start
-  int earliest = 0;  //!< the run must not end before this iteration
+  int made = 0;  //!< iterations since the start
 };
 
 //! Inputs of a run other than the iteration and its state. Keeps references.
@@ -58,7 +50,7 @@ struct RunContext {
 //! residuals
 //! \throws SolverError if numbers are not finite
 template <int Dim>
-void run(Iteration<Dim>& iteration, RunState<Dim>& state, const RunContext<Dim>& context,
+void run(Iteration<Dim>& iteration, RunState& state, const RunContext<Dim>& context,
          SolveReport& report);
 
 //! Extreme penalties and relaxations cause overflow, which must never be returned as a result.

@@ -3,86 +3,64 @@
 //! Stopping rules: estimated error, or the residuals of the paper.
 #pragma once
 
-#include <vector>
+#include <deque>
 
-#include "solver/run/error_estimate.h"
 #include "solver/run/iteration.h"
 
 namespace flbc {
 
+//! Estimates the mean squared distance of the weights to the limit of the iteration. Changes that
+//! shrink by a factor r per iteration leave r / (1 - r) times the last one.
+class ErrorEstimate {
+ public:
+  //! \param interval  iterations between two calls
+  explicit ErrorEstimate(int interval = 1) : interval_(interval) {}
+
+  //! \param change  mean squared change of a weight in the last iteration
+  //! \return the estimate; not finite if the change is not
+  double operator()(double change);
+
+  //! Forgets all changes, because the iteration works on other pairs now.
+  void restart() { *this = ErrorEstimate(interval_); }
+
+ private:
+  int interval_;
+  int calls_ = 0;
+  std::deque<double> changes_{};  // the latest ones
+};
+
 //! Residuals relative to their thresholds.
 struct Ratios {
-  double primal = 0, dual = 0;
+  double primal, dual;
 };
 
 //! Evaluates a run after each step.
-template <int Dim>
 class StopRule {
  public:
-  virtual ~StopRule() = default;
-
-  //! Iterations between two evaluations.
-  virtual int interval() const { return plan::kCheckInterval; }
-
-  //! Whether the last of them must measure residuals.
-  virtual bool wants_residuals() const { return true; }
-
-  //! Evaluates the last step. \param made  iterations since the start
-  virtual Ratios judge(const Step& step, const Iteration<Dim>& iteration, int made,
-                       double tolerance) = 0;
-};
-
-//! Method::kValue: the estimated mean squared error of the weights is at most the tolerance.
-template <int Dim>
-class EstimatedError final : public StopRule<Dim> {
- public:
-  //! \param iteration  started \param in_double  whether it iterates in double precision
-  //! \param origin  of its start \param looks  whether it adapts its penalty late
-  EstimatedError(const LbcProblem<Dim>& problem, const Iteration<Dim>& iteration, bool in_double,
-                 Origin origin, bool looks);
-
-  int interval() const override { return 1; }
-  bool wants_residuals() const override { return estimate_.wants_residual(); }
-  Ratios judge(const Step& step, const Iteration<Dim>& iteration, int made,
-               double tolerance) override;
-
- private:
-  const double num_weights_, residual_scale_;
-  ErrorEstimate estimate_;
-  WeightHistory history_;
-};
-
-//! Method::kGradient: the same for periodically recovered weights.
-template <int Dim>
-class RecoveredError final : public StopRule<Dim> {
- public:
-  //! Arguments as above.
-  RecoveredError(const LbcProblem<Dim>& problem, const Iteration<Dim>& iteration, bool in_double);
-
-  Ratios judge(const Step& step, const Iteration<Dim>& iteration, int made,
-               double tolerance) override;
-
- private:
-  const double residual_scale_;
-  ErrorEstimate estimate_;
-  WeightHistory history_;
-  std::vector<double> errors_;  // of the last recoveries
-};
-
-//! Method::kPaper and kLbc2014: both residuals are below the thresholds of section 5 of the paper.
-template <int Dim>
-class PublishedCriterion final : public StopRule<Dim> {
- public:
-  //! \param primal, dual  residuals in published units of length relative to those in problem units
-  PublishedCriterion(double primal, double dual) : primal_(primal), dual_(dual) {}
-
-  Ratios judge(const Step& step, const Iteration<Dim>&, int, double tolerance) override {
-    constexpr double kDualToPrimal = 10;  // section 5 of the paper: N 1e-7 and N 1e-6
-    return {primal_ * step.primal / tolerance, dual_ * step.dual / (kDualToPrimal * tolerance)};
+  //! Method::kWeights and kGradient: the estimated mean squared error of the weights is at most the
+  //! tolerance. \param per_change  mean squared change of a weight per Step::change
+  //! \param interval  Iteration::interval()
+  static StopRule estimate(double per_change, int interval) {
+    return {true, per_change, 0, interval};
   }
 
+  //! Method::kPaper and kLbc2014: both residuals are below the thresholds of section 5 of the
+  //! paper. \param primal, dual  residuals in published units of length relative to those in
+  //! problem units
+  static StopRule residuals(double primal, double dual) { return {false, primal, dual, 1}; }
+
+  //! \param counts  whether the step is the last of an interval; the changes of others are not kept
+  Ratios judge(const Step& step, double tolerance, bool counts = true);
+
+  void restart() { estimate_.restart(); }
+
  private:
-  const double primal_, dual_;
+  StopRule(bool estimates, double primal, double dual, int interval)
+      : estimates_(estimates), primal_(primal), dual_(dual), estimate_(interval) {}
+
+  bool estimates_;
+  double primal_, dual_;
+  ErrorEstimate estimate_;
 };
 
 }  // namespace flbc

@@ -3,7 +3,13 @@
 //! The number of threads that iterate while other programs use the cores.
 #pragma once
 
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+
 namespace flbc {
+
+//! Seconds that the calling thread has had a core so far.
+double seconds_on_core();
 
 //! An iteration takes less than a millisecond, and its threads wait for each other several times.
 //! If another program takes the core of one of them, all wait for it: two threads can then take ten
@@ -16,6 +22,18 @@ class ThreadChoice {
 
   //! The number of threads for the next iterations.
   int threads() const { return trial_ > 0 ? trial_ : threads_; }
+
+  //! Makes iterations with threads(), and takes note of them.
+  //! \param body  makes the given number of iterations
+  template <class Body>
+  auto with_threads(int iterations, const Body& body) {
+    const ThreadScope scope(threads());
+    const double on_core = seconds_on_core();
+    Stopwatch watch;
+    auto result = body();
+    note(iterations, watch.lap(), seconds_on_core() - on_core);
+    return result;
+  }
 
   //! Takes note of iterations with threads().
   //! \param seconds  they took \param on_core  seconds that the calling thread had a core
@@ -35,8 +53,5 @@ class ThreadChoice {
   double seconds_ = 0;
   double on_core_ = 0;
 };
-
-//! Seconds that the calling thread has had a core so far.
-double seconds_on_core();
 
 }  // namespace flbc

@@ -40,9 +40,6 @@ class Transfer {
   //! density is that of the coarse cell containing the fine centroid, made admissible.
   Start<Dim> start() const;
 
-  //! The penalty of the coarse problem.
-  double penalty() const { return duals_.penalty; }
-
   //! The location of a fine vertex in the coarse mesh.
   const Location<Dim>& place_of(Index vertex) const { return vertices_[vertex]; }
 

@@ -102,6 +102,18 @@ void add_leaves(const PackedLists& lists, CellPatches<Scalar, Dim>& result, cons
   }
 }
 
+template <class Scalar, int Dim>
+void set_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
+               CellPatches<Scalar, Dim>& patches) {
+  patches.radius = AlignedArray<Scalar>(patches.num_numbers);
+  store_in_cells<1>(patches, problem.num_control_points(), patches.radius, [&](Index s) {
+    const double scale = compact::dual_scale(problem, metric, unit, s);
+    return [&problem, s, scale](Index i, int) {
+      return scale * std::max(problem.phi(i, s), compact::kSmallestPhi);
+    };
+  });
+}
+
 }  // namespace
 
 void PackedLists::append(const ActiveLists::Range& list, ControlPoint n) {
@@ -147,23 +159,10 @@ AlignedArray<Scalar> row_bases(const PackedLists& lists, const PointList<Dim>& c
 }
 
 template <class Scalar, int Dim>
-void set_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
-               const compact::Loops<Scalar, Dim>& loops, CellPatches<Scalar, Dim>& patches) {
-  patches.radius = AlignedArray<unsigned char>(loops.bytes * patches.num_numbers);
-  store_in_cells<1>(patches, loops, problem.num_control_points(), patches.radius, [&](Index s) {
-    const double scale = compact::dual_scale(problem, metric, unit, s);
-    return [&problem, s, scale](Index i, int) {
-      return scale * std::max(problem.phi(i, s), compact::kSmallestPhi);
-    };
-  });
-}
-
-template <class Scalar, int Dim>
 CellPatches<Scalar, Dim> make_patches(const LbcProblem<Dim>& problem,
                                       const splitting::Metric& metric, double unit,
                                       compact::CompactData<Scalar, Dim>& data,
-                                      const PackedLists& lists,
-                                      const compact::Loops<Scalar, Dim>& loops) {
+                                      const PackedLists& lists) {
   CellPatches<Scalar, Dim> result;
   const auto num_interior = static_cast<Index>(data.vertices.size());
   const auto n = static_cast<ControlPoint>(problem.num_control_points());
@@ -186,7 +185,7 @@ CellPatches<Scalar, Dim> make_patches(const LbcProblem<Dim>& problem,
     result.patches.push_back(patch);
   }
   result.num_numbers = next_number;
-  set_radii(problem, metric, unit, loops, result);
+  set_radii(problem, metric, unit, result);
   result.left = items_by_vertex<std::size_t>(num_interior, [&](const auto& visit) {
     for (const Patch& patch : result.patches) {
       for (Index k = 0; k < patch.num_interior; ++k) {

@@ -63,8 +63,8 @@ struct CellPatches {
   std::vector<Index> place_of_cell;               // per mesh cell: position in `cells`; -1: none
   std::vector<Index> rows;                        // of the splitting, interior ones first
   std::vector<ControlPoint> items;                // ascending; n in the padding
-  AlignedArray<unsigned char> radius;             // in the storage format of the loops
-  std::size_t num_numbers = 0;                    // of all cells, per component
+  AlignedArray<Scalar> radius;
+  std::size_t num_numbers = 0;      // of all cells, per component
   std::vector<std::size_t> leaves;  // location of the divergence contribution of a row, ordered as
                                     // rows
   std::size_t num_left = 0;         // numbers
@@ -77,38 +77,29 @@ template <class Scalar, int Dim>
 CellPatches<Scalar, Dim> make_patches(const LbcProblem<Dim>& problem,
                                       const splitting::Metric& metric, double unit,
                                       compact::CompactData<Scalar, Dim>& data,
-                                      const PackedLists& lists,
-                                      const compact::Loops<Scalar, Dim>& loops);
+                                      const PackedLists& lists);
 
-//! Makes the radii, in the storage format of the loops.
-template <class Scalar, int Dim>
-void set_radii(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
-               const compact::Loops<Scalar, Dim>& loops, CellPatches<Scalar, Dim>& patches);
-
-//! Stores values of all cells in the format of the loops, `Rows` per control point; zero in the
-//! padding.
+//! Stores values of all cells, `Rows` per control point; zero in the padding.
 //! \param of_cell  number(control point, row) of a cell of the mesh
 template <int Rows, class Scalar, int Dim, class OfCell>
-void store_in_cells(const CellPatches<Scalar, Dim>& patches,
-                    const compact::Loops<Scalar, Dim>& loops, Index n,
-                    AlignedArray<unsigned char>& stored, const OfCell& of_cell) {
-  const auto store = [&](std::size_t begin, std::size_t end) {
-    AlignedArray<Scalar> rows(Rows * padded(static_cast<std::size_t>(n)));
-    for (std::size_t p = begin; p < end; ++p) {
-      const Patch& patch = patches.patches[p];
-      for (Index k = patch.first_cell; k < patch.end_cell; ++k) {
-        const auto number_at = of_cell(patches.cell_index[k]);
-        for (std::size_t j = 0; j < patch.stride; ++j) {
-          const Index i = patches.items[patch.first_item + j];
-          for (int r = 0; r < Rows; ++r) {
-            rows[r * patch.stride + j] = i < n ? static_cast<Scalar>(number_at(i, r)) : Scalar(0);
+void store_in_cells(const CellPatches<Scalar, Dim>& patches, Index n, AlignedArray<Scalar>& stored,
+                    const OfCell& of_cell) {
+  parallel_for(
+      patches.patches.size(),
+      [&](std::size_t p) {
+        const Patch& patch = patches.patches[p];
+        for (Index k = patch.first_cell; k < patch.end_cell; ++k) {
+          const auto number_at = of_cell(patches.cell_index[k]);
+          Scalar* rows = stored.data() + Rows * patch.number_of(k);
+          for (std::size_t j = 0; j < patch.stride; ++j) {
+            const Index i = patches.items[patch.first_item + j];
+            for (int r = 0; r < Rows; ++r) {
+              rows[r * patch.stride + j] = i < n ? static_cast<Scalar>(number_at(i, r)) : Scalar(0);
+            }
           }
         }
-        loops.encode(rows.data(), stored.data(), Rows * patch.number_of(k), Rows * patch.stride);
-      }
-    }
-  };
-  parallel_for(patches.patches.size(), store, 2);
+      },
+      2);
 }
 
 }  // namespace flbc::active_set

@@ -106,8 +106,7 @@ ActiveLists completed(const LbcProblem<Dim>& problem, const VectorsAt<1>& weight
 }  // namespace
 
 double threshold_for(double tolerance) {
-  return std::clamp(plan::kActiveErrors * std::sqrt(tolerance), plan::kActiveLeast,
-                    plan::kActiveMost);
+  return std::min(plan::kActiveErrors * std::sqrt(tolerance), plan::kActiveMost);
 }
 
 template <int Dim>

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "flbc/lbc_problem.h"
+#include "linear/linear_solver.h"
 #include "mesh/vertex_cells.h"
 #include "solver/start/start.h"
 #include "solver/start/transfer.h"

@@ -17,18 +17,8 @@ namespace {
 // The dense rows of a patch, for one thread.
 template <class Scalar>
 struct PatchRows {
-  AlignedArray<Scalar> extrapolated, difference, residual, violation_sum;
-  AlignedArray<double> violation, motion;
+  AlignedArray<Scalar> extrapolated, residual;
   std::vector<std::uint16_t> slot_of;
-
-  PatchRows(std::size_t largest_block, std::size_t n, bool measures)
-      : extrapolated(largest_block),
-        difference(measures ? largest_block : 0),
-        residual(largest_block),
-        violation_sum(measures ? padded(n) : 0),
-        violation(measures ? padded(n) : 0),
-        motion(measures ? padded(n) : 0),
-        slot_of(n + 1) {}
 };
 
 // The vertex of every row.
@@ -65,12 +55,12 @@ ActiveSplitting<Scalar, Dim>::ActiveSplitting(const LbcProblem<Dim>& problem,
       std::make_unique<PackedLists>(lists_of(active_, vertices, static_cast<ControlPoint>(n_)));
   bases_ = std::make_unique<AlignedArray<Scalar>>(row_bases<Scalar, Dim>(
       *lists_, problem.cage.points, problem.mesh.points(Eigen::all, vertices), &targets_));
-  patches_ = make_patches(problem, metric_, unit_, data_, *lists_, *loops_);
+  patches_ = make_patches(problem, metric_, unit_, data_, *lists_);
   multigrid_ = std::make_unique<ActiveMultigrid<Scalar, Dim>>(system, order, *lists_, *bases_,
                                                               problem.cage.points, list_kernel_);
   rows_ = {lists_->size(), lists_->starts[data_.vertices.size()], metric_.vertex.size() > 0};
   left_ = AlignedArray<Scalar>(patches_.num_left);
-  P_ = AlignedArray<unsigned char>(Dim * patches_.radius.size());
+  P_ = AlignedArray<Scalar>(Dim * patches_.radius.size());
 }
 
 template <class Scalar, int Dim>
@@ -79,9 +69,9 @@ auto ActiveSplitting<Scalar, Dim>::patch_state(const Patch& patch) -> State {
   state.stride = state.cell_stride = patch.stride;
   state.num_cells = static_cast<std::size_t>(patch.end_cell - patch.first_cell);
   state.num_interior = static_cast<std::size_t>(patch.num_interior);
-  state.cell_dual = P_.data() + loops_->bytes * Dim * patch.first_number;
+  state.cell_dual = P_.data() + Dim * patch.first_number;
   state.cells = patches_.cells.data() + patch.first_cell;
-  state.radius = patches_.radius.data() + loops_->bytes * patch.first_number;
+  state.radius = patches_.radius.data() + patch.first_number;
   state.sigma = static_cast<Scalar>(sigma());
   state.smoothing = static_cast<Scalar>(compact::smoothing(problem_, this->penalty()));
   return state;
@@ -90,11 +80,13 @@ auto ActiveSplitting<Scalar, Dim>::patch_state(const Patch& patch) -> State {
 // Calls body(p, rows, state) for all patches, where `rows` has a of the rows of patch p.
 template <class Scalar, int Dim>
 template <class Body>
-void ActiveSplitting<Scalar, Dim>::for_patches(bool measures, const Body& body) {
+void ActiveSplitting<Scalar, Dim>::for_patches(const Body& body) {
   const auto num_patches = static_cast<Index>(patches_.patches.size());
   const auto pass = [&](Index begin, Index end) {
     const FlushDenormals flush;
-    PatchRows<Scalar> rows(patches_.largest_block, n_ + 1, measures);
+    PatchRows<Scalar> rows{AlignedArray<Scalar>(patches_.largest_block),
+                           AlignedArray<Scalar>(patches_.largest_block),
+                           std::vector<std::uint16_t>(n_ + 1)};
     for (Index p = begin; p < end; ++p) {
       const Patch& patch = patches_.patches[p];
       for (std::size_t j = 0; j < patch.stride; ++j) {
@@ -103,16 +95,7 @@ void ActiveSplitting<Scalar, Dim>::for_patches(bool measures, const Body& body) 
       auto state = patch_state(patch);
       state.extrapolated = rows.extrapolated.data();
       state.residual = rows.residual.data();
-      state.difference = rows.difference.data();
-      state.violation = rows.violation.data();
-      state.violation_sum = rows.violation_sum.data();
       gather(patch, rows.slot_of, rows_.a, patch.num_rows, rows.extrapolated);
-      if (measures) {
-        std::fill_n(rows.difference.data(), patch.num_rows * patch.stride, Scalar(0));
-        gather(patch, rows.slot_of, rows_.difference, patch.num_interior, rows.difference);
-        std::fill_n(rows.violation.data(), rows.violation.size(), 0.0);
-        std::fill_n(rows.motion.data(), rows.motion.size(), 0.0);
-      }
       body(p, rows, state);
     }
   };
@@ -131,16 +114,12 @@ void ActiveSplitting<Scalar, Dim>::gather(const Patch& patch,
 
 // Z-steps of all cells leave the divergence of each patch, which the rows collect.
 template <class Scalar, int Dim>
-double ActiveSplitting<Scalar, Dim>::solve(SliceLoop loop, double relaxation) {
-  const bool measures = loop == loops_->z_step_measured;
-  std::vector<double> violations(patches_.patches.size(), 0);
-  for_patches(measures, [&](Index p, PatchRows<Scalar>& rows, State& state) {
+void ActiveSplitting<Scalar, Dim>::solve(SliceLoop loop, double relaxation) {
+  for_patches([&](Index p, PatchRows<Scalar>& rows, State& state) {
     const Patch& patch = patches_.patches[p];
     state.relaxation = static_cast<Scalar>(relaxation);
     std::fill_n(state.residual, patch.num_interior * patch.stride, Scalar(0));
     loop(state, {0, patch.stride});
-    violations[p] = std::accumulate(rows.violation.data(),
-                                    rows.violation.data() + (measures ? patch.stride : 0), 0.0);
     list_kernel_.scatter(lists_->view(), patches_.rows.data() + patch.first_row, patch.num_interior,
                          rows.slot_of.data(), state.residual, patch.stride,
                          patches_.leaves.data() + patch.first_row, left_.data());
@@ -153,7 +132,6 @@ double ActiveSplitting<Scalar, Dim>::solve(SliceLoop loop, double relaxation) {
     }
   });
   multigrid_->cycle(rows_.residual.data());
-  return std::accumulate(violations.begin(), violations.end(), 0.0);
 }
 
 template <class Scalar, int Dim>
@@ -171,44 +149,14 @@ auto ActiveSplitting<Scalar, Dim>::row_state(Index row) -> State {
 }
 
 template <class Scalar, int Dim>
-compact::RowSums ActiveSplitting<Scalar, Dim>::pass_rows(RowLoop loop) {
+double ActiveSplitting<Scalar, Dim>::pass_rows(RowLoop loop) {
   const auto num_rows = static_cast<Index>(data_.vertices.size());
-  return parallel_sum(num_rows, compact::RowSums{}, [&](Index begin, Index end) {
+  return parallel_sum(num_rows, 0.0, [&](Index begin, Index end) {
     const FlushDenormals flush;
-    compact::RowSums sums;
-    for (Index row = begin; row < end; ++row) sums += loop(row_state(row), 0, 1);
-    return sums;
+    double change = 0;
+    for (Index row = begin; row < end; ++row) change += loop(row_state(row), 0, 1);
+    return change;
   });
-}
-
-template <class Scalar, int Dim>
-splitting::BalanceLengths ActiveSplitting<Scalar, Dim>::squared_lengths(
-    const AlignedArray<Scalar>& moved) {
-  std::vector<splitting::BalanceLengths> parts(patches_.patches.size());
-  for_patches(true, [&](Index p, PatchRows<Scalar>& rows, const State& state) {
-    const Patch& patch = patches_.patches[p];
-    std::fill_n(rows.extrapolated.data(), patch.num_rows * patch.stride, Scalar(0));
-    gather(patch, rows.slot_of, moved, patch.num_interior, rows.extrapolated);
-    loops_->balance(state, {0, patch.stride}, rows.extrapolated.data(), rows.violation.data(),
-                    rows.motion.data());
-    const auto total = [&](const AlignedArray<double>& numbers) {
-      return std::accumulate(numbers.data(), numbers.data() + patch.stride, 0.0);
-    };
-    parts[p] = {total(rows.violation), total(rows.motion)};
-  });
-  splitting::BalanceLengths lengths{data_.boundary_dual2, 0};
-  for (const auto& part : parts) {
-    lengths.dual2 += part.dual2;
-    lengths.motion2 += part.motion2;
-  }
-  return lengths;
-}
-
-template <class Scalar, int Dim>
-void ActiveSplitting<Scalar, Dim>::set_penalty(double penalty) {
-  const auto factor = static_cast<Scalar>(penalty / this->penalty());
-  Base::set_penalty(penalty);
-  for (std::size_t k = rows_.W.size(); k < rows_.a.size(); ++k) rows_.a[k] *= factor;
 }
 
 // Truncated weights must be compensated elsewhere in the row.
@@ -216,12 +164,12 @@ template <class Scalar, int Dim>
 void ActiveSplitting<Scalar, Dim>::set_weights(const VectorsAt<1>& weights) {
   Base::set_weights(weights);
   std::fill_n(rows_.residual.data(), rows_.residual.size(), Scalar(0));
-  pass_rows(loops_->correct);
+  pass_rows(kernel_.correct);
 }
 
 template <class Scalar, int Dim>
 void ActiveSplitting<Scalar, Dim>::set_cell_dual(const VectorsAt<Dim>& flux_density) {
-  store_in_cells<Dim>(patches_, *loops_, n_, P_, [&](Index s) {
+  store_in_cells<Dim>(patches_, n_, P_, [&](Index s) {
     const double scale = compact::dual_scale(problem_, metric_, unit_, s);
     return [scale, density = flux_density(s)](Index i, int d) { return scale * density(i, d); };
   });
@@ -232,8 +180,7 @@ Vectors<Dim> ActiveSplitting<Scalar, Dim>::cell_dual(Index cell) const {
   Vectors<Dim> dual = Vectors<Dim>::Zero(n_, Dim);
   const Index k = patches_.place_of_cell[cell];
   const Patch& patch = patches_.patches[k / kPatchCells];
-  AlignedArray<Scalar> rows(Dim * patch.stride);
-  loops_->decode(P_.data(), Dim * patch.number_of(k), rows.data(), Dim * patch.stride);
+  const Scalar* rows = P_.data() + Dim * patch.number_of(k);
   for (std::size_t j = 0; j < patch.stride; ++j) {
     const Index i = patches_.items[patch.first_item + j];
     if (i >= n_) break;
@@ -244,18 +191,12 @@ Vectors<Dim> ActiveSplitting<Scalar, Dim>::cell_dual(Index cell) const {
 
 // A larger set makes a new splitting, which starts from this one.
 template <class Scalar, int Dim>
-int ActiveSplitting<Scalar, Dim>::extend(const Milestone& at) {
-  const bool looks = at.ends || at.made == since_ + plan::kBetweenLooks;
-  if (looks || this->rule_.due(at.made) != splitting::Due::kNothing) since_ = at.made;
-  if (!looks) return 0;
+bool ActiveSplitting<Scalar, Dim>::adapt(const Milestone& at) {
+  if (!at.ends && at.made % plan::kBetweenLooks != 0) return false;
   auto more = larger_set(at);
-  if (more.items.size() <= active_.items.size()) return 0;
+  if (more.items.size() <= active_.items.size()) return false;
   ++growths_;
-  auto parameters = parameters_;
-  parameters.penalty = this->penalty() / parameters_.part;
-  parameters.half = this->stores_half();
-  parameters.balances = false;
-  ActiveSplitting larger(problem_, metric_, parameters, std::move(more));
+  ActiveSplitting larger(problem_, metric_, parameters_, std::move(more));
   larger.start(this->state());
   active_ = std::move(larger.active_);
   lists_ = std::move(larger.lists_);
@@ -267,7 +208,7 @@ int ActiveSplitting<Scalar, Dim>::extend(const Milestone& at) {
   data_ = std::move(larger.data_);
   rows_ = std::move(larger.rows_);
   P_ = std::move(larger.P_);
-  return plan::kAfterGrowth;
+  return true;
 }
 
 // The active set, extended if weights at its border exceed a small part of the estimated error,
@@ -293,11 +234,9 @@ Weights ActiveSplitting<Scalar, Dim>::weights() const {
 
 template <class Scalar, int Dim>
 void ActiveSplitting<Scalar, Dim>::describe(SolveReport& report) const {
-  const std::size_t numbers = rows_.size() + left_.size() + bases_->size();
-  const double cell_numbers = static_cast<double>(P_.size()) / sizeof(Scalar);
+  const std::size_t numbers = rows_.size() + P_.size() + left_.size() + bases_->size();
   report.penalty = this->penalty();
-  report.state_scalars_per_cell =
-      (static_cast<double>(numbers) + cell_numbers) / n_ / problem_.mesh.num_cells();
+  report.state_scalars_per_cell = static_cast<double>(numbers) / n_ / problem_.mesh.num_cells();
   report.active_set = {density(problem_, active_), growths_};
 }
 

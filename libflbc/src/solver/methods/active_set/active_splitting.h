@@ -26,38 +26,38 @@ class ActiveSplitting final : public splitting::Splitting<Scalar, Dim> {
   ActiveSplitting(const LbcProblem<Dim>& problem, splitting::Metric metric,
                   const Parameters& parameters, ActiveLists active);
 
+  //! Extends the active set if weights reach its border.
+  bool adapt(const Milestone& at) override;
+
   Weights weights() const override;
 
-  //! None, because duals are known only for active pairs.
+  //! Duals are known only for active pairs.
+  bool can_certify() const override { return false; }
   Certificate certify(const WeightMatrix&, Proof*) const override { return {}; }
 
   void describe(SolveReport& report) const override;
 
  private:
   using Base = splitting::Splitting<Scalar, Dim>;
-  using Base::data_, Base::kernel_, Base::loops_, Base::metric_, Base::n_, Base::P_,
-      Base::parameters_, Base::problem_, Base::rows_, Base::sigma, Base::unit_;
+  using Base::data_, Base::kernel_, Base::metric_, Base::n_, Base::P_, Base::parameters_,
+      Base::problem_, Base::rows_, Base::sigma, Base::unit_;
   using typename Base::Row, typename Base::RowLoop, typename Base::SliceLoop, typename Base::State;
 
   State patch_state(const Patch& patch);
   template <class Body>
-  void for_patches(bool measures, const Body& body);
+  void for_patches(const Body& body);
   void gather(const Patch& patch, const std::vector<std::uint16_t>& slot_of,
               const AlignedArray<Scalar>& numbers, Index count, AlignedArray<Scalar>& block) const;
   State row_state(Index row);
-  double solve(SliceLoop loop, double relaxation) override;
-  compact::RowSums pass_rows(RowLoop loop) override;
-  splitting::BalanceLengths squared_lengths(const AlignedArray<Scalar>& moved) override;
+  void solve(SliceLoop loop, double relaxation) override;
+  double pass_rows(RowLoop loop) override;
   Row row(Index index) const override {
     const std::size_t start = lists_->starts[index];
     return {start, lists_->counts[index], lists_->items.data() + start};
   }
   Vectors<Dim> cell_dual(Index cell) const override;
   void set_cell_dual(const VectorsAt<Dim>& flux_density) override;
-  void set_radii() override { active_set::set_radii(problem_, metric_, unit_, *loops_, patches_); }
-  void set_penalty(double penalty) override;
   void set_weights(const VectorsAt<1>& weights) override;
-  int extend(const Milestone& at) override;
   ActiveLists larger_set(const Milestone& at) const;
 
   const Kernel<Scalar, Dim>& list_kernel_;
@@ -69,7 +69,6 @@ class ActiveSplitting final : public splitting::Splitting<Scalar, Dim> {
   CellPatches<Scalar, Dim> patches_;
   std::unique_ptr<ActiveMultigrid<Scalar, Dim>> multigrid_;
   AlignedArray<Scalar> left_;
-  int since_ = 0;  // iteration of the last change or check
   int growths_ = 0;
 };
 

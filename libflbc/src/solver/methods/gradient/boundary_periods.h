@@ -7,6 +7,7 @@
 
 #include "flbc/lbc_problem.h"
 #include "flbc/types.h"
+#include "linear/linear_solver.h"
 
 namespace flbc::gradient {
 

@@ -7,6 +7,7 @@
 
 #include "coordinates/poisson_weights.h"
 #include "solver/methods/gradient/gradient_admm.h"
+#include "solver/plan/constants.h"
 #include "solver/plan/settings.h"
 #include "solver/run/iteration.h"
 
@@ -14,11 +15,11 @@ namespace flbc::gradient {
 
 //! Parameters of the iteration.
 struct Parameters {
-  double penalty = 1;          //!< mu > 0
-  double relaxation = 1;       //!< in (0, 2), 1 for the iteration of the paper
-  bool harmonic = false;       //!< starts from harmonic coordinates, otherwise from the least-norm
-                               //!< solution
-  bool breadth_first = false;  //!< recovery of weights as in the paper, else by least squares
+  double penalty = 1;     //!< mu > 0
+  double relaxation = 1;  //!< in (0, 2), 1 for the iteration of the paper
+  //! Starts from the least-norm solution and recovers weights breadth-first, as in the paper,
+  //! instead of harmonic coordinates and least squares.
+  bool as_published = false;
   LinearSolver linear_solver = LinearSolver::kDirect;  //!< of start and recovery
 };
 
@@ -33,7 +34,7 @@ class GradientIteration final : public Iteration<Dim> {
 
   //! Starts cold, as in the parameters; no other iteration hands over to this one.
   void start(const Start<Dim>&) override {
-    if (!parameters_.harmonic) {
+    if (parameters_.as_published) {
       admm_.start_from_least_norm();
       return;
     }
@@ -41,28 +42,24 @@ class GradientIteration final : public Iteration<Dim> {
     admm_.start_from_weights(start_weights_);
   }
 
-  Step iterate(int, int count, bool) override {
+  int interval() const override { return plan::kCheckInterval; }
+
+  Step iterate(int, int count) override {
     start_weights_ = {};
     const Change change = admm_.iterate(count);
     const auto residuals = admm_.residuals(change);
     const double components = admm_.num_residual_components();
-    return {change.gradient, change.dual, residuals.primal / components,
-            residuals.dual / components};
+    return {change.gradient, residuals.primal / components, residuals.dual / components};
   }
 
   //! Recovers weights from the current gradients; before the first iteration, returns those of a
   //! harmonic start.
   Weights weights() const override {
     if (start_weights_.size() > 0) return {start_weights_, {}};
-    if (parameters_.breadth_first) {
+    if (parameters_.as_published) {
       return {integrate_breadth_first(problem_, admm_.gradients()), {}};
     }
     return {integrate_least_squares(problem_, admm_.gradients(), poisson()), {}};
-  }
-
-  void read_weights(Index vertex, double* weights) const override {
-    const auto all = this->weights().dense;
-    Eigen::Map<Eigen::VectorXd>(weights, all.rows()) = all.col(vertex);
   }
 
   Certificate certify(const WeightMatrix& weights, Proof* proof) const override {

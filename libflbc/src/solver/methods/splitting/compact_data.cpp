@@ -35,13 +35,6 @@ void set_up_rows(const LbcProblem<Dim>& problem, const splitting::Metric& metric
   }
 }
 
-// Squared length of the dual p of a boundary cell.
-template <int Dim>
-double flux2_of_boundary_cell(const LbcProblem<Dim>& problem, Index s) {
-  const double measure = cell_geometry(problem.mesh, s).measure;
-  return measure * measure * boundary_flux_density(problem, s).squaredNorm();
-}
-
 // Moves interior corners to the front, in their order; std::stable_partition would allocate memory.
 template <std::size_t N, class Predicate>
 void inner_first(std::array<int, N>& corners, const Predicate& is_inside) {
@@ -58,11 +51,7 @@ void set_up_cells(const LbcProblem<Dim>& problem, const splitting::Metric& metri
   const auto num_interior = static_cast<Index>(data.vertices.size());
   const auto row_of = [&](int k, Index s) { return data.row_of[problem.mesh.cells(k, s)]; };
   for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
-    if (is_boundary_cell(problem, s)) {
-      data.boundary_dual2 += unit * unit * flux2_of_boundary_cell(problem, s) / metric.cell[s];
-    } else {
-      data.cell_index.push_back(s);
-    }
+    if (!is_boundary_cell(problem, s)) data.cell_index.push_back(s);
   }
   data.cells.resize(data.cell_index.size());
   parallel_for(data.cells.size(), [&](std::size_t place) {

@@ -3,6 +3,7 @@
 //! Constants of the compact splitting, in the layout of the inner loops.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -23,14 +24,13 @@ struct CompactData {
   std::vector<Index> row_of;    // V: the row of a vertex; the boundary follows the interior
   std::vector<Cell<Scalar, Dim>> cells;
   std::vector<Index> cell_index;
-  AlignedArray<unsigned char> radius;  // in the storage format of the loops
-  double boundary_dual2 = 0;           // squared radii of the cells without interior corners
-  std::vector<Scalar> vertex_metric;   // empty: w may be negative
+  AlignedArray<Scalar> radius;
+  std::vector<Scalar> vertex_metric;  // empty: w may be negative
   AlignedArray<Scalar> basis;
   std::vector<Scalar> row_target;
 };
 
-//! u, chosen so that radii are about 8 and at most 1000, which keeps P within half precision.
+//! u, chosen so that radii are about 8 and at most 1000.
 template <int Dim>
 double radius_unit(const LbcProblem<Dim>& problem, const splitting::Metric& metric);
 
@@ -63,24 +63,22 @@ template <class Scalar, int Dim>
 void set_constraints(const LbcProblem<Dim>& problem, std::size_t stride,
                      CompactData<Scalar, Dim>& data);
 
-//! Stores values of all cells in slices, in the format of the loops, `Rows` per control point.
+//! Stores values of all cells in slices, `Rows` per control point.
 //! \param of_cell  n x Rows values of a cell of the mesh
 template <int Rows, class Scalar, int Dim, class OfCell>
-void store_in_cells(const CompactData<Scalar, Dim>& data, const Loops<Scalar, Dim>& loops,
-                    const splitting::ColumnSlices& slices, AlignedArray<unsigned char>& stored,
-                    const OfCell& of_cell) {
+void store_in_cells(const CompactData<Scalar, Dim>& data, const splitting::ColumnSlices& slices,
+                    AlignedArray<Scalar>& stored, const OfCell& of_cell) {
   const std::size_t num_rows = data.cells.size() * Rows;
-  parallel_for(data.cells.size(), [&](std::size_t first, std::size_t last) {
-    AlignedArray<Scalar> row(slices.stride());
-    for (std::size_t k = first; k < last; ++k) {
-      const Eigen::Matrix<double, Eigen::Dynamic, Rows> values = of_cell(data.cell_index[k]);
-      for (int r = 0; r < Rows; ++r) {
-        for (Index i = 0; i < values.rows(); ++i) row[i] = static_cast<Scalar>(values(i, r));
-        slices.for_each(k * Rows + r, num_rows,
-                        [&](std::size_t begin, std::size_t width, std::size_t place) {
-                          loops.encode(row.data() + begin, stored.data(), place, width);
-                        });
-      }
+  parallel_for(data.cells.size(), [&](std::size_t k) {
+    const Eigen::Matrix<double, Eigen::Dynamic, Rows> values = of_cell(data.cell_index[k]);
+    const auto n = static_cast<std::size_t>(values.rows());
+    for (int r = 0; r < Rows; ++r) {
+      slices.for_each(k * Rows + r, num_rows,
+                      [&](std::size_t begin, std::size_t width, std::size_t place) {
+                        for (std::size_t i = begin; i < std::min(n, begin + width); ++i) {
+                          stored[place + i - begin] = static_cast<Scalar>(values(i, r));
+                        }
+                      });
     }
   });
 }

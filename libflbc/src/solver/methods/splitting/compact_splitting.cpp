@@ -30,7 +30,7 @@ CompactSplitting<Scalar, Dim>::CompactSplitting(const LbcProblem<Dim>& problem,
   data_ = make_rows_and_cells<Scalar>(problem, metric_, solver_.position(), unit_);
   rows_ = {static_cast<std::size_t>(problem.mesh.num_vertices()) * stride_,
            data_.vertices.size() * stride_, metric_.vertex.size() > 0};
-  P_ = AlignedArray<unsigned char>(data_.cells.size() * Dim * stride_ * loops_->bytes);
+  P_ = AlignedArray<Scalar>(data_.cells.size() * Dim * stride_);
   set_constraints(problem, stride_, data_);
   set_radii();
 }
@@ -63,13 +63,10 @@ void CompactSplitting<Scalar, Dim>::for_slices(const State& state, const Body& b
   const auto of_slice = [&](std::size_t k) {
     const FlushDenormals flush;
     const Slice slice = slices_[k];
-    const auto start_of = [&](std::size_t rows) {
-      return loops_->bytes * slices_.offset_of(slice, rows);
-    };
     State part = state;
     part.cell_stride = slices_.stride_of(slice);
-    part.cell_dual = static_cast<unsigned char*>(state.cell_dual) + start_of(state.num_cells * Dim);
-    part.radius = data_.radius.data() + start_of(state.num_cells);
+    part.cell_dual = state.cell_dual + slices_.offset_of(slice, state.num_cells * Dim);
+    part.radius = state.radius + slices_.offset_of(slice, state.num_cells);
     body(part, Columns{slice.begin, slice.end});
   };
   parallel_for(slices_.size(), of_slice, 2);
@@ -77,69 +74,47 @@ void CompactSplitting<Scalar, Dim>::for_slices(const State& state, const Body& b
 
 // Each thread takes its slice of control points through the cells and the linear system.
 template <class Scalar, int Dim>
-double CompactSplitting<Scalar, Dim>::solve(SliceLoop loop, double relaxation) {
-  const bool measured = loop == loops_->z_step_measured;
-  AlignedArray<double> violation(measured ? stride_ : 0);
-  AlignedArray<Scalar> violation_sum(measured ? stride_ : 0);
+void CompactSplitting<Scalar, Dim>::solve(SliceLoop loop, double relaxation) {
   auto state = arrays();
-  state.violation = violation.data();
-  state.violation_sum = violation_sum.data();
   state.relaxation = static_cast<Scalar>(relaxation);
   for_slices(state, [&](const State& slice, Columns columns) {
     loop(slice, columns);
     solver_.solve_slice(rows_.residual.data(), stride_, columns.begin, columns.end);
   });
-  return std::accumulate(violation.data(), violation.data() + violation.size(), 0.0);
 }
 
 template <class Scalar, int Dim>
-RowSums CompactSplitting<Scalar, Dim>::pass_rows(RowLoop loop) {
+double CompactSplitting<Scalar, Dim>::pass_rows(RowLoop loop) {
   constexpr Index kRowBlock = 256;
   const auto state = arrays();
   const auto num_rows = static_cast<Index>(data_.vertices.size());
-  std::vector<RowSums> parts((num_rows + kRowBlock - 1) / kRowBlock);
+  std::vector<double> changes((num_rows + kRowBlock - 1) / kRowBlock);
   const auto of_block = [&](std::size_t block) {
     const FlushDenormals flush;
     const Index begin = static_cast<Index>(block) * kRowBlock;
-    parts[block] = loop(state, begin, std::min(num_rows, begin + kRowBlock));
+    changes[block] = loop(state, begin, std::min(num_rows, begin + kRowBlock));
   };
-  parallel_for(parts.size(), of_block, 2);
-  RowSums sums;
-  for (const RowSums& part : parts) sums += part;
-  return sums;
+  parallel_for(changes.size(), of_block, 2);
+  return std::accumulate(changes.begin(), changes.end(), 0.0);
 }
 
 template <class Scalar, int Dim>
-splitting::BalanceLengths CompactSplitting<Scalar, Dim>::squared_lengths(
+splitting::CellResiduals CompactSplitting<Scalar, Dim>::cell_residuals(
     const AlignedArray<Scalar>& moved) {
-  AlignedArray<double> dual(stride_);
-  AlignedArray<double> motion(stride_);
+  AlignedArray<double> motion(stride_), violation(stride_);
   for_slices(arrays(), [&](const State& slice, Columns columns) {
-    loops_->balance(slice, columns, moved.data(), dual.data(), motion.data());
+    kernel_.residuals(slice, columns, moved.data(), motion.data(), violation.data());
   });
-  return {std::accumulate(dual.data(), dual.data() + n_, 0.0) + data_.boundary_dual2,
-          std::accumulate(motion.data(), motion.data() + n_, 0.0)};
+  return {std::accumulate(motion.data(), motion.data() + n_, 0.0),
+          std::accumulate(violation.data(), violation.data() + n_, 0.0)};
 }
 
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::set_radii() {
-  data_.radius = AlignedArray<unsigned char>(data_.cells.size() * stride_ * loops_->bytes);
-  store_in_cells<1>(data_, *loops_, slices_, data_.radius, [&](Index s) -> Eigen::VectorXd {
+  data_.radius = AlignedArray<Scalar>(data_.cells.size() * stride_);
+  store_in_cells<1>(data_, slices_, data_.radius, [&](Index s) -> Eigen::VectorXd {
     return dual_scale(problem_, metric_, unit_, s) * problem_.phi.col(s).cwiseMax(kSmallestPhi);
   });
-}
-
-template <class Scalar, int Dim>
-void CompactSplitting<Scalar, Dim>::set_penalty(double penalty) {
-  if (penalty == this->penalty()) return;
-  Base::set_penalty(penalty);
-  Eigen::VectorXd row(n_);
-  for (std::size_t b = 0; b < problem_.boundary.vertices.size(); ++b) {
-    row.setZero();
-    problem_.boundary.scatter(static_cast<Index>(b), row);
-    Scalar* weights = rows_.a.data() + (data_.vertices.size() + b) * stride_;
-    for (Index i = 0; i < n_; ++i) weights[i] = static_cast<Scalar>(sigma() * row[i]);
-  }
 }
 
 // ---- starts -------------------------------------------------------------------------------------
@@ -167,8 +142,8 @@ void CompactSplitting<Scalar, Dim>::start_from_harmonic(int steps) {
   std::fill_n(rows_.residual.data(), rows_.residual.size(), Scalar(0));
   const double numbers = static_cast<double>(data_.vertices.size()) * n_ * sigma() * sigma();
   for (int step = 0; step < steps; ++step) {
-    solve(loops_->harmonic_residual, parameters_.relaxation);
-    if (pass_rows(loops_->correct).change <= plan::kHarmonicChange * numbers) break;
+    solve(kernel_.harmonic_residual, parameters_.relaxation);
+    if (pass_rows(kernel_.correct) <= plan::kHarmonicChange * numbers) break;
   }
   begin_from_weights();
 }
@@ -178,14 +153,13 @@ template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::begin_from_weights() {
   std::copy_n(rows_.a.data(), rows_.W.size(), rows_.W.data());
   std::fill_n(rows_.S.data(), rows_.S.size(), Scalar(0));
-  for_slices(arrays(), loops_->start_cell_dual);
-  pass_rows(loops_->w_step);
-  if (parameters_.balances) rows_.keep_start();
+  for_slices(arrays(), kernel_.start_cell_dual);
+  pass_rows(kernel_.w_step);
 }
 
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::set_cell_dual(const VectorsAt<Dim>& flux_density) {
-  store_in_cells<Dim>(data_, *loops_, slices_, P_, [&](Index s) -> Vectors<Dim> {
+  store_in_cells<Dim>(data_, slices_, P_, [&](Index s) -> Vectors<Dim> {
     return dual_scale(problem_, metric_, unit_, s) * flux_density(s);
   });
 }
@@ -208,14 +182,13 @@ Vectors<Dim> CompactSplitting<Scalar, Dim>::cell_dual(Index cell) const {
   const auto& cells = data_.cell_index;
   const auto k =
       static_cast<std::size_t>(std::lower_bound(cells.begin(), cells.end(), cell) - cells.begin());
-  AlignedArray<Scalar> row(stride_);
   Vectors<Dim> dual(n_, Dim);
   for (int d = 0; d < Dim; ++d) {
     slices_.for_each(k * Dim + d, cells.size() * Dim,
                      [&](std::size_t begin, std::size_t width, std::size_t place) {
-                       loops_->decode(P_.data(), place, row.data() + begin, width);
+                       const auto end = std::min<std::size_t>(n_, begin + width);
+                       for (auto i = begin; i < end; ++i) dual(i, d) = P_[place + i - begin];
                      });
-    for (Index i = 0; i < n_; ++i) dual(i, d) = row[i];
   }
   return dual;
 }
@@ -239,7 +212,7 @@ AlignedArray<Scalar> CompactSplitting<Scalar, Dim>::flux() const {
   }
   const State state = const_cast<CompactSplitting*>(this)->arrays();  // the loop only reads it
   for_slices(state, [&](const State& slice, Columns columns) {
-    loops_->flux(slice, columns, scale.data(), flux.data());
+    kernel_.flux(slice, columns, scale.data(), flux.data());
   });
   return flux;
 }
@@ -253,10 +226,9 @@ Certificate CompactSplitting<Scalar, Dim>::certify(const WeightMatrix& weights,
 
 template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::describe(SolveReport& report) const {
-  const auto vertex_numbers = static_cast<double>(rows_.size());
-  const double cell_numbers = static_cast<double>(P_.size()) / sizeof(Scalar);
+  const auto numbers = static_cast<double>(rows_.size() + P_.size());
   report.state_scalars_per_cell =
-      (vertex_numbers + cell_numbers) / static_cast<double>(stride_) / problem_.mesh.num_cells();
+      numbers / static_cast<double>(stride_) / problem_.mesh.num_cells();
   report.penalty = this->penalty();
 }
 

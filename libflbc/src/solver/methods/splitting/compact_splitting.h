@@ -40,8 +40,7 @@ using splitting::Parameters;
 //! acts on columns and M on rows. So Y = K^-1 (R - K H) M^T gives W = K^-1 R M^T M + H, where
 //! M^T M = I - Q Q^T.
 //!
-//! A cell stores only P, which is at most a few radii long and fits half precision. (With epsilon
-//! it may be longer: theta times a gradient.) The metric is m = A if epsilon > 0. Cells without
+//! A cell stores only P. The metric is m = A if epsilon > 0. Cells without
 //! interior corners are omitted, because they do not affect the weights. With an approximate linear
 //! solver, this is a preconditioned primal-dual iteration with the same limit.
 //!
@@ -82,22 +81,21 @@ class CompactSplitting final : public splitting::Splitting<Scalar, Dim> {
 
  private:
   using Base = splitting::Splitting<Scalar, Dim>;
-  using Base::data_, Base::kernel_, Base::loops_, Base::metric_, Base::n_, Base::P_,
-      Base::parameters_, Base::problem_, Base::rows_, Base::sigma, Base::unit_;
+  using Base::data_, Base::kernel_, Base::metric_, Base::n_, Base::P_, Base::parameters_,
+      Base::problem_, Base::rows_, Base::sigma, Base::unit_;
   using typename Base::Row, typename Base::RowLoop, typename Base::SliceLoop, typename Base::State;
 
   State arrays();
   void begin_from_weights();
   template <class Body>
   void for_slices(const State& state, const Body& body) const;
-  double solve(SliceLoop loop, double relaxation) override;
-  RowSums pass_rows(RowLoop loop) override;
-  splitting::BalanceLengths squared_lengths(const AlignedArray<Scalar>& moved) override;
+  void solve(SliceLoop loop, double relaxation) override;
+  double pass_rows(RowLoop loop) override;
+  splitting::CellResiduals cell_residuals(const AlignedArray<Scalar>& moved) override;
   Row row(Index index) const override { return {index * stride_, n_, nullptr}; }
   Vectors<Dim> cell_dual(Index cell) const override;
   void set_cell_dual(const VectorsAt<Dim>& flux_density) override;
-  void set_radii() override;
-  void set_penalty(double penalty) override;
+  void set_radii();
 
   const std::size_t stride_;
   const splitting::ColumnSlices slices_;  // one per thread; P and radii are in their order

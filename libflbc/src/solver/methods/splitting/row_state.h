@@ -17,7 +17,6 @@ struct RowState {
   AlignedArray<Scalar> a;               // of all rows
   AlignedArray<Scalar> W, S, residual;  // of interior rows; S is empty if w may be negative
   AlignedArray<Scalar> difference;      // w - W of all rows, where measured
-  AlignedArray<Scalar> start;           // w at the start of interior rows, while it is needed
 
   RowState() = default;
   RowState(std::size_t all, std::size_t interior, bool non_negative)
@@ -34,16 +33,13 @@ struct RowState {
     arrays.residual = residual.data() + first;
   }
 
-  //! Calls step() with S for the w_step of the next iteration. If that waits for another penalty, a
-  //! measured step takes a copy of S, and others leave it out.
+  //! Calls step() without S, whose w_step for the next iteration waits.
   template <class Step>
-  auto with_dual(bool waits, bool measured, const Step& step) {
-    if (!waits) return step();
-    AlignedArray<Scalar> other(measured ? S.size() : 0);
-    std::copy_n(S.data(), other.size(), other.data());
-    std::swap(S, other);
+  auto without_dual(const Step& step) {
+    AlignedArray<Scalar> none;
+    std::swap(S, none);
     const auto result = step();
-    std::swap(S, other);
+    std::swap(S, none);
     return result;
   }
 
@@ -53,30 +49,19 @@ struct RowState {
     parallel_for(W.size(), [&](std::size_t k) { difference[k] = Scalar(0.5) * (a[k] - W[k]); });
   }
 
-  //! Begins to measure the motion of w.
-  void keep_start() {
-    start = AlignedArray<Scalar>(W.size());
-    std::copy_n(a.data(), start.size(), start.data());
+  //! w of interior rows.
+  AlignedArray<Scalar> w() const {
+    AlignedArray<Scalar> w(W.size());
+    parallel_for(w.size(), [&](std::size_t k) { w[k] = Scalar(0.5) * (a[k] + W[k]); });
+    return w;
   }
 
-  //! The motion of w since then, of all rows. Sets w - W.
-  AlignedArray<Scalar> moved() {
-    set_difference();
+  //! The change of w since `before`, of all rows.
+  AlignedArray<Scalar> moved(const AlignedArray<Scalar>& before) const {
     AlignedArray<Scalar> moved(a.size());
-    parallel_for(W.size(), [&](std::size_t k) { moved[k] = a[k] - difference[k] - start[k]; });
+    parallel_for(W.size(),
+                 [&](std::size_t k) { moved[k] = Scalar(0.5) * (a[k] + W[k]) - before[k]; });
     return moved;
-  }
-
-  //! Another penalty: in the units of the arrays the duals do not change, and w changes with sigma.
-  //! The step w - W belongs to the duals. \param factor  of sigma
-  void scale_interior(Scalar factor) {
-    set_difference();
-    parallel_for(W.size(), [&](std::size_t k) {
-      const Scalar w = factor * (a[k] - difference[k]);
-      W[k] = w - difference[k];
-      a[k] = w + difference[k];
-    });
-    parallel_for(start.size(), [&](std::size_t k) { start[k] *= factor; });
   }
 
   //! sigma (q - w)

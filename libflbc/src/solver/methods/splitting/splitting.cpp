@@ -8,7 +8,6 @@
 #include "base/instantiate.h"
 #include "base/parallel.h"
 #include "problem/boundary_flux.h"
-#include "solver/plan/constants.h"
 
 namespace flbc::splitting {
 
@@ -22,9 +21,7 @@ Splitting<Scalar, Dim>::Splitting(const LbcProblem<Dim>& problem, Metric metric,
       n_(problem.num_control_points()),
       metric_(std::move(metric)),
       unit_(compact::radius_unit(problem, metric_)),
-      loops_(parameters.half ? &kernel.half : &kernel.exact),
-      penalty_(parameters.part * parameters.penalty),
-      rule_(parameters.balances, parameters.looks, problem.smoothness, parameters.part) {
+      penalty_(parameters.part * parameters.penalty) {
 }
 
 // Calls body(control point, place) for the values of a vertex.
@@ -35,92 +32,46 @@ void Splitting<Scalar, Dim>::for_row(Index vertex, const Body& body) const {
   for (Index j = 0; j < count; ++j) body(items == nullptr ? j : Index{items[j]}, first + j);
 }
 
-// z_step and solve for all cells, then y_step for all rows, with the next iteration's w_step.
 template <class Scalar, int Dim>
-Step Splitting<Scalar, Dim>::iterate(int made, int count, bool measure) {
-  const double relaxation = parameters_.relaxation;
-  for (int k = 1; k < count; ++k) {
-    solve(loops_->z_step, relaxation);
-    pass_rows(loops_->y_step);
-  }
-  const auto due = rule_.due(made + count);
-  const bool looks = due == Due::kLook;
-  const bool paper = looks || (measure && parameters_.paper_residuals);
-  const bool measured = measure || looks;
-  AlignedArray<Scalar> w;
-  if (paper) w = all_rows_of_w();
-  if (measured) rows_.set_difference();
-  const double of_cells = solve(measured ? loops_->z_step_measured : loops_->z_step, relaxation);
-  const auto sums = rows_.with_dual(due != Due::kNothing, measured, [&] {
-    return pass_rows(measured ? loops_->y_step_measured : loops_->y_step);
-  });
-  const double scale = 1 / (sigma() * sigma());
-  if (!measured) return {scale * sums.change};
-  Step step{scale * sums.change, scale * (of_cells + sums.violation)};
-  if (paper) {
-    measure_paper_residuals(std::move(w), looks ? scale * of_cells : step.violation, step);
-  }
+Step Splitting<Scalar, Dim>::iterate(int made, int count) {
+  const auto iterate_once = [this] {
+    solve(kernel_.z_step, parameters_.relaxation);
+    return pass_rows(kernel_.y_step) / (sigma() * sigma());
+  };
+  for (int k = 1; k < count; ++k) iterate_once();
+  const bool measures = parameters_.paper_residuals && (made + count) % interval() == 0;
+  if (!measures) return {iterate_once()};
+  // The w_step waits until the residuals are measured.
+  const auto before = rows_.w();
+  Step step{rows_.without_dual(iterate_once)};
+  measure_paper_residuals(rows_.moved(before), step);
+  pass_rows(kernel_.w_step);
   return step;
 }
 
-// w of the interior rows; zero on the boundary, where it does not change.
-template <class Scalar, int Dim>
-AlignedArray<Scalar> Splitting<Scalar, Dim>::all_rows_of_w() const {
-  AlignedArray<Scalar> w(rows_.a.size());
-  parallel_for(rows_.W.size(),
-               [&](std::size_t k) { w[k] = Scalar(0.5) * (rows_.a[k] + rows_.W[k]); });
-  return w;
-}
-
 // r_p is the violation of the constraints, r_d = rho times the change of the gradients and the
-// weights in an iteration, both in the metric. \param moved  w before the iteration
-// \param violation  squared; a look takes that of the gradients
+// weights in an iteration, both in the metric. \param moved  the change of w
 template <class Scalar, int Dim>
-void Splitting<Scalar, Dim>::measure_paper_residuals(AlignedArray<Scalar> moved, double violation,
+void Splitting<Scalar, Dim>::measure_paper_residuals(const AlignedArray<Scalar>& moved,
                                                      Step& step) {
-  const auto after = all_rows_of_w();
-  parallel_for(moved.size(), [&](std::size_t k) { moved[k] = after[k] - moved[k]; });
-  double of_rows = 0;
+  rows_.set_difference();
+  const auto of_cells = cell_residuals(moved);
+  double moved_rows = 0;
+  double violation = of_cells.violation;
   for (std::size_t k = 0; k < data_.vertex_metric.size(); ++k) {
-    for_row(data_.vertices[k], [&](Index, std::size_t place) {
-      const auto delta = static_cast<double>(moved[place]);
-      of_rows += static_cast<double>(data_.vertex_metric[k]) * delta * delta;
+    const auto metric = static_cast<double>(data_.vertex_metric[k]);
+    for_row(data_.vertices[k], [&](Index, std::size_t j) {
+      const double w = 0.5 * (static_cast<double>(rows_.a[j]) + static_cast<double>(rows_.W[j]));
+      const double u =
+          std::max(0.0, static_cast<double>(rows_.a[j]) - static_cast<double>(rows_.S[j]));
+      violation += metric * (u - w) * (u - w);
+      moved_rows += metric * static_cast<double>(moved[j]) * static_cast<double>(moved[j]);
     });
   }
-  const double of_cells = squared_lengths(moved).motion2;
   const double components = static_cast<double>(problem_.mesh.num_cells()) * Dim +
                             static_cast<double>(data_.vertex_metric.size());
-  step.primal = std::sqrt(violation) / (components * n_);
-  step.dual = penalty_ * std::sqrt(of_cells + of_rows) / sigma() / (components * n_);
-}
-
-template <class Scalar, int Dim>
-void Splitting<Scalar, Dim>::set_penalty(double penalty) {
-  rows_.scale_interior(static_cast<Scalar>(penalty / penalty_));
-  penalty_ = penalty;
-}
-
-template <class Scalar, int Dim>
-int Splitting<Scalar, Dim>::adapt(const Milestone& at) {
-  if (const auto due = rule_.due(at.made); due != Due::kNothing) {
-    set_penalty(due == Due::kBalance
-                    ? rule_.balanced(penalty_, squared_lengths(rows_.moved()))
-                    : rule_.after_look(at.made, penalty_, at.step.primal / at.step.dual));
-    pass_rows(loops_->w_step);
-  }
-  const int until_settled = extend(at);
-  if (stores_half() && plan::ends_half_precision(at.made, at.error)) store_in_single();
-  return std::max(until_settled, rule_.to_make(at.made));
-}
-
-template <class Scalar, int Dim>
-void Splitting<Scalar, Dim>::store_in_single() {
-  const std::size_t size = P_.size() / loops_->bytes;
-  AlignedArray<unsigned char> exact(size * sizeof(Scalar));
-  loops_->decode(P_.data(), 0, reinterpret_cast<Scalar*>(exact.data()), size);
-  P_ = std::move(exact);
-  loops_ = &kernel_.exact;
-  set_radii();
+  step.primal = std::sqrt(violation) / sigma() / (components * n_);
+  step.dual = penalty_ * std::sqrt(of_cells.motion + moved_rows) / sigma() / (components * n_);
 }
 
 // ---- starts -------------------------------------------------------------------------------------
@@ -131,11 +82,10 @@ void Splitting<Scalar, Dim>::start(const Start<Dim>& start) {
   std::copy_n(rows_.a.data(), rows_.W.size(), rows_.W.data());
   set_cell_dual(start.flux_density);
   set_vertex_dual(start.vertex_dual_at(penalty_));
-  solve(loops_->z_step, 0);
-  pass_rows(loops_->correct);
+  solve(kernel_.z_step, 0);
+  pass_rows(kernel_.correct);
   parallel_for(rows_.W.size(), [&](std::size_t k) { rows_.W[k] = 2 * rows_.W[k] - rows_.a[k]; });
-  pass_rows(loops_->w_step);
-  if (parameters_.balances) rows_.keep_start();
+  pass_rows(kernel_.w_step);
 }
 
 template <class Scalar, int Dim>

@@ -6,21 +6,25 @@
 #include "base/aligned_array.h"
 #include "base/kernel_dispatch.h"
 #include "flbc/lbc_problem.h"
+#include "linear/linear_solver.h"
 #include "solver/methods/splitting/compact_data.h"
-#include "solver/methods/splitting/penalty_rule.h"
 #include "solver/methods/splitting/row_state.h"
+#include "solver/plan/constants.h"
 #include "solver/run/iteration.h"
 
 namespace flbc::splitting {
+
+//! Squared norms in the metric, over cells.
+struct CellResiduals {
+  double motion = 0;     //!< of a change of the gradients
+  double violation = 0;  //!< of z - grad w for the next z
+};
 
 //! Parameters of a splitting.
 struct Parameters {
   double penalty = 1;                                  //!< rho > 0
   double relaxation = 1;                               //!< alpha in (0, 2)
   LinearSolver linear_solver = LinearSolver::kDirect;  //!< or kMultigrid; for all pairs
-  bool half = false;             //!< stores P and the radii in half precision; for float only
-  bool balances = false;         //!< adapts the penalty (penalty_rule.h): early after a cold start
-  bool looks = false;            //!< and late
   bool harmonic_cold = false;    //!< a cold start computes accurate harmonic coordinates, instead
                                  //!< of approximately minimizing sum m |grad w|^2 with the existing
                                  //!< factor
@@ -38,21 +42,16 @@ class Splitting : public Iteration<Dim> {
   //! solution.
   void start(const Start<Dim>& start) override;
 
-  //! Step::change refers to the last iteration. Step::violation, if measured, is the violation of z
-  //! = grad w before the iteration and of u = w after it, because the w_step of the next iteration
-  //! is performed in advance. If the penalty rule is due after it, that w_step waits for adapt().
-  Step iterate(int made, int count, bool measure) override;
+  int interval() const override { return parameters_.paper_residuals ? plan::kCheckInterval : 1; }
 
-  //! Changes the penalty if the rule is due, and the storage of duals to single precision once half
-  //! precision makes them fluctuate.
-  int adapt(const Milestone& at) override;
-
-  void store_in_single();
-  bool stores_half() const { return loops_ == &kernel_.half; }
+  //! Steps of compact_splitting.h. The w_step of the next iteration is fused with the y_step.
+  //! \return change and, if the parameters ask for them, r_p of the next z_step and w_step, and r_d
+  Step iterate(int made, int count) override;
 
   double penalty() const { return penalty_; }
 
-  void read_weights(Index vertex, double* weights) const override;
+  //! Writes the n weights of an interior vertex.
+  void read_weights(Index vertex, double* weights) const;
 
   //! The penalty refers to all pairs. Flux densities are zero in cells between boundary vertices.
   Start<Dim> state() const override;
@@ -62,8 +61,8 @@ class Splitting : public Iteration<Dim> {
 
  protected:
   using State = compact::Arrays<Scalar, Dim>;
-  using SliceLoop = typename compact::Loops<Scalar, Dim>::SliceLoop;
-  using RowLoop = typename compact::Loops<Scalar, Dim>::RowLoop;
+  using SliceLoop = typename compact::Kernel<Scalar, Dim>::SliceLoop;
+  using RowLoop = typename compact::Kernel<Scalar, Dim>::RowLoop;
 
   //! The place of a row in the arrays, and its control points, ascending; null for all.
   struct Row {
@@ -78,45 +77,38 @@ class Splitting : public Iteration<Dim> {
   double sigma() const { return penalty_ * unit_; }
 
   //! Runs a loop over all cells, then solves the linear system.
-  //! \return the squared violation of z = grad w, if the loop measures it
-  virtual double solve(SliceLoop loop, double relaxation) = 0;
-  virtual compact::RowSums pass_rows(RowLoop loop) = 0;
-  //! |P + G (w - W)|^2 of all cells, those at the boundary included, and |G moved|^2; needs w - W.
-  virtual BalanceLengths squared_lengths(const AlignedArray<Scalar>& moved) = 0;
+  virtual void solve(SliceLoop loop, double relaxation) = 0;
+  //! \return the squared change of w, in the units of the arrays
+  virtual double pass_rows(RowLoop loop) = 0;
+  //! Squared norms over cells with interior corners, for paper_residuals.
+  //! \param moved  rows: a change of w
+  virtual CellResiduals cell_residuals(const AlignedArray<Scalar>&) { return {}; }
 
   virtual Row row(Index index) const = 0;
   //! P of a cell with interior corners.
   virtual Vectors<Dim> cell_dual(Index cell) const = 0;
   virtual void set_cell_dual(const VectorsAt<Dim>& flux_density) = 0;
-  virtual void set_radii() = 0;
-  //! Keeps weights and duals of interior rows. The w_step that waited for it must follow.
-  virtual void set_penalty(double penalty);
   //! Sets a, as sigma w. \param weights  of an interior vertex
   virtual void set_weights(const VectorsAt<1>& weights);
-  //! Adds pairs. \return iterations to make before the run may end
-  virtual int extend(const Milestone&) { return 0; }
 
   const LbcProblem<Dim>& problem_;
   const compact::Kernel<Scalar, Dim>& kernel_;
   const Parameters parameters_;
   const Index n_;
   const Metric metric_;
-  const double unit_;  // u
-  const compact::Loops<Scalar, Dim>* loops_;
-  double penalty_;  // rho
-  PenaltyRule rule_;
+  const double unit_;     // u
+  const double penalty_;  // rho
   // made by the subclass; interior vertices in the order of its linear solver, then the boundary
   compact::CompactData<Scalar, Dim> data_;
   RowState<Scalar> rows_;
-  AlignedArray<unsigned char> P_;  // by cells with interior corners, in the storage format
+  AlignedArray<Scalar> P_;  // by cells with interior corners
 
  private:
   template <class Body>
   void for_row(Index vertex, const Body& body) const;
   Eigen::VectorXd vertex_dual_at(Index vertex) const;
   void set_vertex_dual(const VectorsAt<1>& vertex_dual);
-  AlignedArray<Scalar> all_rows_of_w() const;
-  void measure_paper_residuals(AlignedArray<Scalar> moved, double violation, Step& step);
+  void measure_paper_residuals(const AlignedArray<Scalar>& moved, Step& step);
 };
 
 }  // namespace flbc::splitting
