@@ -123,8 +123,8 @@ void add_compare_command(CLI::App& app, int& exit_status) {
   command->option_defaults()->group("Comparison");
   command
       ->add_option("--methods", a.methods,
-                   "coordinates, separated by commas (default: all). local: two columns, with "
-                   "smoothness 0 and 0.003")
+                   "coordinates, separated by commas (default: all). local: the default of flbc "
+                   "solve")
       ->delimiter(',')
       ->check(CLI::IsMember(comparable_methods()))
       ->type_name("local|harmonic|bbw|meanvalue|maxentropy|maxlikelihood|green|blended");

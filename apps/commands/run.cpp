@@ -232,7 +232,6 @@ int run_model(const CLI::App& command, RunArguments& arguments) {
 int run_command(const CLI::App& command, RunArguments& arguments) {
   check_arguments(arguments);
   arguments.settings.needs_domain = true;
-  if (!arguments.settings.coordinates) make_smooth(arguments.settings.options);
   if (arguments.makes_cage) return run_model(command, arguments);
   refuse_unread_options(command, arguments.settings);
   auto& model = arguments.settings.model;

@@ -54,8 +54,8 @@ void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solve
     std::cerr << solver.points().cols() << " vertices of the model, no mesh; ";
   } else {
     std::cerr << report.vertices << " vertices, " << report.cells
-              << (Dim == 2 ? " triangles; " : " tetrahedra; ") << describe_iterations(report)
-              << ", ";
+              << (Dim == 2 ? " triangles; " : " tetrahedra; ")
+              << describe_iterations(report, arguments.settings) << ", ";
   }
   std::cerr << report.seconds.solve << " s; minimum weight " << delivered.min_weight
             << ", reproduction error " << delivered.max_reproduction_error;

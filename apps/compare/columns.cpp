@@ -25,11 +25,10 @@
 namespace flbc::app {
 namespace {
 
-constexpr const char* kLocal = "local";
 constexpr const char* kBlended = "blended";
 
 // In the order of the table, with their titles in pictures.
-constexpr std::pair<const char*, const char*> kMethods[] = {{kLocal, "local"},
+constexpr std::pair<const char*, const char*> kMethods[] = {{"local", "local"},
                                                             {"harmonic", "harmonic"},
                                                             {"bbw", "bounded biharmonic"},
                                                             {"meanvalue", "mean value"},
@@ -125,9 +124,9 @@ void add_distortion(const Comparison<Dim>& all, const MovedBy<Dim>& mesh, Column
 template <int Dim>
 void measure(const Comparison<Dim>& all, const MovedBy<Dim>& mesh, const StageSeconds& seconds,
              Column<Dim>& column) {
-  column.facts = {
-      {"method", name_of_method(column.settings, resolve(column.settings.options).method)},
-      {"smoothness", column.settings.options.smoothness.value_or(0)}};
+  const auto& settings = column.settings;
+  column.facts = {{"method", name_of_method(settings, settings.options.method)},
+                  {"smoothness", settings.coordinates ? 0 : *resolve(settings.options).smoothness}};
   const auto check = check_weights(all.cage, all.domain, column.of_mesh);
   column.facts.update(properties_of(check));
   column.facts["total_variation"] =
@@ -177,16 +176,7 @@ std::vector<Column<Dim>> columns_of(const std::vector<std::string>& methods) {
     const bool is_possible = Dim == 2 || name != std::string(kBlended);
     if (!(methods.empty() ? is_possible : is_given)) continue;
     Column<Dim> column{name, title};
-    if (name != std::string(kLocal)) {
-      column.settings.coordinates = value_named<Coordinates>(name);
-      columns.push_back(column);
-      continue;
-    }
-    column.settings.options.smoothness = 0;
-    columns.push_back(column);
-    column.name = "local_smooth";
-    column.title = "local, smooth";
-    column.settings.options.smoothness = kDeformationSmoothness;
+    column.settings.coordinates = value_named<Coordinates>(name);
     columns.push_back(column);
   }
   return columns;

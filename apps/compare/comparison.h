@@ -76,8 +76,7 @@ struct Comparison {
 
 std::vector<std::string> comparable_methods();
 
-//! A column for each method, but two for local coordinates: of smoothness 0 and of the default for
-//! models. \param methods  empty for all
+//! A column for each method. \param methods  empty for all
 template <int Dim>
 std::vector<Column<Dim>> columns_of(const std::vector<std::string>& methods);
 

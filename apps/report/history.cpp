@@ -65,7 +65,8 @@ RunHistory parse(const Json& solve) {
 HistoryRecorder::HistoryRecorder(const SolverOptions& options)
     : start_(std::chrono::steady_clock::now()) {
   const auto resolved = resolve(options);
-  const bool estimates = resolved.method == Method::kValue || resolved.method == Method::kGradient;
+  const bool estimates =
+      resolved.method == Method::kWeights || resolved.method == Method::kGradient;
   if (estimates) tolerance_ = *resolved.tolerance;
 }
 

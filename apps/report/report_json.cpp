@@ -49,13 +49,11 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
           {"phi", settings.phi.empty() ? name_of(options.phi) : settings.phi},
           {"smoothness", *options.smoothness},
           {"distances", name_of(options.distances)},
-          {"linear_solver", name_of(options.linear_solver)},
           {"precision", name_of(options.precision)},
           {"tolerance", *options.tolerance},
           {"gap", *options.gap},
           {"max_iterations", options.max_iterations},
           {"penalty", penalty_asked_for(report, settings)},
-          {"relaxation", *options.relaxation},
           {"threads", options.threads}};
 }
 
@@ -72,15 +70,12 @@ bool is_certified(const SolveReport& report) {
   return report.certificate.objective > 0;
 }
 
-std::string describe_iterations(const SolveReport& report) {
-  std::ostringstream text;
-  text.precision(2);
-  text << (report.parts.empty() ? "" : "at most ") << report.iterations << " iterations";
-  if (report.criterion == Criterion::kGap) {
-    text << ", ended by the certified gap, at " << report.relative_primal_residual
-         << " times the tolerance of the weights";
-  }
-  return text.str();
+std::string describe_iterations(const SolveReport& report, const SolveSettings& settings) {
+  const auto text = std::string(report.parts.empty() ? "" : "at most ") +
+                    std::to_string(report.iterations) + " iterations";
+  if (report.criterion == Criterion::kGap) return text + ", ended by the certified gap";
+  const bool is_guess = report.criterion == Criterion::kTolerance && is_ambiguous(settings);
+  return is_guess ? text + ", ended by the estimated error" : text;
 }
 
 nlohmann::ordered_json part_json(const SolveReport& report, Index first_control_point) {

@@ -30,7 +30,7 @@ nlohmann::ordered_json part_json(const SolveReport& report, Index first_control_
 bool is_certified(const SolveReport& report);
 
 //! "1100 iterations", and by which criterion they ended if it is not the usual one.
-std::string describe_iterations(const SolveReport& report);
+std::string describe_iterations(const SolveReport& report, const SolveSettings& settings);
 
 //! Text for a file, with a line break at the end. File names in it need not be UTF-8, which JSON
 //! must be: what is not is replaced.

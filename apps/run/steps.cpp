@@ -74,9 +74,9 @@ void compute_weights(Run<Dim>& run) {
   Facts facts;
   facts << name_of_method(run.arguments.settings, report.method);
   if (!report.parts.empty()) facts << ", " << report.parts.size() << " parts";
-  if (report.iterations > 0) facts << ", " << describe_iterations(report);
+  if (report.iterations > 0) facts << ", " << describe_iterations(report, run.arguments.settings);
   if (report.status != SolveStatus::kConverged) facts << " (not converged)";
-  const double smoothness = run.arguments.settings.options.smoothness.value_or(0);
+  const double smoothness = run.report["solve"]["options"]["smoothness"];
   if (smoothness > 0) facts << ", smoothness " << smoothness;
   facts << "; " << delivered.mean_influences
         << " influences above 1e-4 per vertex, smallest weight " << delivered.min_weight
@@ -94,7 +94,7 @@ void check_weights_of_mesh(Run<Dim>& run) {
   auto check = check_cage(run.cage, run.arguments.settings.cage);
   check.domain_file = run.report["mesh"]["file"];
   check.weights_file = run.has_model() ? kDomainWeights : kWeights;
-  // The report of the solve has the weighted variation as its objective.
+  // Without the weighted variation, because the report of the solve has the objective.
   check_weights_of(check, run.solver.domain(), run.solver.domain_weights(), false);
   run.report["check"] = check_json(check);
 }

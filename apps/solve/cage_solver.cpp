@@ -107,7 +107,7 @@ Solution compute_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
   }
   if (settings.phi.empty()) return flbc::solve(cage, domain, options, mesher, observer);
   auto problem =
-      make_problem(cage, domain, DistanceScheme::kConstant, options.smoothness.value_or(0));
+      make_problem(cage, domain, DistanceScheme::kConstant, *resolve(options).smoothness);
   problem.phi = WeightFunctions(read_weight_file(settings.phi).dense());
   return naming(settings.phi, [&] { return flbc::solve(problem, options, {}, observer); });
 }
@@ -199,10 +199,13 @@ void CageSolver<Dim>::make_domain(bool quiet) {
 
 template <int Dim>
 void CageSolver<Dim>::announce() const {
-  const auto method = resolve(settings_.options).method;
-  const auto estimate =
-      estimate_solve(Dim, cage_.size(), domain_.num_vertices(), settings_.options);
-  if (settings_.coordinates || method != Method::kValue || !is_long(estimate)) return;
+  if (is_ambiguous(settings_)) {
+    std::cerr << "flbc: without smoothness the optimum does not determine the weights; the "
+                 "certified gap bounds the objective\n";
+  }
+  const auto& options = settings_.options;
+  const auto estimate = estimate_solve(Dim, cage_.size(), domain_.num_vertices(), options);
+  if (settings_.coordinates || options.method != Method::kWeights || !is_long(estimate)) return;
   std::cerr << "flbc: solving for " << cage_.size() << " control points and "
             << domain_.num_vertices() << " vertices; this may take " << describe(estimate) << '\n';
 }
@@ -262,9 +265,9 @@ SparseWeights CageSolver<Dim>::weights_of_model() const {
 // Of weights of a method that does not minimize it.
 template <int Dim>
 double CageSolver<Dim>::objective() const {
-  const auto problem = make_problem(cage_, domain_, settings_.options.phi);
-  return flbc::objective(problem.mesh, problem.phi, domain_weights()) /
-         std::pow(problem.scale, Dim - 1);
+  const auto& options = settings_.options;
+  const auto problem = make_problem(cage_, domain_, options.phi, *resolve(options).smoothness);
+  return flbc::objective(problem, domain_weights()) / std::pow(problem.scale, Dim - 1);
 }
 
 template <int Dim>

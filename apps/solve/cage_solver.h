@@ -74,7 +74,7 @@ class CageSolver {
   // Without a mesh. Vertices of no face may be outside: they follow the nearest point of the cage.
   void place_in_cage(bool quiet);
   void fill_cage(bool quiet);
-  // Says how long a long solve may take.
+  // Says what the problem does not determine, and how long a long solve may take.
   void announce() const;
   void solve_without_mesh();
   SparseWeights weights_of_model() const;

@@ -50,7 +50,8 @@ double share_before(int finer_levels, int levels) {
 
 ProgressEstimate::ProgressEstimate(const SolverOptions& options) {
   const auto resolved = resolve(options);
-  const bool estimates = resolved.method == Method::kValue || resolved.method == Method::kGradient;
+  const bool estimates =
+      resolved.method == Method::kWeights || resolved.method == Method::kGradient;
   if (estimates) tolerance_ = *resolved.tolerance;
 }
 

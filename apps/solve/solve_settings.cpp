@@ -13,6 +13,12 @@ bool is_meshless(const SolveSettings& settings) {
          !settings.needs_domain;
 }
 
+bool is_ambiguous(const SolveSettings& settings) {
+  const auto& options = settings.options;
+  const bool smooths = options.method == Method::kWeights || options.method == Method::kGradient;
+  return smooths && !settings.coordinates && *resolve(options).smoothness == 0;
+}
+
 void validate_settings(const SolveSettings& settings) {
   const auto& options = settings.options;
   if (!settings.coordinates) return validate(options);
@@ -47,13 +53,12 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
   const auto name = std::string("the method ") + name_of_method(settings, method);
   if (settings.coordinates) {
     for (const char* option :
-         {"--phi", "--smoothness", "--distances", "--linear-solver", "--precision",
-          "--coarse-to-fine", "--active", "--tolerance", "--gap", "--max-iterations", "--penalty",
-          "--relaxation", "--certify"}) {
+         {"--phi", "--smoothness", "--distances", "--precision", "--coarse-to-fine", "--active",
+          "--tolerance", "--gap", "--max-iterations", "--penalty", "--certify"}) {
       refuse(option, name + " does not use it");
     }
   }
-  if (method != Method::kAuto && method != Method::kValue) {
+  if (method != Method::kWeights) {
     refuse("--active", name + " does not use it");
     refuse("--coarse-to-fine", name + " does not use it");
   }
@@ -112,18 +117,20 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
   };
   auto* method = add_choice(
       command, "--method", methods, take,
-      "coordinates and solver (default: auto, which is value). Local coordinates: value, "
-      "lbc2014, gradient, paper. All others are other coordinates, for comparison");
+      "coordinates and solver (default: weights). Local coordinates: weights, gradient, paper, "
+      "lbc2014. All others are other coordinates, for comparison");
+  // The name in 0.1, which scripts use.
+  method->transform([](std::string name) { return name == "value" ? "weights" : name; });
   // Green coordinates are refused with the reason, so help does not offer them.
   const auto offered = method->get_type_name();
   method->type_name(offered.substr(0, offered.find("|green")));
   command.add_option("--smoothness", options.smoothness,
-                     "remove kinks of the weights at the cost of more influences: 0 (none) to 0.03 "
-                     "(default: 0; flbc run: 0.003)");
+                     "remove kinks of the weights at the cost of more influences: 0 (none, the "
+                     "problem of the papers) to 0.03 (default: 0.003; 0 for paper and lbc2014)");
   command.add_option("--tolerance", options.tolerance,
                      "target for the estimated mean squared error of the weights, or for the "
-                     "residuals of paper and lbc2014 (default: 1e-6 for gradient, 1e-7 for other "
-                     "methods)");
+                     "residuals of paper and lbc2014 (default: 1e-6; 1e-7 for paper and lbc2014; "
+                     "none with --smoothness 0, see --gap)");
   command.add_flag("--certify", options.certify,
                    "prove by how much the objective can exceed its minimum");
   command.add_option("--threads", options.threads, "number of threads (default: all cores)");
@@ -143,23 +150,17 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
   add_choice(command, "--distances", options.distances,
              "compute distances on the mesh, or interpolate them from a coarser one (default: "
              "auto)");
-  add_choice(command, "--linear-solver", options.linear_solver,
-             "solver of global linear systems (default: auto). none: avoid them, for gradient and "
-             "paper");
   add_choice(command, "--precision", options.precision,
-             "floating-point precision of the iteration (default: auto)");
+             "floating-point precision of the iteration (default: auto, which is single)");
   command.add_option(
       "--gap", options.gap,
-      "certified relative gap, 0 for none; the first of --gap and --tolerance that is "
-      "met ends the iteration (default: 0 if --tolerance is given, otherwise 1e-3 where the "
-      "estimated error is within ten tolerances and 1e-4 elsewhere)");
+      "certified relative gap of the objective that also ends the iteration, 0 for none (default: "
+      "0; 1e-3 with --smoothness 0 and without --tolerance)");
   command.add_option("--max-iterations", options.max_iterations,
                      "maximum number of iterations (default: 20000)");
   command.add_option("--penalty", settings.penalty,
                      "penalty parameter for a domain scaled to radius 250, as published (default: "
                      "depends on --method)");
-  command.add_option("--relaxation", options.relaxation,
-                     "over-relaxation factor in (0, 2) (default: depends on --method)");
   add_mesher_options(command, settings.meshing);
   command.add_flag("--history", settings.history,
                    "record error, residuals, and objective by iteration in the report, for flbc "

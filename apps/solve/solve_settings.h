@@ -37,6 +37,9 @@ void validate_settings(const SolveSettings& settings);
 //! The name of the coordinates, or of a method without them.
 const char* name_of_method(const SolveSettings& settings, Method method);
 
+//! Whether the weights minimize an objective whose optimum does not determine them.
+bool is_ambiguous(const SolveSettings& settings);
+
 //! Whether the weights are those of a model by a method that needs no mesh, and none is made.
 bool is_meshless(const SolveSettings& settings);
 

@@ -106,9 +106,7 @@ Binding<Dim> bind_points(const BindInput<Dim>& input, const BindOptions& options
   Stopwatch watch;
   const auto domain = make_interior(input, options);
   report.mesh_seconds = watch.lap();
-  auto solver_options = options.solver;
-  make_smooth(solver_options);
-  const auto solution = flbc::solve(input.cage, domain, solver_options, coarse_mesher(input.mesher),
+  const auto solution = flbc::solve(input.cage, domain, options.solver, coarse_mesher(input.mesher),
                                     options.observer);
   report.solve = solution.report;
   report.solve_seconds = watch.lap();

@@ -124,7 +124,7 @@ template <int Dim>
 GradientProblem<Dim> make_gradient_problem(const Cage<Dim>& cage, Domain<Dim> domain,
                                            DistanceScheme phi, double smoothness) {
   GradientProblem<Dim> problem;
-  problem.base = make_problem(cage, domain.mesh, std::move(domain.topology), phi);
+  problem.base = make_problem(cage, domain.mesh, std::move(domain.topology), phi, 0);
   problem.base.cage = cage;
   problem.base.mesh = std::move(domain.mesh);
   problem.base.scale = 1;

@@ -213,8 +213,6 @@ def bind(
         A given mesh of the cage interior.
     max_influences : int, default 8
         Per vertex; 0 to keep all weights.
-    smoothness : float, default 0.003
-        As in `solve`, but with another default.
     outside : str, default "fail"
         For vertices outside the cage: "fail"; "nearest", to follow the nearest point of the
         cage at a constant offset; "keep", to stay where they are, without weights; or "extend",
@@ -250,8 +248,6 @@ def bind(
     if len(points) == 0:
         raise InputError("vertices has shape (0, d): the model has no vertices")
     polygons = as_polygons(faces, "faces", len(points))
-    named = {name: value for name, value in given.items() if np.ndim(value) == 0}
-    given["smoothness"] = _core.smoothness_of_bind(named)
     if outside == "fail":
         _core.require_inside(cage.points, cage.facets, points)
     fill = mesh(cage, mesh_vertices) if domain is None else domain

@@ -59,26 +59,24 @@ class SolverOptions(TypedDict, total=False):
     smoothness: Optional[float]
     distances: str
     precision: str
-    linear_solver: str
     active_set: str
     coarse_to_fine: str
-    coarsest: Optional[int]
     penalty: Optional[float]
-    relaxation: Optional[float]
 
 
 OPTIONS = """\
-    method : str, default "auto"
-        "value" (the default method), "gradient", "paper", "lbc2014". For comparison, but not
-        with `Solver`: "harmonic", "meanvalue", "maxentropy", "maxlikelihood", "blended" (2D),
-        or "bbw", which use only `threads` and `non_negative`. Weights by "bbw" do not
-        reproduce points: add weighted displacements to them.
+    method : str, default "weights"
+        "weights", "gradient", "paper", "lbc2014". For comparison, but not with `Solver`:
+        "harmonic", "meanvalue", "maxentropy", "maxlikelihood", "blended" (2D), or "bbw", which
+        use only `threads` and `non_negative`. Weights by "bbw" do not reproduce points: add
+        weighted displacements to them.
     tolerance : float, optional
-        Target for the estimated mean squared error of the weights. Default: 1e-7, for
-        "gradient" 1e-6.
+        Target for the estimated mean squared error of the weights, or for the residuals of
+        "paper" and "lbc2014". Default: 1e-6, 1e-7 for "paper" and "lbc2014", and none with
+        smoothness 0.
     gap : float, optional
-        Certified relative gap that also ends a solve; 0 for none. Default: 1e-3 if tolerance
-        is not given.
+        Certified relative gap of the objective that also ends a solve; 0 for none. Default: 0,
+        and 1e-3 with smoothness 0 and without tolerance.
     max_iterations : int, default 20000
     certify : bool, default False
         Whether to prove by how much the objective can exceed its minimum.
@@ -90,25 +88,21 @@ OPTIONS = """\
         Growth of the variation weighting with distance: "square", "linear", "sqrt",
         "constant". Or the weighting itself: a number >= 0 for each cell of the mesh and control
         point. `Solver` takes only names.
-    smoothness : float, default 0
+    smoothness : float, optional
         Removes kinks at the cost of more influences, as a fraction of the cage size. Useful
-        values are 0.001 to 0.03, for "value" and "gradient".
+        values are 0.001 to 0.03, for "weights" and "gradient". 0 is the problem of the papers,
+        whose optimum does not determine the weights. Default: 0.003, and 0 for "paper" and
+        "lbc2014".
     distances : str, default "auto"
         "exact", or "interpolated" from a coarser mesh.
     precision : str, default "auto"
-        Of the iteration: "single", "double".
-    linear_solver : str, default "auto"
-        "direct", "multigrid", or "none" for the gradient methods.
+        Of the iteration: "single" (the default), "double".
     active_set : str, default "auto"
         Whether to update only weights that may be positive: "on", "off".
     coarse_to_fine : str, default "auto"
         Whether to start from coarser meshes: "on", "off".
-    coarsest : int, optional
-        Minimum number of vertices of a coarser mesh.
     penalty : float, optional
         Penalty parameter, in units of the cage size.
-    relaxation : float, optional
-        Over-relaxation factor in (0, 2).
 """
 
 

@@ -88,12 +88,9 @@ const std::vector<Field>& fields() {
       FLBC_FIELD("smoothness", smoothness),
       FLBC_FIELD("distances", distances),
       FLBC_FIELD("precision", precision),
-      FLBC_FIELD("linear_solver", linear_solver),
       FLBC_FIELD("active_set", active_set),
       FLBC_FIELD("coarse_to_fine", coarse_to_fine),
-      FLBC_FIELD("coarsest", coarse_levels.coarsest),
       FLBC_FIELD("penalty", penalty),
-      FLBC_FIELD("relaxation", relaxation),
   };
   return table;
 }

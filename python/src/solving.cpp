@@ -139,14 +139,6 @@ Observer observer_of(const py::object& callback) {
   return observer;
 }
 
-// The smoothness that bind() takes if the options do not set it; none for other coordinates.
-std::optional<double> smoothness_of_bind(const py::dict& keywords) {
-  if (coordinates_of(keywords)) return {};
-  auto options = options_of(keywords);
-  make_smooth(options);
-  return options.smoothness;
-}
-
 template <class Options>
 Options here(Options options) {
   if (is_forked) options.threads = 1;
@@ -194,7 +186,7 @@ py::tuple solve(const Doubles& points, const Indices& facets, const Doubles& ver
       return solved(without_gil([&] {
         validate(options);
         auto problem =
-            make_problem(cage, domain, DistanceScheme::kConstant, options.smoothness.value_or(0));
+            make_problem(cage, domain, DistanceScheme::kConstant, *resolve(options).smoothness);
         problem.phi = std::move(given);
         return flbc::solve(problem, options, {}, observer);
       }));
@@ -308,7 +300,6 @@ void use_threads_of_this_process() {
 void bind_solving(py::module_& module) {
   module.def("has_forked", [] { is_forked = true; });
   module.def("option_names", &option_names);
-  module.def("smoothness_of_bind", &smoothness_of_bind);
   module.def("mesh", &mesh);
   module.def("solve", &solve);
 

@@ -139,7 +139,6 @@ SolverOptions solver_options(const Json& options) {
   };
   take_named("distances", result.distances);
   take_named("precision", result.precision);
-  make_smooth(result);
   return result;
 }
 

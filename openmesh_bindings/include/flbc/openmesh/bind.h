@@ -40,7 +40,7 @@ struct BindOptions {
   Index vertices = kDefaultVertices;
   static constexpr Index kDefaultVertices = 10000;  //!< same as for the program flbc
 
-  //! Method, tolerance, threads. If the smoothness is not set, it is kDeformationSmoothness.
+  //! Method, tolerance, threads.
   SolverOptions solver{};
   //! Of the solve; poll() also during the reduction. What it throws leaves bind(), and the model is
   //! unchanged.

@@ -25,7 +25,7 @@ struct GradientAdmmOptions {
   double penalty = 0;     //!< mu > 0, in length^(Dim + 1) of the mesh; 0: chosen from the mesh
   double relaxation = 1;  //!< over-relaxation in (0, 2); 1 is the iteration of the paper
   DistanceScheme phi = DistanceScheme::kSquare;  //!< growth of phi with the geodesic distance
-  double smoothness = 0;                         //!< >= 0, see SolverOptions::smoothness
+  double smoothness = 0;                         //!< as in SolverOptions, but 0 by default
   std::string weights = kWeights;                //!< name of the property for recovered weights
   bool persistent = false;                       //!< whether .om files keep state and weights
 };
