@@ -22,6 +22,8 @@ is_release=yes
 grep -q "^## $version " CHANGELOG.md || { is_release=; echo "CHANGELOG.md has no section $version"; }
 [ "$(git tag --points-at HEAD)" = "v$version" ] || { is_release=; echo "HEAD is not tagged v$version"; }
 [ -z "$(git status --porcelain)" ] || { is_release=; echo "There are changes without a commit"; }
+python3 -B benchmarks/paper/docs.py --behavior build/release/benchmarks/flbc_bench_paper ||
+  { is_release=; echo "docs/results are of another program, or build/release has no flbc_bench_paper"; }
 [ $is_release ] || echo "This is a preview of $version, not a release."
 
 root=$PWD dist=$PWD/dist

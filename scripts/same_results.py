@@ -26,7 +26,7 @@ def cases(models, quick):
         pairs += [(cage, cage.with_name(cage.name.replace("_cage", "")))
                   for cage in sorted(models.glob("3d/*_cage.obj"))]
         pairs += [(cage, None) for cage in sorted(models.glob("2d/*control*.obj"))]
-    methods = ["value", "gradient", "paper", "lbc2014", "harmonic", "meanvalue"]
+    methods = ["weights", "gradient", "paper", "lbc2014", "harmonic", "meanvalue"]
     for cage, model in pairs:
         name = f"{cage.parent.name}/{cage.stem}"
         flat = cage.parent.name == "2d"

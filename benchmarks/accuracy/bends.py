@@ -171,8 +171,8 @@ def main():
                 subprocess.run([arguments.program, "cage", model, "-q", "-o", cage_file, *options.split()], check=True)
             if not cage_file.exists():
                 continue
-            subprocess.run([arguments.program, "solve", cage_file, "--model", model, "--vertices", "6000", "--smoothness", "0.003",
-                            "-q", "-o", weights_file], check=True)
+            subprocess.run([arguments.program, "solve", cage_file, "--model", model, "--vertices", "6000", "-q", "-o", weights_file],
+                           check=True)
             cage, cage_facets = read_obj(cage_file)
             weights = np.load(weights_file)
             owners = nearest(points, cage)

@@ -39,7 +39,7 @@ template <int Dim>
 Row with_and_without(const Setting<Dim>& setting) {
   const auto& problem = setting.problem;
   const auto with = reference(setting);
-  const auto without = solve(problem, optimum_options(setting.context, NonNegative::kOff));
+  const auto without = solve(problem, optimum_options(setting.context, 0, NonNegative::kOff));
   auto row = mesh_row(setting)
                  .add("squared_distance", squared_error(problem, with.weights, without.weights))
                  .add("largest_difference", weight_error(with.weights, without.weights).max)
@@ -168,14 +168,16 @@ Row race(Setting<Dim> setting, const NamedMethod& method) {
   auto options = method.options(setting.problem, setting.context.threads);
   options.max_iterations = 2 * most;
   // No method shall stop before.
-  if (method.method == Method::kValue) options.tolerance = kRaceError;
+  if (method.method == Method::kWeights || method.method == Method::kGradient) {
+    options.tolerance = 0.1 * kRaceError;
+  }
   if (method.method == Method::kPaper) options.tolerance = 1e-100;
   if (method.method == Method::kLbc2014) options.tolerance = 1e-3 * *resolve(options).tolerance;
   const Runner<Dim> runner{setting, optimum, options};
   const int found = runner.first_iterations(most);
   for (int k = 0; k < kRaceRuns; ++k) {
     const Stopwatch watch;
-    make_problem(setting.problem.cage, setting.problem.mesh, DistanceScheme::kSquare);
+    make_problem(setting.problem.cage, setting.problem.mesh, DistanceScheme::kSquare, 0);
     setting.setup_seconds = std::min(setting.setup_seconds, watch.seconds());
   }
   // Long runs vary little, relative to their times.
@@ -217,9 +219,10 @@ Row sample_row(const Setting<Dim>& setting) {
   return row;
 }
 
-// The true error of value from a cold start, relative to the tolerance.
+// The true error of the default method from a cold start, relative to the tolerance.
 template <int Dim>
-Rows true_errors(const Setting<Dim>& setting) {
+Rows true_errors(Setting<Dim> setting) {
+  setting.problem.smoothness = default_smoothness();
   const auto optimum = reference(setting);
   Rows rows;
   for (const double tolerance : {1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {

@@ -41,10 +41,9 @@ std::string sample(const std::string& name) {
   const auto cage = read_cage<Dim>(folder + name + "_cage.obj");
   SolverOptions options;
   options.threads = 1;
-  auto text = solved(name, cage, options) + ", ";
-  options.smoothness = kDeformationSmoothness;
-  text += solved(name + " smooth", cage, options);
-  return text;
+  const auto smooth = solved(name + " smooth", cage, options);
+  options.smoothness = 0;
+  return solved(name, cage, options) + ", " + smooth;
 }
 
 // The published methods, and the gradient ADMM.

@@ -22,7 +22,7 @@ SMALLEST_ERROR = 1e-10  # below, a curve would show the references' own error
 MARKED_ERROR = 1e-5     # a line across: the error of the race
 # Methods of the race, as in the table of README.md.
 RACE = {"paper": "2019 gradient ADMM, as published", "lbc2014-tuned": "2014 splitting, penalty tuned by us",
-        "value": "libflbc, default method"}
+        "weights": "libflbc, default method"}
 
 
 plt.rcParams.update({
@@ -119,7 +119,7 @@ def least_times(curve):
 
 # Names at the ends of curves, which need no knowledge of options.
 CURVE_NAMES = {"lbc2014": "LBC 2014", "lbc2014-tuned": "LBC 2014,\ntuned", "paper": "FLBC 2019",
-               "gradient": "gradient\nADMM", "value": "libflbc"}
+               "gradient": "gradient\nADMM", "weights": "libflbc"}
 MODEL_NAMES = {"woody": "2D figure", "horse": "3D horse"}
 
 
@@ -158,9 +158,9 @@ def convergence(rows, comments):
 
 def factor_of(name, reached):
     """The name, with how many times as long as libflbc the method takes to the marked error."""
-    if name == "value" or math.isnan(reached[name]):
+    if name == "weights" or math.isnan(reached[name]):
         return CURVE_NAMES[name]
-    factor = reached[name] / reached["value"]
+    factor = reached[name] / reached["weights"]
     return f"{CURVE_NAMES[name]} ({factor:.{0 if factor >= 10 else 1}f}\u00d7)"
 
 
@@ -170,7 +170,7 @@ def name_end(axis, times, errors, low, label, color):
     place, offset, sides = (times[-1], errors[-1]), (8, 0), ("left", "center")
     if not math.isnan(end):
         place, offset, sides = (end, low), (6, 14), ("left", "bottom")
-    if label == CURVE_NAMES["value"]:
+    if label == CURVE_NAMES["weights"]:
         offset, sides = (-28, 14), ("right", "bottom")
     return axis.annotate(label, place, xytext=offset, textcoords="offset points", color=color,
                          fontsize=9.5, fontweight="bold", ha=sides[0], va=sides[1],
@@ -203,8 +203,8 @@ def times(rows, comments):
                 continue
             seconds = reached[model, method]
             axis.plot(place, seconds, marker, color=color, markersize=8, label=RACE[method] if place == 0 else None)
-            ratio = seconds / reached.get((model, "value"), math.nan)
-            text = f"{seconds:.2f} s" if method == "value" else f"{ratio:.{0 if ratio >= 10 else 1}f}\u00d7"
+            ratio = seconds / reached.get((model, "weights"), math.nan)
+            text = f"{seconds:.2f} s" if method == "weights" else f"{ratio:.{0 if ratio >= 10 else 1}f}\u00d7"
             left = method == "lbc2014-tuned"  # on the other side, because the two are close
             axis.annotate(text, (place, seconds), xytext=(-8 if left else 8, 0), textcoords="offset points",
                           color=color, fontsize=9, ha="right" if left else "left", va="center")

@@ -73,7 +73,7 @@ const std::vector<NamedMethod>& methods() {
   static const std::vector<NamedMethod> kMethods = {
       {"lbc2014", Method::kLbc2014, 10}, {"lbc2014-tuned", Method::kLbc2014, 0},
       {"paper", Method::kPaper, 0},      {"gradient", Method::kGradient, 0},
-      {"value", Method::kValue, 0},
+      {"weights", Method::kWeights, 0},
   };
   return kMethods;
 }
@@ -122,15 +122,15 @@ Setting<Dim> load_setting(const Context& context, const Model& model, const std:
   auto cage = read_cage<Dim>(cage_path(context, model));
   auto mesh = io::read_domain<Dim>(context.out + "/" + domain_path(model, name));
   const Stopwatch watch;
-  auto problem = make_problem(std::move(cage), std::move(mesh), DistanceScheme::kSquare);
+  auto problem = make_problem(std::move(cage), std::move(mesh), DistanceScheme::kSquare, 0);
   return {context, model, name, std::move(problem), watch.seconds()};
 }
 template Setting<2> load_setting(const Context&, const Model&, const std::string&);
 template Setting<3> load_setting(const Context&, const Model&, const std::string&);
 
-SolverOptions optimum_options(const Context& context, NonNegative non_negative) {
+SolverOptions optimum_options(const Context& context, double smoothness, NonNegative non_negative) {
   SolverOptions options;
-  options.method = Method::kValue;
+  options.smoothness = smoothness;
   options.precision = Precision::kDouble;
   options.non_negative = non_negative;
   // The estimate is too good in the long tail: at 1e-14 the error is some 1e-11 (see README.md).
@@ -148,13 +148,14 @@ Reference reference(const Setting<Dim>& setting) {
   // phi is there so that a change in how the library measures distances makes old references stale.
   const auto hash = hash_of(problem.cage.points, problem.cage.facets, problem.mesh.points,
                             problem.mesh.cells, problem.phi.dense());
-  const auto stem =
-      context.out + "/references/" + setting.name + "-" + hash + (context.quick ? "-quick" : "");
+  const auto stem = context.out + "/references/" + setting.name + "-" + hash +
+                    (problem.smoothness > 0 ? "-smooth" : "") + (context.quick ? "-quick" : "");
   // The gap is written last: with it, everything is there.
   if (std::filesystem::exists(stem + "-gap.npy")) {
     return {io::read_weights(stem + ".npy"), io::read_weights(stem + "-gap.npy").at(0)[0]};
   }
-  auto solution = solve(problem, optimum_options(context, NonNegative::kConstraint));
+  auto solution =
+      solve(problem, optimum_options(context, problem.smoothness, NonNegative::kConstraint));
   const double gap = solution.report.certificate.relative_gap;
   std::filesystem::create_directories(context.out + "/references");
   io::write_weights(stem + ".npy", solution.weights);

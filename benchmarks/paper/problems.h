@@ -46,11 +46,12 @@ struct NamedMethod {
   Method method;
   double penalty;  //!< as published, 0 = by method
 
-  //! The method's defaults otherwise.
+  //! For the problem of the papers; the method's defaults otherwise.
   template <int Dim>
   SolverOptions options(const LbcProblem<Dim>& problem, int threads) const {
     SolverOptions options;
     options.method = method;
+    options.smoothness = 0;
     if (penalty > 0)
       options.penalty = published_penalty(problem.cage, problem.mesh, method, penalty);
     options.threads = threads;
@@ -95,7 +96,7 @@ std::string domain_path(const Model& model, const std::string& name);
 void prepare_domain(const Context& context, const Model& model, const std::string& name,
                     Index vertices);
 
-//! Reads cage and mesh. \throws flbc::Error
+//! Reads cage and mesh. The problem is that of the papers, without smoothness. \throws flbc::Error
 template <int Dim>
 Setting<Dim> load_setting(const Context& context, const Model& model, const std::string& name);
 
@@ -117,14 +118,19 @@ void add_rows(ResultTable& table, const Model& model, Index vertices, const Body
   });
 }
 
-//! An optimum of problem (1) of the paper on a mesh, non-negativity included.
+//! The smoothness that users get.
+inline double default_smoothness() {
+  return *resolve({}).smoothness;
+}
+
+//! An optimum of a problem on a mesh, non-negativity included.
 struct Reference {
   SparseWeights weights;
   double relative_gap;  //!< certified
 };
 
 //! How optima are computed, also those of table 1.
-SolverOptions optimum_options(const Context& context, NonNegative non_negative);
+SolverOptions optimum_options(const Context& context, double smoothness, NonNegative non_negative);
 
 //! Reads the reference from OUT/references if it was made for exactly this problem, else computes
 //! and keeps it.

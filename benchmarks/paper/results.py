@@ -11,7 +11,7 @@ METHODS = [
     ("paper", "FLBC 2019", "#e08214", "^"),
     ("gradient", "gradient ADMM", "#2c7fb8", "v"),
     ("gradient-local", "gradient ADMM, no linear system", "#8856a7", "P"),
-    ("value", "default", "#1b9e4b", "o"),
+    ("weights", "default", "#1b9e4b", "o"),
 ]
 LABELS = {name: label for name, label, _, _ in METHODS}
 
@@ -24,7 +24,16 @@ def read(out, name):
     with path.open(newline="") as file:
         lines = file.read().splitlines()
     comments = [line[1:].strip() for line in lines if line.startswith("#")]
-    return list(csv.DictReader(line for line in lines if not line.startswith("#"))), comments
+    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    return [renamed(row) for row in rows], comments
+
+
+def renamed(row):
+    """A row with the names of today: the method weights was called value in 0.1."""
+    row = {column.replace("to_1e-5_value", "to_1e-5_weights"): cell for column, cell in row.items()}
+    if row.get("method") == "value":
+        row["method"] = "weights"
+    return row
 
 
 def value(row, column):

@@ -6,17 +6,9 @@
 namespace flbc::bench {
 namespace {
 
-// The methods of the paper's kind, with a global system and without, and the default one.
-struct Curve {
-  NamedMethod method;
-  LinearSolver linear_solver;
-};
-
 template <int Dim>
-Row measure(const Setting<Dim>& setting, const Curve& curve) {
-  const auto& method = curve.method;
+Row measure(const Setting<Dim>& setting, const NamedMethod& method) {
   auto options = method.options(setting.problem, setting.context.threads);
-  options.linear_solver = curve.linear_solver;
   options.max_iterations = setting.context.iterations(5000);
 
   const double problem_memory = resident_mebibytes();
@@ -36,19 +28,16 @@ Row measure(const Setting<Dim>& setting, const Curve& curve) {
 }  // namespace
 
 bool run_figure3(const Context& context) {
-  const std::vector<Curve> curves = {
-      {{"paper", Method::kPaper, 0}, LinearSolver::kNone},
-      {{"gradient-local", Method::kGradient, 0}, LinearSolver::kNone},
-      {{"value", Method::kValue, 0}, LinearSolver::kAuto}};
   ResultTable table(context, "figure3",
                     "Figure 3: seconds and MiB with multilevel starts; problem: process, mesh, and "
                     "problem; solve: peak beyond that; peak: of the whole process");
   for (const auto* name : {"woody", "horse"}) {
-    for (const auto& curve : curves) {
+    for (const auto& method : methods()) {
+      if (method.method != Method::kPaper && method.method != Method::kWeights) continue;
       for (const Index vertices : {2000, 5000, 10000, 20000}) {
         add_rows(
             table, model(name), vertices,
-            [&](const auto& setting) { return Rows{measure(setting, curve)}; }, curve.method.name);
+            [&](const auto& setting) { return Rows{measure(setting, method)}; }, method.name);
       }
     }
   }

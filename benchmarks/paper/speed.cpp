@@ -56,7 +56,7 @@ Row measure(const Context& context, const Model& model, const Cage<Dim>& cage, I
   if (with_error) {
     const auto name = model.name + "-" + std::to_string(vertices);
     const Setting<Dim> setting{context, model, name,
-                               make_problem(cage, mesh, DistanceScheme::kSquare), 0};
+                               make_problem(cage, mesh, options.phi, default_smoothness()), 0};
     row.add("error", squared_error(setting.problem, solution.weights, reference(setting).weights));
   }
   return row;

@@ -95,7 +95,7 @@ def with_published(row):
 
 def method(row):
     label = results.LABELS[row["method"]]
-    return f"**{label}**" if row["method"] == "value" else label
+    return f"**{label}**" if row["method"] == "weights" else label
 
 
 TABLE2 = [("method", method), ("iterations", iterations), ("total, s", "total_seconds:.2f"),
@@ -120,7 +120,7 @@ def parts(row, form):
 
 
 SAMPLES = [*HARMONIC, *((f"To 1e-5: {label}, s", f"to_1e-5_{name}:.2f") for name, label in (
-    ("value", "local"), ("lbc2014-tuned", "2014, tuned penalty"), ("paper", "2019")))]
+    ("weights", "local"), ("lbc2014-tuned", "2014, tuned penalty"), ("paper", "2019")))]
 COMPARE = [("model", "model"), ("coordinates", "coordinates"), ("influences", "influences:.1f"),
            ("maximum", "max_influences"), ("reach", "reach:.1%"), ("smallest weight", "min_weight:.1e"),
            ("total variation", "total_variation:.2f"), ("distortion", "distortion:.3f"),
@@ -178,7 +178,7 @@ def race(rows):
     return [header for header, _ in SIZE] + [f"{results.LABELS[name]}, s" for name in names], body
 
 
-SOLVERS = {"value": "**libflbc**, default method", "lbc2014-tuned": "2014 splitting, penalty tuned by us",
+SOLVERS = {"weights": "**libflbc**, default method", "lbc2014-tuned": "2014 splitting, penalty tuned by us",
            "paper": "2019 gradient ADMM, as published"}
 
 

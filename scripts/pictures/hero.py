@@ -13,7 +13,7 @@ from common import INK, MESHES, flbc, write
 CAGE = MESHES / "2d" / "figure_cage.obj"
 CONTROL_POINT = 32
 THRESHOLD = 1e-4  # of an influence, as flbc check counts them
-METHODS = [("Harmonic", "harmonic"), ("Mean value", "meanvalue"), ("Local", "value")]
+METHODS = [("Harmonic", "harmonic"), ("Mean value", "meanvalue"), ("Local", "weights")]
 SIZE, PANEL, TOP = (1800, 700), 500, 46
 LEFT = (18, 548, 1078)  # of the panels
 UNIT = PANEL / 1200  # of a pixel of flbc draw's usual width; the next three are of its layout
@@ -23,10 +23,10 @@ MARGIN, BAR_LEFT, BAR_RIGHT = 44 * UNIT, PANEL - 130 * UNIT, PANEL - 104 * UNIT
 def solve(work):
     """Per method: weights, findings, and the picture of the function."""
     domain = work / "domain.obj"
-    flbc("solve", CAGE, "-q", "--save-domain", domain, "-o", work / "value.npy")
+    flbc("solve", CAGE, "-q", "--save-domain", domain, "-o", work / "weights.npy")
     for _, method in METHODS:
         weights = work / f"{method}.npy"
-        if method != "value":
+        if method != "weights":
             flbc("solve", CAGE, "--domain", domain, "--method", method, "-q", "-o", weights)
         picture = work / f"{method}.png"
         flbc("draw", domain, "--weights", weights, "--cage", CAGE, "--control-point", CONTROL_POINT,
@@ -80,7 +80,7 @@ def main(path, work):
         write(draw, (middle, bottom + 62), f"this control point reaches {reach:.0f}% of the vertices", 21)
         if method == "meanvalue":
             paint_legend(page, draw, picture)
-        if method == "value":
+        if method == "weights":
             points, _ = common.read_obj(work / "domain.obj")
             inside = points[weights > THRESHOLD][:, :2]
             end = pixel_of(inside[(inside @ [-0.5, -1]).argmax()], picture) + (left, TOP)
