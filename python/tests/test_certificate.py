@@ -83,8 +83,8 @@ def test_the_proved_error_of_weights_holds(certified, file, arrays, checker, cap
 
 
 def test_the_program_writes_the_same(program, checker, capsys, tmp_path):
-    for name, options in (("2d/figure", ["--vertices", "400"]),
-                          ("3d/limb", ["--vertices", "1500", "--smoothness", "0.003"])):
+    for name, options in (("2d/figure", ["--vertices", "400", "--smoothness", "0"]),
+                          ("3d/limb", ["--vertices", "1500"])):
         path = tmp_path / "proof.npz"
         program("solve", MESHES / f"{name}_cage.obj", *options, "--certificate", path,
                 "-o", tmp_path / "w.npy", "-q")

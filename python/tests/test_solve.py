@@ -20,7 +20,7 @@ from conftest import MESHES
 
 @pytest.mark.parametrize("name, vertices", [("2d/figure", 800), ("3d/limb", 800)])
 @pytest.mark.parametrize(
-    "options", [{}, {"active_set": "on"}, {"smoothness": 0.01}, {"method": "gradient"}]
+    "options", [{}, {"active_set": "on"}, {"smoothness": 0}, {"method": "gradient"}]
 )
 def test_weights_equal_those_of_the_program(program, tmp_path, name, vertices, options):
     cage_file, model_file = MESHES / f"{name}_cage.obj", MESHES / f"{name}_model.obj"
@@ -69,7 +69,7 @@ def test_results_are_coordinates(flat, solid):
 OTHERS = ["harmonic", "meanvalue", "maxentropy", "maxlikelihood", "blended"]
 
 
-@pytest.mark.parametrize("method", ["value", "gradient", "paper", "lbc2014"] + OTHERS)
+@pytest.mark.parametrize("method", ["weights", "gradient", "paper", "lbc2014"] + OTHERS)
 def test_every_method(flat, method):
     options = {} if method in OTHERS else {"tolerance": 1e-4}
     solution = flbc.solve(flat.cage, flat.mesh, method=method, **options)
@@ -84,7 +84,7 @@ def test_other_coordinates_refuse_what_they_do_not_use(flat, method):
             flbc.solve(flat.cage, flat.mesh, method=method, **option)
     with pytest.raises(flbc.OptionError, match="non_negative constraint is for"):
         flbc.solve(flat.cage, flat.mesh, method=method, non_negative="constraint")
-    with pytest.raises(flbc.OptionError, match=f"value, .* not {method}"):
+    with pytest.raises(flbc.OptionError, match=f"weights, .* not {method}"):
         flbc.Solver(flat.cage, flat.mesh, method=method)
     bound = flbc.bind(flat.mesh.points, None, flat.cage, domain=flat.mesh, method=method)
     assert bound.report["method"] == method
@@ -157,7 +157,7 @@ import flbc, time
 cage = flbc.read_cage({cage!r})
 mesh = flbc.mesh(cage, vertices=8000)
 print("ready", flush=True)
-flbc.solve(cage, mesh, tolerance=1e-30, gap=0, max_iterations=10**6, coarse_to_fine="off")
+flbc.solve(cage, mesh, tolerance=1e-30, max_iterations=10**6, coarse_to_fine="off")
 """
 
 
@@ -210,7 +210,8 @@ def test_other_threads_run_meanwhile(solid):
     thread = threading.Thread(target=count)
     thread.start()
     begin = time.perf_counter()
-    flbc.solve(solid.cage, solid.mesh, threads=1)
+    with pytest.warns(flbc.NotConverged):
+        flbc.solve(solid.cage, solid.mesh, threads=1, tolerance=1e-30, max_iterations=300)
     end = time.perf_counter()
     done.set()
     thread.join()
@@ -316,7 +317,7 @@ def geodesic_phi(solution):
 
 
 def test_own_phi_is_used(flat):
-    options = {"tolerance": 1e-7, "gap": 0}
+    options = {"tolerance": 1e-7}
     named = flbc.solve(flat.cage, flat.mesh, **options)
     own = flbc.solve(flat.cage, flat.mesh, phi=geodesic_phi(flat), **options)
     assert own.converged and own.report["objective"] == pytest.approx(named.report["objective"], rel=1e-3)
@@ -326,7 +327,7 @@ def test_own_phi_is_used(flat):
     same = flbc.solve(flat.cage, flat.mesh, phi="constant", **options)
     assert other.report["objective"] == pytest.approx(same.report["objective"], rel=1e-3)
     bound = flbc.bind(flat.mesh.points, None, flat.cage, domain=flat.mesh, phi=constant,
-                      smoothness=0, max_influences=0, **options)
+                      max_influences=0, **options)
     assert abs(bound.weights.toarray() - other.weights).max() < 1e-6
 
 
@@ -347,8 +348,8 @@ def test_gradients_are_those_of_the_weights(flat, solid):
 
 def test_import_is_fast():
     """Little more than NumPy, and nothing else."""
-    code = "import sys, time; import numpy; t = time.perf_counter(); import flbc; " \
-        "print(time.perf_counter() - t, 'scipy' in sys.modules)"
+    code = "import sys, time; import numpy; t = time.process_time(); import flbc; " \
+        "print(time.process_time() - t, 'scipy' in sys.modules)"
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     seconds, has_scipy = found.stdout.split()
     assert float(seconds) < 0.2 and has_scipy == "False"

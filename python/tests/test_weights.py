@@ -138,7 +138,7 @@ def test_cages_around_models(name):
 def test_bind_equals_its_steps(limb, moved):
     cage, vertices, faces = limb
     binding = flbc.bind(vertices, faces, cage.points, cage.facets, mesh_vertices=2000)
-    solution = flbc.solve(cage, flbc.mesh(cage, vertices=2000), smoothness=0.003)
+    solution = flbc.solve(cage, flbc.mesh(cage, vertices=2000))
     few = flbc.sparsify(solution.at(vertices), cage, vertices, 8, faces=faces)
     assert abs(binding.weights - few).max() == 0 and binding.offsets is None
     assert np.array_equal(binding.deform(moved), flbc.deform(few, moved))

@@ -62,20 +62,10 @@ INSTANTIATE_TEST_SUITE_P(CommandLine, SolveSamples,
                          ::testing::Values("2d/figure", "2d/letter", "2d/ring", "3d/limb",
                                            "3d/star", "3d/torus"));
 
-// The relaxation of lbc2014 depends on whether a penalty is given.
-TEST_F(CommandLine, ReportsTellTheRelaxationInUse) {
-  const auto relaxation = [&](const std::string& options) {
-    const int not_converged = 3;
-    expect(
-        "solve 2d/letter_cage.obj --vertices 300 --max-iterations 20 -q --method lbc2014 -o "
-        "w.npy --report r.json" +
-            options,
-        not_converged);
-    return json_in("r.json")["options"]["relaxation"].get<double>();
-  };
-  EXPECT_EQ(relaxation(""), 1.9);
-  EXPECT_EQ(relaxation(" --penalty 10"), 1.65);
-  EXPECT_EQ(relaxation(" --penalty 10 --relaxation 1.2"), 1.2);
+TEST_F(CommandLine, ScriptsMayUseTheFormerNameOfTheMethod) {
+  expect("solve 2d/letter_cage.obj --vertices 300 -q --method value -o w.npy --report r.json");
+  EXPECT_EQ(json_in("r.json")["method"], "weights");
+  EXPECT_EQ(run("solve --help").output.find("|value"), std::string::npos);
 }
 
 TEST_F(CommandLine, DrawsOnlyWhatFits) {
@@ -238,11 +228,10 @@ TEST_F(CommandLine, WrongUsageIsStatus1) {
   expect_refused("solve " + cage, 1, "flbc solve: --output is required");
   expect_refused("solve " + cage + o + " --vertices -5", 1, "--vertices");
   expect_refused("solve " + cage + o + " --method magic", 1,
-                 "invalid value 'magic'; choose from auto|");
+                 "invalid value 'magic'; choose from weights|");
   expect_refused("solve " + cage + o + " --tolerance=-1", 1, "tolerance must be positive");
   expect_refused("solve " + cage + o + " --tolerance nan", 1, "tolerance");
   expect_refused("solve " + cage + o + " --threads -1", 1, "threads must be in");
-  expect_refused("solve " + cage + o + " --relaxation 2.5", 1, "relaxation must be in");
   expect_refused("solve " + cage + o + " --embed", 1, "--model");
   expect_refused("solve " + cage + o + " --domain a.obj --vertices 100", 1, "--domain");
   expect_refused("solve " + cage + " -o w.xls", 1, ".mtx, .dmat, .npy, .csv, .mat or .lbw");
@@ -261,9 +250,9 @@ TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
   const auto solve = "solve " + cage + " --vertices 300 -q -o w.npy" + ' ';
   for (const std::string method : {"harmonic", "meanvalue"}) {
     for (const std::string option :
-         {"--tolerance 1e-5", "--penalty 10", "--relaxation 1.5", "--phi linear",
-          "--precision single", "--max-iterations 9", "--distances exact", "--coarse-to-fine off",
-          "--linear-solver direct", "--active off", "--gap 1e-3", "--certify"}) {
+         {"--tolerance 1e-5", "--penalty 10", "--phi linear", "--precision single",
+          "--max-iterations 9", "--distances exact", "--coarse-to-fine off", "--active off",
+          "--gap 1e-3", "--certify"}) {
       const auto name = option.substr(0, option.find(' '));
       expect_refused(solve + "--method " + method + ' ' + option, 1,
                      name + ": the method " + method + " does not use it");
@@ -367,20 +356,20 @@ TEST_F(CommandLine, PointsAsNumbersAndFunctionsAsFields) {
 TEST_F(CommandLine, ReportsOfOtherCoordinatesHaveAnObjective) {
   expect("mesh 2d/letter_cage.obj --vertices 800 -q -o d.obj");
   const auto objective = [&](const std::string& method) {
-    expect("solve 2d/letter_cage.obj --domain d.obj -q --method " + method + " -o " + method +
-           ".npy --report r.json");
+    expect("solve 2d/letter_cage.obj --domain d.obj -q -o harmonic.npy --report r.json --method " +
+           method);
     return json_in("r.json")["objective"].get<double>();
   };
-  const double least = objective("value");
-  EXPECT_GT(objective("harmonic"), 1.01 * least);
+  const double least = objective("weights --smoothness 0");
   EXPECT_GT(objective("meanvalue"), 1.01 * least);
+  const double of_harmonic = objective("harmonic");
+  EXPECT_GT(of_harmonic, 1.01 * least);
   expect("check 2d/letter_cage.obj --domain d.obj --weights harmonic.npy --json c.json");
   const auto check = json_in("c.json");
-  EXPECT_NEAR(check["weights"]["mesh"]["weighted_variation"].get<double>(), objective("harmonic"),
+  EXPECT_NEAR(check["weights"]["mesh"]["weighted_variation"].get<double>(), of_harmonic,
               1e-9 * least);
 }
 
-// The published criterion can be met far from the optimum.
 TEST_F(CommandLine, PhiMayComeFromAFile) {
   for (const auto& [name, dim] : {std::pair("2d/letter", 2), std::pair("3d/star", 3)}) {
     const auto cage = std::string(name) + "_cage.obj";
@@ -408,6 +397,7 @@ TEST_F(CommandLine, PhiMayComeFromAFile) {
   }
 }
 
+// The published criterion can be met far from the optimum.
 TEST_F(CommandLine, ConvergedFarFromTheOptimumIsTold) {
   const std::string solve =
       "solve 2d/ring_cage.obj --vertices 500 --certify -o w.npy --report r.json --method ";
@@ -417,7 +407,32 @@ TEST_F(CommandLine, ConvergedFarFromTheOptimumIsTold) {
   EXPECT_GT(report["relative_gap"], 5e-3);
   EXPECT_NE(paper.errors.find("above the optimum; lower --tolerance"), std::string::npos)
       << paper.errors;
-  EXPECT_EQ(expect(solve + "value").errors.find("above the optimum"), std::string::npos);
+  EXPECT_EQ(expect(solve + "weights").errors.find("above the optimum"), std::string::npos);
+}
+
+// The weights are then not unique, so that small changes of them bound nothing.
+TEST_F(CommandLine, WithoutSmoothnessTheGapIsTheCriterion) {
+  for (const std::string method : {"weights", "gradient"}) {
+    const auto solve =
+        "solve 2d/ring_cage.obj --vertices 500 -o w.npy --report r.json --method " + method + ' ';
+    const auto has = [](const Ended& ended, const char* words) {
+      return ended.errors.find(words) != std::string::npos;
+    };
+    const auto rough = expect(solve + "--smoothness 0", 0, "does not determine the weights; the");
+    EXPECT_TRUE(has(rough, "iterations, ended by the certified gap")) << rough.errors;
+    EXPECT_EQ(json_in("r.json")["criterion"], "gap");
+    EXPECT_LE(json_in("r.json")["relative_gap"], 1e-3);
+
+    const auto estimated = expect(solve + "--smoothness 0 --tolerance 1e-5");
+    EXPECT_TRUE(has(estimated, "iterations, ended by the estimated error")) << estimated.errors;
+    EXPECT_TRUE(has(estimated, "% of the optimum")) << estimated.errors;
+
+    const auto smooth = expect(solve);
+    EXPECT_FALSE(has(smooth, "does not determine")) << smooth.errors;
+    EXPECT_FALSE(has(smooth, "ended by")) << smooth.errors;
+    EXPECT_EQ(json_in("r.json")["criterion"], "tolerance");
+    EXPECT_EQ(expect(solve + "--smoothness 0 -q").errors, "");
+  }
 }
 
 TEST_F(CommandLine, NotConvergedIsStatus3AndTheResultIsThere) {

@@ -45,7 +45,7 @@ def nearest(point, others):
 def moved_by_program(flbc, cage, pose, model, out):
     """The model as `flbc deform` moves it."""
     weights, moved = out / "judge.npy", out / "judge.off"
-    run(flbc, "solve", cage, "--model", model, "--vertices", 8000, "--smoothness", 0.003, "-o", weights)
+    run(flbc, "solve", cage, "--model", model, "--vertices", 8000, "-o", weights)
     run(flbc, "deform", model, "--weights", weights, "--pose", pose, "-o", moved)
     return [row[:3] for row in read_off(moved)[0]]
 

@@ -10,6 +10,7 @@
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "support/command_line.h"
+#include "support/processor_time.h"
 
 namespace flbc::testing {
 namespace {
@@ -316,9 +317,10 @@ INSTANTIATE_TEST_SUITE_P(In, BoxInMesh, ::testing::Values(2, 3));
 // Before anything that takes long.
 TEST_F(OutsideCommand, RefusesBeforeTheMesherStarts) {
   const auto of = model("0.25");
-  const auto refused = expect("run " + square() + ' ' + of + " --vertices 900000 -o out", 2,
-                              "step mesh: model.obj: 2 of 3 vertices are outside the cage");
-  EXPECT_LT(json_in("out/report.json").value("/mesh/seconds"_json_pointer, 0.0), 1.0);
+  const double start = processor_seconds();
+  expect("run " + square() + ' ' + of + " --vertices 900000 -o out", 2,
+         "step mesh: model.obj: 2 of 3 vertices are outside the cage");
+  EXPECT_LT(processor_seconds() - start, 10);  // the mesher would take 30
   EXPECT_FALSE(std::filesystem::exists("out/domain.obj"));
 }
 

@@ -21,7 +21,7 @@ class PlotCommand : public CommandLineTest {
 
 TEST_F(PlotCommand, AHistoryEndsAsTheReportSays) {
   for (const std::string cage : {"2d/letter_cage.obj", "3d/limb_cage.obj"}) {
-    for (const std::string method : {"value", "gradient", "lbc2014"}) {
+    for (const std::string method : {"weights", "gradient", "lbc2014"}) {
       SCOPED_TRACE(cage + " " + method);
       const auto report = solved("r", cage, "--history --certify --method " + method);
       const auto& history = report["history"];

@@ -11,7 +11,7 @@ namespace flbc::app {
 namespace {
 
 TEST(ProgressEstimate, NeverGoesBackAndFitsALine) {
-  for (const Method method : {Method::kValue, Method::kGradient}) {
+  for (const Method method : {Method::kWeights, Method::kGradient}) {
     SolverOptions options;
     options.method = method;
     ProgressEstimate estimate(options);

@@ -88,16 +88,14 @@ class ProgramTest(unittest.TestCase):
         def steps():
             yield Command([slow])
         job = Job(steps())
-        limit = time.monotonic() + 10
-        while job.progress() != ('solving', 0.4) and time.monotonic() < limit:
+        while job.progress() != ('solving', 0.4):
             self.assertFalse(job.poll())
             time.sleep(0.01)
-        self.assertEqual(job.progress(), ('solving', 0.4))
         job.cancel()
 
     def test_cancel_stops_the_program_and_its_children(self):
         mark = self.folder / 'pid'
-        slow, ended = self.script(f'sleep 60 & echo $! > {mark}; wait'), []
+        slow, ended = self.script(f'sleep 1000 & echo $! > {mark}; wait'), []
 
         def steps():
             try:
@@ -106,17 +104,15 @@ class ProgramTest(unittest.TestCase):
                 ended.append(True)
         job = Job(steps())
         job.poll()
-        limit = time.monotonic() + 10
-        while not (mark.exists() and mark.read_text().strip()) and time.monotonic() < limit:
+        while not (mark.exists() and mark.read_text().strip()):
             time.sleep(0.01)
         job.cancel()
         self.assertEqual(ended, [True])
         child = int(mark.read_text())
-        while Path(f'/proc/{child}').exists() and time.monotonic() < limit:
+        while Path(f'/proc/{child}').exists():  # for ever, if it was not stopped
             if 'Z' in Path(f'/proc/{child}/stat').read_text().split(')')[1][:3]:
                 break
             time.sleep(0.01)
-        self.assertLess(time.monotonic(), limit)
 
     def test_the_program_is_that_of_the_preferences_or_of_the_search_path(self):
         path, before = self.script('exit 0'), os.environ['PATH']

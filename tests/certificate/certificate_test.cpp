@@ -119,7 +119,7 @@ TEST_IN_2D_AND_3D(CertificateTest, BoundIsBelowAllFeasibleWeightsForAnyFlux) {
   Numbers numbers(8);
   for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
-    auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0);
     const Index n = problem.num_control_points();
     const auto harmonic = feasible(problem, harmonic_coordinates(problem));
     std::vector<WeightMatrix> others{harmonic};
@@ -154,7 +154,7 @@ TEST_IN_2D_AND_3D(CertificateTest, BoundIsBelowAllFeasibleWeightsForAnyFlux) {
 TEST_IN_2D_AND_3D(CertificateTest, BoundIsTheOptimumInASimplex) {
   Numbers numbers(9);
   const auto sample = make_sample<Dim>(Shape::kSimplex, 5, 0.2);
-  auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0);
   Eigen::MatrixXd phi = numbers.matrix(Dim + 1, problem.mesh.num_cells(), 0, 1);
   phi.col(0).setZero();
   phi.col(1).setConstant(1e-300);
@@ -193,7 +193,7 @@ TEST_IN_2D_AND_3D(CertificateTest, BoundIsTheOptimumInASimplex) {
 
 TEST_IN_2D_AND_3D(CertificateTest, VectorsThatAreNotFiniteCountAsZero) {
   const auto sample = make_sample<Dim>(Shape::kBox, 4, 0.2);
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0);
   const auto weights = harmonic_coordinates(problem);
   auto broken = aligned_flux<float>(problem, weights);
   auto zeroed = aligned_flux<float>(problem, weights);
@@ -209,7 +209,7 @@ TEST_IN_2D_AND_3D(CertificateTest, VectorsThatAreNotFiniteCountAsZero) {
 
 TEST_IN_2D_AND_3D(CertificateTest, ThreadsDoNotMatter) {
   const auto sample = make_sample<Dim>(Shape::kRing, Dim == 2 ? 12 : 5, 0.2);
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0);
   ASSERT_GT(problem.mesh.num_vertices(), 512);  // enough for several threads
   const auto weights = harmonic_coordinates(problem);
   const auto field = aligned_flux<double>(problem, weights);
@@ -219,7 +219,7 @@ TEST_IN_2D_AND_3D(CertificateTest, ThreadsDoNotMatter) {
 TEST_IN_2D_AND_3D(CertificateTest, CertifyMakesWeightsFeasible) {
   Numbers numbers(10);
   const auto sample = make_sample<Dim>(Shape::kCorner, 4, 0.2);
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kLinear);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kLinear, 0);
   const auto harmonic = harmonic_coordinates(problem);
   const auto field = aligned_flux<double>(problem, harmonic);
   const auto weights = feasible(problem, harmonic);
@@ -243,7 +243,7 @@ TEST_IN_2D_AND_3D(CertificateTest, CertifyMakesWeightsFeasible) {
 
 TEST_IN_2D_AND_3D(CertificateTest, SizesThatDoNotFitAreErrors) {
   const auto sample = make_sample<Dim>(Shape::kBox, 3, 0.2);
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant, 0);
   const auto weights = harmonic_coordinates(problem);
   Field<double, Dim> field(problem);
   const Index n = problem.num_control_points();

@@ -72,7 +72,7 @@ Eigen::VectorXd minimize_in_box(const Eigen::MatrixXd& a, const Eigen::VectorXd&
 TEST_IN_2D_AND_3D(BiharmonicTest, MinimizesTheEnergyWithinBounds) {
   for (const auto shape : {Shape::kCorner, Shape::kStar}) {
     const auto sample = make_sample<Dim>(shape, Dim == 2 ? 5 : 4, 0.2);
-    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0);
     const auto weights = bounded_biharmonic_weights(problem);
     const auto energy = dense_energy(problem.mesh);
     const auto inside = problem.boundary.interior_vertices();
@@ -97,7 +97,7 @@ TEST_IN_2D_AND_3D(BiharmonicTest, MinimizesTheEnergyWithinBounds) {
 TEST_IN_2D_AND_3D(BiharmonicTest, WithinBoundsWithSumOneAndLinearOnFacets) {
   for (const auto& sample : cages<Dim>()) {
     SCOPED_TRACE(sample.name);
-    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0);
     auto weights = bounded_biharmonic_weights(problem);
     EXPECT_GE(weights.minCoeff(), 0);
     EXPECT_LE(weights.maxCoeff(), 1);

@@ -27,7 +27,7 @@ PointList<Dim> points_in_cells(const DomainMesh<Dim>& mesh) {
 TEST_IN_2D_AND_3D(CoordinatesTest, InterpolationKeepsLinearFunctionsAndTheConstraints) {
   for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
-    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant, 0);
     const auto weights = harmonic_coordinates(problem);
     const auto points = points_in_cells(problem.mesh);
     const auto places = locate_points(problem.mesh, points);

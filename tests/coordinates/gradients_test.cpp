@@ -29,7 +29,7 @@ Square<Dim> linear_part() {
 TEST_IN_2D_AND_3D(GradientsTest, AffinePosesGiveTheirLinearPart) {
   for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
-    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant, 0);
     const auto weights = harmonic_coordinates(problem);
     const PointList<Dim> points = centroids<Dim>(problem.mesh.points, problem.mesh.cells);
     const auto places = locate_points(problem.mesh, points);

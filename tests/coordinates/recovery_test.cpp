@@ -56,7 +56,7 @@ WeightMatrix feasible_weights(const LbcProblem<Dim>& problem) {
 TEST_IN_2D_AND_3D(RecoveryTest, IntegratingTheGradientsOfWeightsGivesTheWeights) {
   for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
-    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant, 0);
     const auto weights = feasible_weights(problem);
     const Gradients<double, Dim> exact(problem.mesh, weights);
     const Gradients<float, Dim> rounded(problem.mesh, weights);
@@ -72,7 +72,7 @@ TEST_IN_2D_AND_3D(RecoveryTest, IntegratingTheGradientsOfWeightsGivesTheWeights)
 
 TEST_IN_2D_AND_3D(RecoveryTest, ConstraintsHoldToRoundingForGradientsThatAreNotIntegrable) {
   const auto sample = make_sample<Dim>(Shape::kRing, 4, 0.2);
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant, 0);
   const auto weights = feasible_weights(problem);
   Gradients<float, Dim> gradients(problem.mesh, weights);
   for (std::size_t k = 0; k < gradients.numbers.size(); ++k) {
@@ -96,7 +96,7 @@ TEST_IN_2D_AND_3D(RecoveryTest, HarmonicCoordinatesObeyTheMaximumPrinciple) {
   for (const Index subdivisions : {3, 4, 5}) {
     const auto sample = make_sample<Dim>(Shape::kBox, subdivisions);
     SCOPED_TRACE(sample.name);
-    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant, 0);
     ASSERT_FALSE(problem.boundary.interior_vertices().empty());
     const auto judgement = judge(problem.cage, problem.mesh, harmonic_coordinates(problem), 1e-12);
     EXPECT_GE(judgement.min_weight, -1e-12);

@@ -75,7 +75,7 @@ TEST_IN_2D_AND_3D(CheckTest, AgreesWithTheJudgeAndMeasureQuality) {
     const Eigen::MatrixXd ones = Eigen::MatrixXd::Ones(sample.cage.size(), sample.mesh.num_cells());
     const double variation = testing::objective(sample.mesh, weights, ones);
     EXPECT_NEAR(check.mesh->total_variation, variation, 1e-12 * variation);
-    const auto phi = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare).phi.dense();
+    const auto phi = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0).phi.dense();
     const double weighted = testing::objective(sample.mesh, weights, phi);
     EXPECT_NEAR(check.mesh->weighted_variation, weighted, 1e-9 * weighted);
 

@@ -44,7 +44,7 @@ using testing::Shape;
 template <int Dim>
 struct Valid {
   testing::Sample<Dim> sample = make_sample<Dim>(Shape::kCorner, 2, 0.1);
-  LbcProblem<Dim> problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  LbcProblem<Dim> problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0);
   SparseWeights weights = solve(sample.cage, sample.mesh).weights;
 };
 
@@ -145,7 +145,7 @@ Coordinates some_coordinates(Mutator& mutator) {
 SolverOptions some_options(Mutator& mutator) {
   SolverOptions options;
   options.method =
-      mutator.one_of({Method::kValue, Method::kGradient, Method::kPaper, Method::kLbc2014});
+      mutator.one_of({Method::kWeights, Method::kGradient, Method::kPaper, Method::kLbc2014});
   options.max_iterations = 12;
   options.certify = mutator.below(4) == 0;
   options.phi = some_scheme(mutator);
@@ -155,6 +155,13 @@ SolverOptions some_options(Mutator& mutator) {
 }
 
 // --------------------------------------------------------------------------------------- problems
+
+template <int Dim>
+SolverOptions some_options_for(const LbcProblem<Dim>& problem, Mutator& mutator) {
+  auto options = some_options(mutator);
+  options.smoothness = problem.smoothness;
+  return options;
+}
 
 template <int Dim>
 void solve_once(Mutator& mutator) {
@@ -179,7 +186,7 @@ void solve_problem(Mutator& mutator) {
   Eigen::MatrixXd phi = problem.phi.dense();
   mutator.damage(Argument::kPhi, phi);
   problem.phi = WeightFunctions(phi);
-  solve(problem, some_options(mutator));
+  solve(problem, some_options_for(problem, mutator));
 }
 
 template <int Dim>
@@ -216,9 +223,9 @@ template <int Dim>
 void set_up(Mutator& mutator) {
   const auto cage = some_cage<Dim>(mutator);
   const auto mesh = some_mesh<Dim>(mutator);
-  const auto problem = mutator.below(2) == 0 ? make_problem(cage, mesh, some_scheme(mutator))
+  const auto problem = mutator.below(2) == 0 ? make_problem(cage, mesh, some_scheme(mutator), 0.003)
                                              : make_problem(cage, mesh, some_topology<Dim>(mutator),
-                                                            some_scheme(mutator));
+                                                            some_scheme(mutator), 0.003);
   switch (mutator.below(3)) {
     case 0:
       harmonic_coordinates(problem);
@@ -227,7 +234,7 @@ void set_up(Mutator& mutator) {
       bounded_biharmonic_weights(problem);
       break;
     default:
-      solve(problem, some_options(mutator));
+      solve(problem, some_options_for(problem, mutator));
   }
 }
 
@@ -236,7 +243,7 @@ void solve_and_move(Mutator& mutator) {
   const auto& [cage, mesh, name] = valid<Dim>().sample;
   const bool is_valid = mutator.below(2) == 0;
   auto options = some_options(mutator);
-  options.method = mutator.one_of({Method::kValue, Method::kGradient});
+  options.method = mutator.one_of({Method::kWeights, Method::kGradient});
   options.certify = false;
   Solver<Dim> solver(is_valid ? cage : some_cage<Dim>(mutator),
                      is_valid ? mesh : some_mesh<Dim>(mutator), options);

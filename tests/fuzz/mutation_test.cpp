@@ -55,7 +55,7 @@ TEST_IN_2D_AND_3D(FuzzFound, FacetsOfTheCageAreChecked) {
            [&] { maximum_likelihood_coordinates(cage, sample.mesh.points); },
            [&] { points_outside(cage, sample.mesh.points); }, [&] { thinnest_place(cage); },
            [&] { place_points(cage, sample.mesh.points); },
-           [&] { make_problem(cage, sample.mesh, DistanceScheme::kSquare); }}) {
+           [&] { make_problem(cage, sample.mesh, DistanceScheme::kSquare, 0); }}) {
     expect_error<InputError>(use,
                              {" 1 ", "refers to control point " + std::to_string(cage.size())});
   }
@@ -84,12 +84,14 @@ TEST_IN_2D_AND_3D(FuzzFound, TheTopologyOfAnotherMeshIsRefused) {
   const auto& cage = sample.cage;
   const auto& mesh = sample.mesh;
   auto topology = build_topology(make_sample<Dim>(Shape::kBox, 2).mesh);
-  expect_error<InputError>([&] { make_problem(cage, mesh, topology, DistanceScheme::kConstant); },
-                           {"topology is not that of the domain mesh"});
+  expect_error<InputError>(
+      [&] { make_problem(cage, mesh, topology, DistanceScheme::kConstant, 0); },
+      {"topology is not that of the domain mesh"});
   topology = build_topology(mesh);
   std::swap(topology.cell_facets(0, 0), topology.cell_facets(1, 0));
-  expect_error<InputError>([&] { make_problem(cage, mesh, topology, DistanceScheme::kConstant); },
-                           {"topology is not that of the domain mesh"});
+  expect_error<InputError>(
+      [&] { make_problem(cage, mesh, topology, DistanceScheme::kConstant, 0); },
+      {"topology is not that of the domain mesh"});
 }
 
 TEST_IN_2D_AND_3D(FuzzFound, PlacementsWithoutAMeshHaveNoWeightsInCells) {

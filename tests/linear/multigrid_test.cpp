@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/Dense>
 
-#include "flbc/solver.h"
 #include "linear/multigrid.h"
 #include "linear/multigrid_cg.h"
 #include "mesh/cell_geometry.h"
 #include "problem/laplacian.h"
+#include "solver/methods/splitting/compact_splitting.h"
+#include "support/splitting_cases.h"
 #include "support/test.h"
 
 namespace flbc::testing {
@@ -141,21 +142,30 @@ TEST_IN_2D_AND_3D(MultigridTest, PreconditionsConjugateGradients) {
 TEST_IN_2D_AND_3D(MultigridTest, LeavesTheOptimumWhereItIs) {
   for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
-    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
-    SolverOptions options;
-    options.tolerance = 1e-9;
-    options.certify = true;
-    options.linear_solver = LinearSolver::kDirect;
-    const auto direct = solve(problem, options);
-    options.linear_solver = LinearSolver::kMultigrid;
-    const auto multigrid = solve(problem, options);
-    EXPECT_EQ(multigrid.report.status, SolveStatus::kConverged);
-    const double squared = (direct.weights.dense() - multigrid.weights.dense()).squaredNorm() /
-                           static_cast<double>(direct.weights.dense().size());
-    EXPECT_LT(squared, 1e-8);
-    EXPECT_LE(multigrid.report.certificate.lower_bound,
-              direct.report.certificate.objective * (1 + 1e-12));
-    EXPECT_LT(multigrid.report.iterations, 3 * direct.report.iterations + 20);
+    constexpr double kSmoothness = 0.01;  // the optimum is unique
+    const auto problem =
+        make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, kSmoothness);
+    const auto metric = make_metric(problem, 1, true);
+    const auto after = [&](int iterations, LinearSolver solver) {
+      compact::Parameters parameters;
+      parameters.penalty = make_penalty(problem, metric);
+      parameters.linear_solver = solver;
+      compact::CompactSplitting<double, Dim> splitting(problem, metric, parameters);
+      splitting.start({});
+      for (int k = 0; k < iterations; ++k) {
+        splitting.iterate(k, 1);
+        splitting.adapt({k + 1, 1, 1, false});
+      }
+      return splitting.all_weights();
+    };
+    const auto optimum = after(3000, LinearSolver::kDirect);
+    const auto squared_error = [&](int iterations, LinearSolver solver) {
+      return (after(iterations, solver) - optimum).squaredNorm() /
+             static_cast<double>(optimum.size());
+    };
+    EXPECT_LT(squared_error(3000, LinearSolver::kMultigrid), 1e-12);
+    EXPECT_LT(squared_error(320, LinearSolver::kMultigrid),
+              1e-12 + squared_error(100, LinearSolver::kDirect));
   }
 }
 

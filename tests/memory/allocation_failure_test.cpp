@@ -75,10 +75,10 @@ TEST_IN_2D_AND_3D(AllocationFailure, EndsInAResultOrAnException) {
   SolverOptions options;
   options.threads = 3;
   options.max_iterations = 3;
-  for (const auto method : {Method::kValue, Method::kGradient, Method::kPaper}) {
+  for (const auto method : {Method::kWeights, Method::kGradient, Method::kPaper}) {
     for (const bool active : {false, true}) {
       options.method = method;
-      options.active_set = active && method == Method::kValue ? ActiveSet::kOn : ActiveSet::kAuto;
+      options.active_set = active && method == Method::kWeights ? ActiveSet::kOn : ActiveSet::kAuto;
       const auto needed = solve_with(kPlenty, sample, options);
       ASSERT_GT(needed.value_or(0), 100);
       for (int k = 0; k < kTries; ++k) {

@@ -65,9 +65,7 @@ TYPED_TEST_SUITE(Bind, Cases);
 TYPED_TEST(Bind, LeavesTheWeightsThatTheStepsGive) {
   constexpr int kDimension = TypeParam::kDim;
   const auto& [cage, domain, name] = this->sample_;
-  SolverOptions solver;
-  make_smooth(solver);
-  const auto solution = solve(cage, domain, solver);
+  const auto solution = solve(cage, domain);
   auto valid = domain;
   normalize_and_validate(valid);
   const auto all =

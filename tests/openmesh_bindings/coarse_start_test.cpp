@@ -39,7 +39,6 @@ TEST(CoarseStart, IsThereInSpace) {
   auto mesh = openmesh::TetMesh::from(sample.mesh);
   SolverOptions options;
   options.coarse_to_fine = CoarseToFine::kOn;
-  options.coarse_levels.coarsest = 20;
   EXPECT_FALSE(openmesh::solve(mesh, sample.cage, options).coarse_levels.empty());
 }
 

@@ -131,7 +131,7 @@ class MeshWeights : public ::testing::Test {
   static constexpr int kDim = openmesh::kDimension<Mesh>;
   static constexpr bool kExact = !std::is_same_v<Mesh, FloatTri>;
 
-  MeshWeights() : sample_(make_sample<kDim>(Shape::kCorner, 3, 0.2)) {
+  MeshWeights() : sample_(make_sample<kDim>(Shape::kCorner, 4, 0.2)) {
     normalize_and_validate(sample_.mesh);
     mesh_ = openmesh::to_mesh<Mesh>(sample_.mesh);
     openmesh::solve(mesh_, sample_.cage);

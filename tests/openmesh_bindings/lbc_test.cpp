@@ -91,7 +91,8 @@ TYPED_TEST(LbcTest, GradientsAreAPropertyOnRequest) {
   CellRows<TypeParam> handle;
   openmesh::PropertyOptions properties;
   properties.gradients = true;
-  for (const auto method : {Method::kValue, Method::kGradient, Method::kPaper, Method::kLbc2014}) {
+  for (const auto method :
+       {Method::kWeights, Method::kGradient, Method::kPaper, Method::kLbc2014}) {
     SolverOptions options;
     options.method = method;
     openmesh::solve(mesh, sample.cage, options, properties);

@@ -106,7 +106,7 @@ TEST_IN_2D_AND_3D(DistanceWeightsTest, GoRoundHoles) {
 }
 
 // Rounding in nearly flat cells must not count as an improvement, which would never end.
-TEST_IN_2D_AND_3D(DistanceWeightsTest, EndSoonInFlatCells) {
+TEST_IN_2D_AND_3D(DistanceWeightsTest, EndInFlatCells) {
   for (const auto shape : {Shape::kSimplex, Shape::kBox}) {
     for (const double flatness : {1e-4, 1e-5, 1e-6}) {
       auto sample = make_sample<Dim>(shape, Dim == 2 ? 30 : 8, 0.3);
@@ -115,11 +115,12 @@ TEST_IN_2D_AND_3D(DistanceWeightsTest, EndSoonInFlatCells) {
       const auto topology = build_topology(mesh);
       const distance::EikonalMesh<Dim> eikonal(mesh, topology);
       distance::March<Dim> march(eikonal);
-      const Index most = 32 * mesh.num_vertices();
+      const double size = bounding_box_diagonal(mesh.points);
       for (Index source = 0; source < mesh.num_vertices(); source += 7) {
-        Index passes = 0;
-        march.run(source, [&](Index, float) { return ++passes < most; });
-        EXPECT_LT(passes, most) << flatness << ' ' << source;
+        for (const auto& arrival : march.run(source)) {
+          ASSERT_GE(arrival.distance, 0) << flatness << ' ' << source;
+          ASSERT_LT(arrival.distance, 1.1 * size) << flatness << ' ' << source;
+        }
       }
     }
   }
@@ -201,32 +202,6 @@ TEST_IN_2D_AND_3D(DistanceWeightsTest, RaysThroughACellAreExact) {
   }
 }
 
-// A corner is not denied the ray that reaches it through a corner passed after it, but many others.
-TEST_IN_2D_AND_3D(DistanceWeightsTest, UsefulRaysAreNotDenied) {
-  const ThreadScope scope(1);
-  std::mt19937 random(2);
-  int num_obtuse = 0;
-  int num_denied = 0;
-  for (int round = 0; round < 500; ++round) {
-    const auto mesh = random_cell<Dim>(random);
-    const auto topology = build_topology(mesh);
-    const distance::EikonalMesh<Dim> eikonal(mesh, topology);
-    const auto& look_back = eikonal.look_back[0];
-    for (int c = 0; c <= Dim; ++c) {
-      const auto of = distances_of_corners<Dim>(mesh, source_beyond(mesh, c, false, random));
-      for (int o = 0; o <= Dim; ++o) {
-        if (o == c || (look_back.obtuse_beside(o) >> c & 1u) == 0) continue;
-        EXPECT_TRUE(look_back.can_help(1.001f * of[c], of[o]));
-        // No edge is longer than that.
-        num_denied += look_back.can_help(of[c], of[c] + 2 * std::sqrt(float{Dim})) ? 0 : 1;
-        ++num_obtuse;
-      }
-    }
-  }
-  EXPECT_GT(num_obtuse, 100);
-  EXPECT_EQ(num_denied, num_obtuse);
-}
-
 TEST_IN_2D_AND_3D(DistanceWeightsTest, SchemesAreOrderedAndInTheUnitInterval) {
   const auto sample = make_sample<Dim>(Shape::kCorner, 4, 0.2);
   const auto& mesh = sample.mesh;
@@ -250,25 +225,19 @@ TEST_IN_2D_AND_3D(DistanceWeightsTest, SchemesAreOrderedAndInTheUnitInterval) {
   EXPECT_NEAR(linear(0, 0), mean / (Dim + 1) / distances.maxCoeff(), 1e-14);
 }
 
-TEST_IN_2D_AND_3D(DistanceWeightsTest, AMeshMayHaveMoreVerticesThanCells) {
+// Also if there are more vertices than cells.
+TEST_IN_2D_AND_3D(DistanceWeightsTest, AreKeptAsTheyAreGiven) {
   DomainMesh<Dim> mesh;  // one cell
   mesh.points = PointList<Dim>::Identity(Dim, Dim + 1);
   mesh.cells.resize(Dim + 1, 1);
   for (int k = 0; k <= Dim; ++k) mesh.cells(k, 0) = k;
-  const DistanceMatrix distances = DistanceMatrix::Ones(2, Dim + 1);
-  const WeightFunctions phi(DistanceScheme::kLinear, distances, mesh, 2);
-  EXPECT_EQ(phi.cols(), 1);
+  const WeightFunctions phi(DistanceScheme::kLinear, DistanceMatrix::Ones(2, Dim + 1), mesh, 2);
   EXPECT_EQ(phi.size(), 2);
   EXPECT_EQ(phi.dense(), Eigen::MatrixXd::Ones(2, 1));
-}
-
-TEST_IN_2D_AND_3D(DistanceWeightsTest, WeightFunctionsThatAreGivenAreKept) {
-  const auto sample = make_sample<Dim>(Shape::kCorner, 4, 0.2);
-  const Eigen::MatrixXd values =
-      Eigen::MatrixXd::Random(sample.cage.size(), sample.mesh.num_cells()).cwiseAbs();
+  const Eigen::MatrixXd values = Eigen::MatrixXd::Random(5, 7).cwiseAbs();
   const WeightFunctions given(values);
-  EXPECT_EQ(given.rows(), values.rows());
-  EXPECT_EQ(given.cols(), values.cols());
+  EXPECT_EQ(given.rows(), 5);
+  EXPECT_EQ(given.cols(), 7);
   EXPECT_EQ(given.dense(), values);
   EXPECT_EQ(given.col(1), values.col(1));
   EXPECT_EQ(given(2, 1), values(2, 1));

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The start from a coarser mesh: what carries over exactly, and that the answer stays the same.
-#include "flbc/solver.h"
-
 #include "solver/methods/splitting/compact_splitting.h"
 #include "solver/plan/choices.h"
+#include "solver/plan/constants.h"
 #include "solver/start/transfer.h"
 #include "support/coarse_sample_mesher.h"
+#include "support/solver_options.h"
+#include "support/splitting_cases.h"
 #include "support/test.h"
 
 namespace flbc::testing {
@@ -30,11 +31,11 @@ struct TwoMeshes {
 
   explicit TwoMeshes(Shape shape) {
     const auto sample = make_sample<Dim>(shape, 2, 0.2);
-    coarse = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+    coarse = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant, 0);
     auto finer = make_sample<Dim>(shape, 5, 0.2);
     finer.cage.points = (3 * finer.cage.points).colwise() + Vector<Dim>::Constant(40);
     finer.mesh.points = (3 * finer.mesh.points).colwise() + Vector<Dim>::Constant(40);
-    fine = make_problem(finer.cage, finer.mesh, DistanceScheme::kConstant);
+    fine = make_problem(finer.cage, finer.mesh, DistanceScheme::kConstant, 0);
   }
 };
 
@@ -69,8 +70,9 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, LinearWeightsAndConstantFluxesCarryOverExact
 TEST_IN_2D_AND_3D(CoarseToFineTest, FluxNeverExceedsThePhiOfTheFineMesh) {
   const auto coarse_sample = make_sample<Dim>(Shape::kBox, 2, 0.2);
   const auto sample = make_sample<Dim>(Shape::kBox, 5, 0.2);
-  const auto coarse = make_problem(coarse_sample.cage, coarse_sample.mesh, DistanceScheme::kSquare);
-  const auto fine = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const auto coarse =
+      make_problem(coarse_sample.cage, coarse_sample.mesh, DistanceScheme::kSquare, 0);
+  const auto fine = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0);
   const Index n = coarse.num_control_points();
   Duals<Dim> state;
   state.weights = SparseWeights(WeightMatrix::Zero(n, coarse.mesh.num_vertices()));
@@ -93,16 +95,11 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, FluxNeverExceedsThePhiOfTheFineMesh) {
 // Started from the duals of its optimum, the splitting stays there.
 TEST_IN_2D_AND_3D(CoarseToFineTest, SplittingContinuesFromItsOwnOptimum) {
   const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 6 : 4, 0.2);
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
-  splitting::Metric metric;
-  metric.cell.resize(problem.mesh.num_cells());
-  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
-    metric.cell[s] = signed_measure(problem.mesh, s);
-  }
-  metric.vertex = Eigen::VectorXd::Constant(problem.mesh.num_vertices(), 250 * metric.cell.mean());
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0);
+  const auto metric = make_metric(problem, 1, true);
   compact::CompactSplitting<double, Dim> first(problem, metric, {0.016, 1.9});
   first.start({});
-  first.iterate(0, 3000, false);
+  first.iterate(0, 3000);
   const WeightMatrix weights = first.all_weights();
   const VectorsAt<1> own_dual = first.state().vertex_dual;
   const auto moved = [&](const VectorsAt<Dim>& flux_density, const VectorsAt<1>& dual) {
@@ -111,7 +108,7 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, SplittingContinuesFromItsOwnOptimum) {
         {0.016, [&](Index v) -> Eigen::VectorXd { return weights.col(v); }, flux_density, dual});
     EXPECT_LT((second.all_weights() - weights).cwiseAbs().maxCoeff(), 1e-14);
     double change = 0;
-    for (int k = 0; k < 20; ++k) change += second.iterate(0, 1, false).change;
+    for (int k = 0; k < 20; ++k) change += second.iterate(k, 1).change;
     return change;
   };
   const VectorsAt<Dim> own = [&](Index s) { return first.flux_density(s); };
@@ -142,36 +139,26 @@ Sample<Dim> fine_sample() {
   return make_sample<Dim>(Shape::kCorner, Dim == 2 ? 26 : 6, 0.2);
 }
 
-template <int Dim>
-CoarseLevels test_levels() {
-  CoarseLevels levels;
-  levels.coarsest = 50;
-  return levels;
+// Meshes this small need to be asked for it.
+SolverOptions multilevel(double tolerance = 1e-6) {
+  SolverOptions options;
+  options.coarse_to_fine = CoarseToFine::kOn;
+  options.distances = Distances::kExact;
+  options.tolerance = tolerance;
+  return options;
 }
 
 TEST_IN_2D_AND_3D(CoarseToFineTest, AgreesWithTheColdStartInFewerIterations) {
   const auto sample = fine_sample<Dim>();
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
-  SolverOptions exact;
-  exact.precision = Precision::kDouble;
-  exact.tolerance = 1e-10;
-  exact.certify = true;
-  const auto optimum = solve(problem, exact);
-  SolverOptions options;
-  options.certify = true;
-  options.tolerance = 1e-6;
-  const auto cold = solve(problem, options);
-  options.coarse_levels = test_levels<Dim>();
-  const auto warm = solve(problem, options, sample_mesher<Dim>(Shape::kCorner));
-  ASSERT_EQ(cold.report.status, SolveStatus::kConverged);
+  const auto optimum = solve(sample.cage, sample.mesh, many_iterations(800)).weights.dense();
+  auto options = multilevel();
+  const auto warm = solve(sample.cage, sample.mesh, options, sample_mesher<Dim>(Shape::kCorner));
+  options.coarse_to_fine = CoarseToFine::kOff;
+  const auto cold = solve(sample.cage, sample.mesh, options);
   ASSERT_EQ(warm.report.status, SolveStatus::kConverged);
   EXPECT_FALSE(warm.report.coarse_levels.empty());
   EXPECT_LT(warm.report.iterations, cold.report.iterations);
-  EXPECT_LT(mean_squared_difference(sample.mesh, warm.weights.dense(), optimum.weights.dense()),
-            3e-6);
-  EXPECT_LT(mean_squared_difference(sample.mesh, warm.weights.dense(), cold.weights.dense()), 1e-6);
-  EXPECT_LE(warm.report.certificate.lower_bound, optimum.report.certificate.objective * (1 + 1e-9));
-  EXPECT_LT(warm.report.certificate.relative_gap, 0.2);
+  EXPECT_LT(mean_squared_difference(sample.mesh, warm.weights.dense(), optimum), 3e-6);
   const auto judgement = judge(sample.cage, sample.mesh, warm.weights.dense());
   EXPECT_LT(judgement.partition_error, 1e-13);
   EXPECT_LT(judgement.reproduction_error, 1e-13);
@@ -179,10 +166,8 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, AgreesWithTheColdStartInFewerIterations) {
 }
 
 TEST_IN_2D_AND_3D(CoarseToFineTest, ReportsEveryLevelAndCountsItsSeconds) {
-  const auto sample = fine_sample<Dim>();
-  SolverOptions options;
-  options.tolerance = 1e-9;
-  options.coarse_levels = test_levels<Dim>();
+  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 42 : 13, 0.2);
+  const auto options = multilevel(1e-5);
   std::vector<int> seen;
   Observer observer;
   observer.progress = [&](const Progress& progress) {
@@ -193,7 +178,7 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, ReportsEveryLevelAndCountsItsSeconds) {
       solve(sample.cage, sample.mesh, options, sample_mesher<Dim>(Shape::kCorner), observer);
   const auto& report = solution.report;
   EXPECT_EQ(report.vertices, sample.mesh.num_vertices());
-  ASSERT_GE(report.coarse_levels.size(), 1U);
+  ASSERT_FALSE(report.coarse_levels.empty());
   ASSERT_EQ(seen.size(), report.coarse_levels.size() + 1);
   Index below = 0;
   double seconds = 0;
@@ -202,7 +187,7 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, ReportsEveryLevelAndCountsItsSeconds) {
     EXPECT_EQ(seen[k], static_cast<int>(report.coarse_levels.size() - k));
     EXPECT_GT(level.vertices, below);
     EXPECT_GT(level.cells, 0);
-    EXPECT_GE(level.iterations, 8);
+    EXPECT_GT(level.iterations, 0);
     EXPECT_GT(level.solve_seconds, 0);
     seconds += level.mesh_seconds + level.setup_seconds + level.solve_seconds;
     below = level.vertices;
@@ -214,12 +199,12 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, ReportsEveryLevelAndCountsItsSeconds) {
 }
 
 // Without a usable coarse mesh, the result is bit-identical to a cold start.
-TEST_IN_2D_AND_3D(CoarseToFineTest, GoesOnWithoutALevelThatCannotBeHad) {
+TEST_IN_2D_AND_3D(CoarseToFineTest, SkipsALevelThatCannotBeMeshed) {
   const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 12 : 6, 0.2);
-  SolverOptions options;
-  options.tolerance = 1e-5;
-  options.coarse_levels = test_levels<Dim>();
+  auto options = multilevel(1e-5);
+  options.coarse_to_fine = CoarseToFine::kOff;
   const auto cold = solve(sample.cage, sample.mesh, options);
+  options.coarse_to_fine = CoarseToFine::kOn;
   const CoarseMesher<Dim> meshers[] = {
       [](const Cage<Dim>&, Index) -> DomainMesh<Dim> { throw OptionError("too fine a cage"); },
       [](const Cage<Dim>&, Index) -> DomainMesh<Dim> { throw std::bad_function_call(); },
@@ -238,7 +223,7 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, GoesOnWithoutALevelThatCannotBeHad) {
   EXPECT_THROW(solve(sample.cage, sample.mesh, options, without_memory), std::bad_alloc);
 }
 
-TEST_IN_2D_AND_3D(CoarseToFineTest, OtherMethodsStartAsEver) {
+TEST_IN_2D_AND_3D(CoarseToFineTest, OtherMethodsUseNoCoarseMesh) {
   const auto sample = make_sample<Dim>(Shape::kCorner, 4, 0.2);
   int calls = 0;
   const CoarseMesher<Dim> mesher = [&](const Cage<Dim>& cage, Index vertices) {
@@ -249,9 +234,10 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, OtherMethodsStartAsEver) {
     SolverOptions options;
     options.method = method;
     options.max_iterations = 30;
-    options.coarse_levels.coarsest = 10;
-    const auto plain = solve(sample.cage, sample.mesh, options);
+    options.coarse_to_fine = CoarseToFine::kOn;
     const auto same = solve(sample.cage, sample.mesh, options, mesher);
+    options.coarse_to_fine = CoarseToFine::kOff;
+    const auto plain = solve(sample.cage, sample.mesh, options);
     EXPECT_TRUE((same.weights.dense().array() == plain.weights.dense().array()).all());
   }
   EXPECT_EQ(calls, 0);
@@ -259,16 +245,14 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, OtherMethodsStartAsEver) {
 
 TEST_IN_2D_AND_3D(CoarseToFineTest, CanBeStoppedOnACoarseMesh) {
   const auto sample = fine_sample<Dim>();
-  SolverOptions options;
-  options.coarse_levels = test_levels<Dim>();
   int calls = 0;
   Observer observer;
   observer.progress = [&](const Progress& progress) {
     EXPECT_GT(progress.finer_levels, 0);
     return ++calls < 2;
   };
-  const auto solution =
-      solve(sample.cage, sample.mesh, options, sample_mesher<Dim>(Shape::kCorner), observer);
+  const auto solution = solve(sample.cage, sample.mesh, multilevel(1e-20),
+                              sample_mesher<Dim>(Shape::kCorner), observer);
   EXPECT_EQ(calls, 2);
   EXPECT_EQ(solution.report.status, SolveStatus::kStopped);
   EXPECT_EQ(solution.report.iterations, 1);
@@ -277,71 +261,54 @@ TEST_IN_2D_AND_3D(CoarseToFineTest, CanBeStoppedOnACoarseMesh) {
 
 TEST_IN_2D_AND_3D(CoarseToFineTest, ThreadsDoNotChangeABit) {
   const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 14 : 6, 0.2);
-  SolverOptions options;
-  options.tolerance = 1e-5;
-  options.coarse_levels = test_levels<Dim>();
-  const auto run = [&](int threads) {
-    options.threads = threads;
-    return solve(sample.cage, sample.mesh, options, sample_mesher<Dim>(Shape::kCorner));
-  };
-  const auto one = run(1);
-  const auto two = run(2);
-  EXPECT_FALSE(one.report.coarse_levels.empty());
-  EXPECT_EQ(one.report.iterations, two.report.iterations);
-  EXPECT_TRUE((one.weights.dense().array() == two.weights.dense().array()).all());
+  expect_same_for_any_threads([&] {
+    const auto solution =
+        solve(sample.cage, sample.mesh, multilevel(1e-5), sample_mesher<Dim>(Shape::kCorner));
+    EXPECT_FALSE(solution.report.coarse_levels.empty());
+    return solution.weights.dense();
+  });
 }
 
 TEST_IN_2D_AND_3D(CoarseToFineTest, RefusesAMeshOfSomethingElse) {
   const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 12 : 6, 0.2);
-  SolverOptions options;
-  options.coarse_levels = test_levels<Dim>();
   const auto wrong = [](const Cage<Dim>&, Index) { return make_sample<Dim>(Shape::kStar, 3).mesh; };
-  EXPECT_THROW(solve(sample.cage, sample.mesh, options, wrong), InputError);
+  EXPECT_THROW(solve(sample.cage, sample.mesh, multilevel(), wrong), InputError);
 }
 
-// Asked for or not: on uses the mesher where it does not pay, off never does.
-TEST_IN_2D_AND_3D(CoarseToFineTest, IsOnOrOffAsAskedFor) {
-  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 60 : 13, 0.2);
-  ASSERT_GT(sample.mesh.num_vertices(), Dim == 2 ? 5000 : 2500);
-  SolverOptions options;
-  options.max_iterations = 20;
-  const auto levels = [&](CoarseToFine choice) {
-    options.coarse_to_fine = choice;
-    return solve(sample.cage, sample.mesh, options, sample_mesher<Dim>(Shape::kCorner))
-        .report.coarse_levels.size();
-  };
-  EXPECT_GT(levels(CoarseToFine::kOn), 0U);
-  EXPECT_EQ(levels(CoarseToFine::kAuto), 0U);
-  EXPECT_EQ(levels(CoarseToFine::kOff), 0U);
-  options.coarse_levels = test_levels<Dim>();
-  EXPECT_EQ(levels(CoarseToFine::kOff), 0U);
-}
+// ---- the choice of levels -----------------------------------------------------------------------
 
-std::vector<Index> coarse_sizes(const plan::Sizes& sizes, bool on_active_set = false,
-                                const CoarseLevels& levels = {}) {
+std::vector<Index> coarse_sizes(const plan::Sizes& sizes, CoarseToFine choice,
+                                bool on_active_set = false) {
   SolverOptions options;
-  options.tolerance = 1e-6;
+  options.coarse_to_fine = choice;
   options.active_set = on_active_set ? ActiveSet::kOn : ActiveSet::kOff;
-  options.coarse_levels = levels;
   return plan::coarse_sizes(sizes, plan::settings_of(options));
 }
 
-TEST(CoarseSizes, NoneWhereTheyDoNotPay) {
-  EXPECT_TRUE(coarse_sizes({2, 30, 5000}).empty());
-  EXPECT_TRUE(coarse_sizes({2, 6, 30000}).empty());
-  EXPECT_TRUE(coarse_sizes({3, 50, 6000}).empty());
-  EXPECT_FALSE(coarse_sizes({3, 50, 40000}).empty());
-  EXPECT_FALSE(coarse_sizes({2, 30, 10000}).empty());
-  EXPECT_TRUE(coarse_sizes({3, 110, 6000}).empty());
-  EXPECT_FALSE(coarse_sizes({3, 110, 6000}, true).empty());
+TEST(CoarseSizes, AreOffOnOrWhereTheyPay) {
+  for (const plan::Sizes& small : {plan::Sizes{2, 6, 1000}, {3, 10, 2000}}) {
+    EXPECT_TRUE(coarse_sizes(small, CoarseToFine::kAuto).empty());
+    EXPECT_FALSE(coarse_sizes(small, CoarseToFine::kOn).empty());
+  }
+  for (const plan::Sizes& large : {plan::Sizes{2, 100, 100000}, {3, 100, 100000}}) {
+    EXPECT_FALSE(coarse_sizes(large, CoarseToFine::kAuto).empty());
+    EXPECT_TRUE(coarse_sizes(large, CoarseToFine::kOff).empty());
+  }
+  EXPECT_TRUE(coarse_sizes({3, 110, 6000}, CoarseToFine::kAuto).empty());
+  EXPECT_FALSE(coarse_sizes({3, 110, 6000}, CoarseToFine::kAuto, true).empty());
 }
 
-TEST(CoarseSizes, AscendByTheFactorDownToTheCoarsest) {
-  CoarseLevels levels;
-  levels.coarsest = 100;
-  EXPECT_EQ(coarse_sizes({2, 9, 10000}, false, levels), (std::vector<Index>{100, 1000}));
-  EXPECT_EQ(coarse_sizes({3, 9, 9999}, false, levels), (std::vector<Index>{833}));
-  EXPECT_TRUE(coarse_sizes({3, 9, 199}, false, levels).empty());
+TEST(CoarseSizes, AscendToTheFinestMesh) {
+  for (const int dim : {2, 3}) {
+    const auto sizes = coarse_sizes({dim, 9, 100000}, CoarseToFine::kOn);
+    ASSERT_GE(sizes.size(), 2U);
+    EXPECT_GE(sizes.front(), plan::kCoarsest);
+    EXPECT_LT(plan::kClearlyFiner * sizes.back(), 100000);
+    for (std::size_t k = 1; k < sizes.size(); ++k) {
+      EXPECT_LT(plan::kClearlyFiner * sizes[k - 1], sizes[k]);
+    }
+    EXPECT_TRUE(coarse_sizes({dim, 9, 2 * plan::kCoarsest - 1}, CoarseToFine::kOn).empty());
+  }
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // The compact form of the splitting on the weights against the textbook solver of problem (2),
 // iterate by iterate, and what it must keep beyond that.
 #include "solver/methods/splitting/compact_splitting.h"
-#include "solver/plan/constants.h"
 
 #include "flbc/harmonic.h"
 #include "flbc/non_negative.h"
@@ -35,7 +34,7 @@ Sample<Dim> with_many_control_points(Index cage_subdivisions, Index subdivisions
 
 template <int Dim>
 Case<Dim> make_case(const Sample<Dim>& sample, bool non_negative = true) {
-  auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0);
   auto metric = make_metric(problem, 1, non_negative);
   const double penalty = make_penalty(problem, metric);
   return {std::move(problem), std::move(metric), penalty};
@@ -47,27 +46,21 @@ Case<Dim> make_case(Shape shape, bool non_negative = true) {
 }
 
 template <class Scalar, int Dim>
-CompactSplitting<Scalar, Dim> make_splitting(const Case<Dim>& c, double relaxation = 1.9,
-                                             bool half = false) {
-  compact::Parameters parameters;
-  parameters.penalty = c.penalty;
-  parameters.relaxation = relaxation;
-  parameters.half = half;
-  return {c.problem, c.metric, parameters};
+CompactSplitting<Scalar, Dim> make_splitting(const Case<Dim>& c, double relaxation = 1.9) {
+  return {c.problem, c.metric, {c.penalty, relaxation}};
 }
 
-// Of the cells with interior corners before the iteration, and of u = w after it: the library does
-// the W-step of the next iteration in advance.
+// The violation of all constraints by the next z_step and w_step, of cells with interior corners.
 template <int Dim>
 double expected_primal(const LbcProblem<Dim>& problem, TextbookLbc2014<Dim> textbook) {
-  double sum = 0;
+  textbook.iterate();
+  double sum = textbook.squared_violation_of_weights();
   for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
     bool is_inner = false;
     for (const Index v : problem.mesh.cells.col(s)) is_inner |= problem.boundary.is_interior(v);
     if (is_inner) sum += textbook.squared_violation_of_cell(s);
   }
-  textbook.iterate();
-  return std::sqrt(sum + textbook.squared_violation_of_weights());
+  return std::sqrt(sum);
 }
 
 TEST_IN_2D_AND_3D(CompactSplittingTest, EqualsTheTextbookIterateByIterate) {
@@ -92,16 +85,17 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, EqualsTheTextbookIterateByIterate) {
       parameters.paper_residuals = true;
       CompactSplitting<double, Dim> splitting(problem, metric, parameters);
       splitting.start_from_weights(start);
-      for (int iteration = 1; iteration <= 15; ++iteration) {
+      for (int made = 0; made < 12; ++made) {
         const auto before = textbook.weights();
         textbook.iterate();
-        const Step step = splitting.iterate(iteration - 1, 1, iteration % 2 == 1);
+        const Step step = splitting.iterate(made, 1);
         ASSERT_LT((splitting.all_weights() - textbook.weights()).cwiseAbs().maxCoeff(), 1e-10)
-            << "iteration " << iteration;
+            << "after iteration " << made;
         const double expected = (textbook.weights() - before).squaredNorm();
         EXPECT_NEAR(step.change, expected, 1e-6 * expected + 1e-14);
-        EXPECT_EQ(step.dual >= 0, iteration % 2 == 1);
-        if (step.dual < 0) continue;
+        const bool measures = (made + 1) % splitting.interval() == 0;
+        EXPECT_EQ(step.dual > 0 || step.change < 1e-14, measures || step.change < 1e-14);
+        if (!measures) continue;
         const double cells = Dim * problem.mesh.num_cells();
         const double rows =
             non_negative ? static_cast<double>(problem.boundary.interior_vertices().size()) : 0;
@@ -120,45 +114,34 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, EqualsTheTextbookIterateByIterate) {
 
 // The same limit, by every set of loops this processor can run.
 template <class Scalar, int Dim>
-void expect_to_follow(const Case<Dim>& c, const WeightMatrix& exact, double tolerance, bool half) {
+void expect_to_follow(const Case<Dim>& c, const WeightMatrix& exact, double tolerance) {
   const auto list = supported_kernels<compact::Kernel<Scalar, Dim>>();
   for (int k = 0; k < list.size; ++k) {
-    compact::Parameters parameters{c.penalty, 1.9};
-    parameters.half = half;
-    CompactSplitting<Scalar, Dim> splitting(c.problem, c.metric, parameters, *list.kernels[k]);
+    CompactSplitting<Scalar, Dim> splitting(c.problem, c.metric, {c.penalty, 1.9},
+                                            *list.kernels[k]);
     splitting.start({});
-    splitting.iterate(0, 400, false);
-    EXPECT_EQ(splitting.stores_half(), half);
+    splitting.iterate(0, 400);
     EXPECT_LT(squared_error(c.problem, splitting.all_weights(), exact), tolerance)
         << "kernel " << k;
   }
 }
 
-TEST_IN_2D_AND_3D(CompactSplittingTest, LowerPrecisionsFollowDouble) {
+TEST_IN_2D_AND_3D(CompactSplittingTest, AllKernelsHaveOneLimit) {
   const auto c = make_case<Dim>(Shape::kCorner);
   auto exact = make_splitting<double>(c);
   exact.start({});
-  exact.iterate(0, 400, false);
-  expect_to_follow<double>(c, exact.all_weights(), 1e-20, false);
-  expect_to_follow<float>(c, exact.all_weights(), 1e-10, false);
-  // Radii and duals are rounded by 2^-12 of themselves at most, and weights follow.
-  expect_to_follow<float>(c, exact.all_weights(), std::pow(2.0, -24), true);
+  exact.iterate(0, 400);
+  expect_to_follow<double>(c, exact.all_weights(), 1e-20);
+  expect_to_follow<float>(c, exact.all_weights(), 1e-10);
 }
 
 // The weights, and the sum of the flux densities of all cells.
 template <class Scalar, int Dim>
-std::pair<WeightMatrix, Eigen::MatrixXd> run_with_threads(const Case<Dim>& c, int count,
-                                                          bool half) {
+std::pair<WeightMatrix, Eigen::MatrixXd> run_with_threads(const Case<Dim>& c, int count) {
   const ThreadScope threads(count);
-  compact::Parameters parameters{c.penalty, 1.9};
-  parameters.half = half;
-  parameters.balances = true;
-  CompactSplitting<Scalar, Dim> splitting(c.problem, c.metric, parameters);
+  auto splitting = make_splitting<Scalar>(c);
   splitting.start({});
-  for (int made = 0; made < 12; ++made) {
-    const auto step = splitting.iterate(made, 1, made % 3 == 0);
-    splitting.adapt({made + 1, step, 1, 1, false});
-  }
+  for (int made = 0; made < 12; ++made) splitting.iterate(made, 1);
   Eigen::MatrixXd flux = splitting.flux_density(0);
   for (Index s = 1; s < c.problem.mesh.num_cells(); ++s) flux += splitting.flux_density(s);
   return {splitting.all_weights(), flux};
@@ -172,60 +155,14 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, IsTheSameForAnyNumberOfThreads) {
     ASSERT_GT(cases.back().problem.num_control_points(), 32);
   }
   for (const auto& c : cases) {
-    const auto half = run_with_threads<float>(c, 1, true);
-    const auto single = run_with_threads<float>(c, 1, false);
-    const auto exact = run_with_threads<double>(c, 1, false);
+    const auto single = run_with_threads<float>(c, 1);
+    const auto exact = run_with_threads<double>(c, 1);
     EXPECT_GT(exact.second.norm(), 0);
     for (const int count : {2, 3, 7}) {
-      EXPECT_EQ(run_with_threads<float>(c, count, true), half);
-      EXPECT_EQ(run_with_threads<float>(c, count, false), single);
-      EXPECT_EQ(run_with_threads<double>(c, count, false), exact);
+      EXPECT_EQ(run_with_threads<float>(c, count), single);
+      EXPECT_EQ(run_with_threads<double>(c, count), exact);
     }
   }
-}
-
-// Whatever the penalty is changed to on the way, the duals survive and the optimum stays.
-TEST_IN_2D_AND_3D(CompactSplittingTest, AdaptingThePenaltyKeepsTheDuals) {
-  const auto c = make_case<Dim>(Shape::kRing);
-  compact::Parameters parameters{10 * c.penalty, 1.5};
-  parameters.balances = true;
-  CompactSplitting<double, Dim> splitting(c.problem, c.metric, parameters);
-  splitting.start({});
-  splitting.iterate(0, 6000, false);
-  constexpr int kBalanced = plan::kBalancedAfter[0];
-  const Step last = splitting.iterate(kBalanced - 1, 1, false);
-  EXPECT_LT(last.change, 1e-9);
-  const auto before = splitting.all_weights();
-  splitting.adapt({kBalanced, last, 1, 1, false});
-  EXPECT_GT(std::abs(std::log(splitting.penalty() / parameters.penalty)), 1);
-  double change = 0;
-  for (int made = kBalanced; made < kBalanced + 10; ++made) {
-    change += splitting.iterate(made + 100, 1, false).change;
-  }
-  EXPECT_LT(change, 1e-9);
-  EXPECT_LT((splitting.all_weights() - before).cwiseAbs().maxCoeff(), 1e-4);
-}
-
-// An iteration before which nothing was adapted measures the same, whether or not the penalty waits
-// for what it measures.
-TEST_IN_2D_AND_3D(CompactSplittingTest, ALookMeasuresAllConstraints) {
-  const auto c = make_case<Dim>(Shape::kRing);
-  const auto violation_at_the_first_look = [&](bool looks) {
-    compact::Parameters parameters{c.penalty, 1.9};
-    parameters.balances = true;
-    parameters.looks = looks;
-    CompactSplitting<double, Dim> splitting(c.problem, c.metric, parameters);
-    splitting.start({});
-    Step step;
-    for (int made = 0; made < plan::kFirstLook; ++made) {
-      step = splitting.iterate(made, 1, made + 1 == plan::kFirstLook);
-      splitting.adapt({made + 1, step, 1, 1, false});
-    }
-    return step.violation;
-  };
-  const double violation = violation_at_the_first_look(true);
-  EXPECT_GT(violation, 0);
-  EXPECT_EQ(violation, violation_at_the_first_look(false));
 }
 
 // The flux obeys its bound, and at the optimum it is phi A times the gradient's direction.
@@ -233,7 +170,7 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, FluxIsTheDualOfTheTotalVariation) {
   const auto c = make_case<Dim>(Shape::kCorner);
   auto splitting = make_splitting<double>(c, 1.5);
   splitting.start({});
-  splitting.iterate(0, 4000, false);
+  splitting.iterate(0, 4000);
   const auto weights = splitting.all_weights();
   double aligned = 0;
   const auto numbers = splitting.flux();
@@ -255,47 +192,6 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, FluxIsTheDualOfTheTotalVariation) {
   }
   const double objective = testing::objective(c.problem.mesh, weights, c.problem.phi.dense());
   EXPECT_NEAR(aligned, objective, 1e-3 * objective);
-}
-
-// P of half precision is a number of single precision, so nothing changes but what follows.
-TEST_IN_2D_AND_3D(CompactSplittingTest, ContinuesInSinglePrecision) {
-  const auto c = make_case<Dim>(Shape::kCorner);
-  auto exact = make_splitting<double>(c);
-  exact.start({});
-  exact.iterate(0, 500, false);
-  auto splitting = make_splitting<float>(c, 1.9, true);
-  splitting.start({});
-  splitting.iterate(0, 100, false);
-  const auto weights = splitting.all_weights();
-  const auto density = splitting.flux_density(0);
-  splitting.store_in_single();
-  EXPECT_FALSE(splitting.stores_half());
-  EXPECT_EQ(splitting.all_weights(), weights);
-  EXPECT_EQ(splitting.flux_density(0), density);
-  EXPECT_LT(splitting.iterate(0, 1, false).change, 1e-2);
-  splitting.iterate(0, 399, false);
-  EXPECT_LT(squared_error(c.problem, splitting.all_weights(), exact.all_weights()), 1e-10);
-}
-
-// On meshes so fine that half precision is taken, where there is one.
-TEST_IN_2D_AND_3D(CompactSplittingTest, RunsInHalfPrecisionConvergeToSmallTolerances) {
-  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 100 : 14, 0.2);
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
-  ASSERT_GT(problem.mesh.num_cells(), 10000);
-  SolverOptions options;
-  options.gap = 0;
-  options.tolerance = 1e-7;
-  options.precision = Precision::kSingle;
-  const auto single = solve(problem, options);
-  options.precision = Precision::kAuto;
-  const auto half = solve(problem, options);
-  EXPECT_EQ(half.report.status, SolveStatus::kConverged);
-  EXPECT_LT(half.report.iterations, 1.5 * single.report.iterations);
-  // Without instructions for half precision, it is single precision.
-  const auto& kernel = select_kernel<compact::Kernel<float, Dim>>();
-  EXPECT_EQ(half.weights.dense() == single.weights.dense(),
-            kernel.half.bytes == kernel.exact.bytes);
-  EXPECT_LT(squared_error(problem, half.weights, single.weights), 1e-7);
 }
 
 // kLbc2014 from its start to delivered weights, with the penalty of the literature: cells weigh
@@ -329,7 +225,7 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, AGivenPenaltyRunsTheTextbookIteration) {
 // Weighted by the measure, the start is harmonic coordinates, for any vertex weights.
 TEST_IN_2D_AND_3D(CompactSplittingTest, StartsFromHarmonicCoordinatesByItsOwnFactor) {
   for (const auto& sample : samples<Dim>()) {
-    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0);
     const auto expected = harmonic_coordinates(problem);
     for (const bool non_negative : {false, true}) {
       SCOPED_TRACE(sample.name + (non_negative ? ", w >= 0" : ""));
@@ -347,7 +243,7 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, StartsFromHarmonicCoordinatesByItsOwnFac
 // elsewhere must leave without effect, whatever they are.
 TEST_IN_2D_AND_3D(CompactSplittingTest, DualsFromElsewhereDoNotMoveTheWeights) {
   const auto sample = make_sample<Dim>(Shape::kCorner, 3, 0.2);
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0);
   const auto metric = make_metric(problem, 2, true);
   const auto start = harmonic_coordinates(problem);
   const auto n = start.rows();
@@ -362,14 +258,14 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, DualsFromElsewhereDoNotMoveTheWeights) {
   from.vertex_dual = [&](Index v) -> Eigen::VectorXd { return dual.col(v); };
   splitting.start(from);
   EXPECT_LT((splitting.all_weights() - start).cwiseAbs().maxCoeff(), 1e-13);
-  splitting.iterate(0, 1, false);
+  splitting.iterate(0, 1);
   EXPECT_LT((splitting.all_weights() - start).cwiseAbs().maxCoeff(), 1e-8);
 }
 
 // (5) of the paper, by an independent sum.
 TEST_IN_2D_AND_3D(CompactSplittingTest, SquaredErrorIsTheMeanOverInteriorVertices) {
   const auto sample = make_sample<Dim>(Shape::kCorner, 3, 0.2);
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0);
   const auto a = harmonic_coordinates(problem);
   WeightMatrix b = a;
   b.array() += Eigen::ArrayXXd::Random(b.rows(), b.cols());

@@ -1,235 +1,297 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A solver that resumes from where it stopped, and penalties in units of the cage.
+// A solver that resumes: a solve in slices equals one in a piece, and a solver whose options change
+// equals a new one.
+#include "flbc/names.h"
 #include "flbc/published_penalty.h"
-#include "flbc/solver.h"
+#include "solver/methods/method_run.h"
+#include "support/coarse_sample_mesher.h"
 #include "support/fine_cages.h"
-#include "support/many_iterations.h"
+#include "support/solver_options.h"
 #include "support/test.h"
 
 namespace flbc::testing {
 namespace {
 
-bool same_bits(const Solution& a, const Solution& b) {
-  return a.weights == b.weights;
+// A solve that visits one of the ways through the solver.
+template <int Dim>
+struct SolveCase {
+  std::string name;
+  SolverOptions options{};
+  CoarseMesher<Dim> mesher{};
+};
+
+template <int Dim>
+Sample<Dim> sample_of_cases() {
+  return with_fine_cage<Dim>(Shape::kCorner, 2, Dim == 2 ? 10 : 4);
 }
 
-TEST_IN_2D_AND_3D(ContinuedSolveTest, TheFirstSolveIsTheOneOffFunction) {
-  const auto sample = make_sample<Dim>(Shape::kCorner, 4, 0.2);
-  for (const auto method : {Method::kValue, Method::kGradient, Method::kPaper, Method::kLbc2014}) {
-    SCOPED_TRACE(static_cast<int>(method));
-    SolverOptions options;
-    options.method = method;
-    options.max_iterations = 40;
-    const auto expected = solve(sample.cage, sample.mesh, options);
-    Solver<Dim> solver(sample.cage, sample.mesh, options);
-    EXPECT_EQ(solver.solution().weights.dense().size(), 0);
-    const auto& solution = solver.solve();
-    EXPECT_TRUE(same_bits(solution, expected));
-    EXPECT_EQ(solution.report.iterations, expected.report.iterations);
-    EXPECT_EQ(solution.report.penalty, expected.report.penalty);
-    EXPECT_EQ(solution.report.objective, expected.report.objective);
-    EXPECT_GT(solution.report.seconds.setup, 0);
-    solver.restart();
-    EXPECT_TRUE(same_bits(solver.solve(), expected));
-    EXPECT_EQ(solver.solution().report.seconds.setup, 0);
-  }
-}
-
-TEST_IN_2D_AND_3D(ContinuedSolveTest, ARunInPartsIsOneInOnePiece) {
-  const auto sample = make_sample<Dim>(Shape::kRing, 3, 0.2);
-  for (const auto method : {Method::kValue, Method::kLbc2014, Method::kGradient, Method::kPaper}) {
-    for (const auto precision : {Precision::kSingle, Precision::kDouble}) {
-      SCOPED_TRACE(static_cast<int>(method));
-      SolverOptions options;
-      options.method = method;
-      options.precision = precision;
-      options.penalty = published_penalty(sample.cage, sample.mesh, method, 100);
-      options.tolerance = 1e-20;
-      options.max_iterations = 40;
-      const auto whole = solve(sample.cage, sample.mesh, options);
-      options.max_iterations = 25;
-      Solver<Dim> solver(sample.cage, sample.mesh, options);
-      EXPECT_FALSE(same_bits(solver.solve(), whole));
-      options.max_iterations = 15;
-      solver.set_options(options);
-      EXPECT_TRUE(same_bits(solver.solve(), whole));
-      EXPECT_EQ(solver.solution().report.iterations, 15);
-    }
-  }
-}
-
-// A run that is cut, or that ends by its limit, is a part of the whole run: the same weights and
-// the same memory, whatever adapts on the way.
-TEST_IN_2D_AND_3D(ContinuedSolveTest, ACutRunIsAPartOfTheWhole) {
-  constexpr int kAll = 520;
-  const auto sample = with_fine_cage<Dim>(Shape::kCorner, 2, Dim == 2 ? 8 : 4);
-  for (const auto active_set : {ActiveSet::kOff, ActiveSet::kOn}) {
-    SolverOptions options;
-    options.active_set = active_set;
-    options.tolerance = 1e-20;
-    const auto limited = [&](int limit) {
-      options.max_iterations = limit;
-      return solve(sample.cage, sample.mesh, options);
-    };
-    const auto whole = limited(kAll);
-    ASSERT_EQ(whole.report.iterations, kAll);
-    EXPECT_EQ(whole.report.active_set.density < 1, active_set == ActiveSet::kOn);
-    for (const int cut : {1, 20, 99, 100, 480, 499, 500}) {
-      SCOPED_TRACE(cut);
-      const auto first = limited(cut);
-      EXPECT_EQ(first.report.state_scalars_per_cell, limited(1).report.state_scalars_per_cell);
-      Solver<Dim> solver(sample.cage, sample.mesh, options);
-      options.max_iterations = cut;
-      solver.set_options(options);
-      EXPECT_TRUE(same_bits(solver.solve(), first));
-      EXPECT_EQ(solver.solution().report.penalty, first.report.penalty);
-      options.max_iterations = kAll - cut;
-      solver.set_options(options);
-      EXPECT_TRUE(same_bits(solver.solve(), whole));
-      EXPECT_EQ(solver.solution().report.iterations, kAll - cut);
-      EXPECT_EQ(solver.solution().report.penalty, whole.report.penalty);
-      EXPECT_EQ(solver.solution().report.active_set.growths, whole.report.active_set.growths);
-    }
-  }
-}
-
-// The default gap does not make a run leave the active set.
-TEST_IN_2D_AND_3D(ContinuedSolveTest, StaysOnTheActiveSetWithDefaultTolerances) {
-  const auto sample = with_fine_cage<Dim>(Shape::kCorner, 2, Dim == 2 ? 8 : 4);
-  SolverOptions options;
-  options.active_set = ActiveSet::kOn;
-  for (const int limit : {1, 50, 100, 499, 600}) {
-    options.max_iterations = limit;
-    const auto report = solve(sample.cage, sample.mesh, options).report;
-    EXPECT_LT(report.active_set.density, 1) << limit;
-    EXPECT_LE(report.iterations, limit);
-  }
-}
-
-// Also if weights beyond the border matter only for the second tolerance.
-TEST_IN_2D_AND_3D(ContinuedSolveTest, ASmallerToleranceExtendsTheActiveSet) {
-  const auto problem_sample = with_fine_cage<Dim>(Shape::kCorner, 2, Dim == 2 ? 8 : 4);
-  const auto& [cage, mesh] = std::tie(problem_sample.cage, problem_sample.mesh);
-  SolverOptions options;
-  options.precision = Precision::kDouble;
-  options.active_set = ActiveSet::kOff;
-  options.tolerance = 1e-12;
-  const auto optimum = solve(cage, mesh, options);
-  options.active_set = ActiveSet::kOn;
-  options.tolerance = 1e-6;
-  Solver<Dim> solver(cage, mesh, options);
-  solver.solve();
-  options.tolerance = 1e-10;
-  solver.set_options(options);
-  const auto& solution = solver.solve();
-  EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
-  EXPECT_LT(mean_squared_difference(mesh, solution.weights.dense(), optimum.weights.dense()),
-            2e-10);
-}
-
-TEST_IN_2D_AND_3D(ContinuedSolveTest, ASmallerToleranceNeedsOnlyTheIterationsThatAreMissing) {
-  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 14 : 5, 0.2);
-  SolverOptions options;
-  options.tolerance = 1e-4;
-  Solver<Dim> solver(sample.cage, sample.mesh, options);
-  EXPECT_EQ(solver.solve().report.status, SolveStatus::kConverged);
-  options.tolerance = 1e-6;
-  solver.set_options(options);
-  const auto& fine = solver.solve();
-  const auto cold = solve(sample.cage, sample.mesh, options);
-  EXPECT_EQ(fine.report.status, SolveStatus::kConverged);
-  EXPECT_LT(fine.report.iterations, cold.report.iterations);
-  EXPECT_LT(mean_squared_difference(sample.mesh, fine.weights.dense(), cold.weights.dense()), 4e-6);
-}
-
-TEST_IN_2D_AND_3D(ContinuedSolveTest, ContinuesOnTheActiveSet) {
-  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 14 : 5, 0.2);
-  SolverOptions options;
-  options.active_set = ActiveSet::kOn;
-  options.tolerance = 1e-4;
-  options.gap = 0;
-  Solver<Dim> solver(sample.cage, sample.mesh, options);
-  const auto first = solve(sample.cage, sample.mesh, options);
-  EXPECT_LT(first.report.active_set.density, 1);
-  EXPECT_TRUE(same_bits(solver.solve(), first));
-
-  options.tolerance = 1e-6;
-  solver.set_options(options);
-  const auto fine = solver.solve();
-  EXPECT_EQ(fine.report.status, SolveStatus::kConverged);
-  EXPECT_LT(fine.report.active_set.density, 1);
-  EXPECT_LT(fine.report.iterations, solve(sample.cage, sample.mesh, options).report.iterations);
-  const auto optimum = solve(sample.cage, sample.mesh, many_iterations(2000));
-  EXPECT_LT(mean_squared_difference(sample.mesh, fine.weights.dense(), optimum.weights.dense()),
-            2e-6);
-
-  options.active_set = ActiveSet::kOff;
-  options.certify = true;
-  solver.set_options(options);
-  const auto& certified = solver.solve().report;
-  EXPECT_LE(certified.certificate.lower_bound, optimum.report.objective * (1 + 1e-9));
-  EXPECT_LT(certified.certificate.relative_gap, 0.02);
-  EXPECT_EQ(solver.solve().report.status, SolveStatus::kConverged);
-  solver.restart();
-  EXPECT_EQ(solver.solve().report.status, SolveStatus::kConverged);
-}
-
-TEST_IN_2D_AND_3D(ContinuedSolveTest, OptionsThatCannotChangeInARunStartAfresh) {
-  const auto sample = make_sample<Dim>(Shape::kBox, 4, 0.2);
-  SolverOptions options;
-  options.max_iterations = 20;
-  Solver<Dim> solver(sample.cage, sample.mesh, options);
-  solver.solve();
-  const auto afresh = [&](auto change) {
-    change(options);
-    solver.set_options(options);
-    EXPECT_TRUE(same_bits(solver.solve(), solve(sample.cage, sample.mesh, options)));
+// Coarse meshes of sample_of_cases().
+template <int Dim>
+CoarseMesher<Dim> mesher_of_cases() {
+  return [](const Cage<Dim>& cage, Index) {
+    return mesh_in(cage, with_fine_cage<Dim>(Shape::kCorner, 2, Dim == 2 ? 4 : 2));
   };
-  afresh([](auto& o) { o.precision = Precision::kDouble; });
-  afresh([](auto& o) { o.non_negative = NonNegative::kOff; });
-  afresh([](auto& o) { o.penalty = 0.01; });
-  afresh([](auto& o) { o.relaxation = 1.2; });
-  afresh([](auto& o) { o.smoothness = 0.01; });
-  afresh([](auto& o) { o.linear_solver = LinearSolver::kMultigrid; });
-  afresh([](auto& o) { o.coarse_levels.coarsest = 20; });
-  afresh([](auto& o) { o.coarse_to_fine = CoarseToFine::kOff; });
-  afresh([](auto& o) { o.active_set = ActiveSet::kOn; });
-  afresh([](auto& o) { o.method = Method::kGradient; });
-  afresh([](auto& o) { o.penalty.reset(); });
+}
+
+template <int Dim>
+std::vector<SolveCase<Dim>> cases() {
+  std::vector<SolveCase<Dim>> all;
+  const auto add = [&](const char* name, auto change) -> SolveCase<Dim>& {
+    all.push_back({name});
+    all.back().options.max_iterations = 105;
+    change(all.back().options);
+    return all.back();
+  };
+  const auto multilevel = [](SolverOptions& o) { o.coarse_to_fine = CoarseToFine::kOn; };
+  const auto active = [](SolverOptions& o) { o.active_set = ActiveSet::kOn; };
+  add("weights", [](auto&) {});
+  add("ends by the gap", [](auto& o) { o.smoothness = 0, o.gap = 0.05; });
+  add("active set", active);
+  add("active set to the limit",
+      [](auto& o) { o.active_set = ActiveSet::kOn, o.tolerance = 1e-20; });
+  add("multilevel start", multilevel).mesher = mesher_of_cases<Dim>();
+  add("multilevel start on the active set", [&](auto& o) { multilevel(o), active(o); }).mesher =
+      mesher_of_cases<Dim>();
+  for (const auto method : {Method::kGradient, Method::kPaper, Method::kLbc2014}) {
+    add(name_of(method), [&](auto& o) { o.method = method; });
+    // The penalties of the literature suit the tolerance, and other parts of the method.
+    add((std::string(name_of(method)) + ", loose").c_str(), [&](auto& o) {
+      o.method = method;
+      o.tolerance = 1e-3;
+      const auto sample = sample_of_cases<Dim>();
+      o.penalty = published_penalty(sample.cage, sample.mesh, method, 100);
+    });
+  }
+  return all;
+}
+
+void expect_same(const Solution& solution, const Solution& expected) {
+  const auto& [report, wanted] = std::tie(solution.report, expected.report);
+  EXPECT_TRUE(solution.weights == expected.weights);  // bit for bit
+  EXPECT_EQ(report.status, wanted.status);
+  EXPECT_EQ(report.criterion, wanted.criterion);
+  EXPECT_EQ(report.penalty, wanted.penalty);
+  EXPECT_EQ(report.objective, wanted.objective);
+  EXPECT_EQ(report.relative_primal_residual, wanted.relative_primal_residual);
+  EXPECT_EQ(report.relative_dual_residual, wanted.relative_dual_residual);
+  EXPECT_EQ(report.certificate.lower_bound, wanted.certificate.lower_bound);
+  EXPECT_EQ(report.active_set.density, wanted.active_set.density);
+  EXPECT_EQ(report.active_set.growths, wanted.active_set.growths);
+  EXPECT_EQ(report.distances.source, wanted.distances.source);
+  EXPECT_EQ(report.distances.phi_error, wanted.distances.phi_error);
+}
+
+TEST_IN_2D_AND_3D(ContinuedSolveTest, ASolveInSlicesIsOneInOnePiece) {
+  const auto sample = sample_of_cases<Dim>();
+  std::set<Criterion> criteria;
+  for (const auto& c : cases<Dim>()) {
+    SCOPED_TRACE(c.name);
+    const auto whole = solve(sample.cage, sample.mesh, c.options, c.mesher);
+    criteria.insert(whole.report.criterion);
+    EXPECT_EQ(whole.report.coarse_levels.empty(), !c.mesher);
+    EXPECT_EQ(whole.report.active_set.density < 1, c.options.active_set == ActiveSet::kOn);
+    for (const int slice : {1, 3, 10, 1000}) {
+      SCOPED_TRACE(slice);
+      Solver<Dim> solver(sample.cage, sample.mesh, c.options, c.mesher);
+      EXPECT_EQ(solver.solution().weights.num_points(), 0);
+      for (int rounds = 0; rounds < 2; ++rounds) {  // again after restart()
+        int made = 0;
+        while (made < whole.report.iterations) {
+          const auto& report =
+              solver.solve({std::min(slice, whole.report.iterations - made)}).report;
+          ASSERT_GT(report.iterations, 0);
+          ASSERT_LE(report.iterations, slice);
+          made += report.iterations;
+          if (report.status != SolveStatus::kIterationLimit) break;
+        }
+        EXPECT_EQ(made, whole.report.iterations);
+        expect_same(solver.solution(), whole);
+        if (slice < 1000) break;
+        solver.restart();
+      }
+    }
+  }
+  EXPECT_EQ(criteria.size(), 3u) << "the cases do not end in all ways";
+}
+
+// ---- options that change ------------------------------------------------------------------------
+
+struct Change {
+  const char* name;
+  void (*change)(SolverOptions&);
+  bool resumes = false;  // whether a run that has begun goes on
+};
+
+const Change kChanges[] = {
+    {"nothing", [](auto&) {}, true},
+    {"tolerance", [](auto& o) { o.tolerance = 1e-7; }, true},
+    {"gap", [](auto& o) { o.gap = 1e-2; }, true},
+    {"max_iterations", [](auto& o) { o.max_iterations = 40; }, true},
+    {"certify", [](auto& o) { o.certify = true; }, true},
+    {"threads", [](auto& o) { o.threads = 2; }, true},
+    {"method", [](auto& o) { o.method = Method::kGradient; }},
+    {"phi", [](auto& o) { o.phi = DistanceScheme::kLinear; }},
+    {"smoothness", [](auto& o) { o.smoothness = 0.01; }},
+    {"distances", [](auto& o) { o.distances = Distances::kInterpolated; }},
+    {"precision", [](auto& o) { o.precision = Precision::kDouble; }},
+    {"non_negative", [](auto& o) { o.non_negative = NonNegative::kOff; }},
+    {"coarse_to_fine", [](auto& o) { o.coarse_to_fine = CoarseToFine::kOn; }},
+    {"active_set", [](auto& o) { o.active_set = ActiveSet::kOn; }},
+    {"penalty", [](auto& o) { o.penalty = 0.02; }}};
+
+TEST_IN_2D_AND_3D(ContinuedSolveTest, ChangedOptionsAreThoseOfANewSolver) {
+  const auto sample = sample_of_cases<Dim>();
+  SolverOptions options;
+  options.distances = Distances::kExact;
+  options.tolerance = 1e-5;
+  options.max_iterations = 300;
+  const auto mesher = mesher_of_cases<Dim>();
+  for (const auto& [name, change, resumes] : kChanges) {
+    SCOPED_TRACE(name);
+    auto changed = options;
+    change(changed);
+    Solver<Dim> fresh(sample.cage, sample.mesh, changed, mesher);
+    const auto expected = fresh.solve();
+    for (const bool begun : {false, true}) {
+      SCOPED_TRACE(begun ? "after a solve" : "before the first solve");
+      Solver<Dim> solver(sample.cage, sample.mesh, options, mesher);
+      if (begun) solver.solve({resumes ? 3 : 20});
+      solver.set_options(changed);
+      EXPECT_EQ(solver.problem().phi.dense(), fresh.problem().phi.dense());
+      EXPECT_EQ(solver.problem().smoothness, fresh.problem().smoothness);
+      EXPECT_EQ(*resolve(solver.options()).tolerance, *resolve(changed).tolerance);
+      const auto& solution = solver.solve();
+      EXPECT_EQ(solution.report.distances.source, expected.report.distances.source);
+      if (!begun || !resumes) {
+        expect_same(solution, expected);
+      } else if (expected.report.status == SolveStatus::kConverged) {
+        // A run that resumes is the run that was interrupted.
+        EXPECT_TRUE(solution.weights == expected.weights);
+        EXPECT_EQ(solution.report.iterations + 3, expected.report.iterations);
+      }
+    }
+  }
 }
 
 TEST_IN_2D_AND_3D(ContinuedSolveTest, RefusedOptionsChangeNothing) {
   const auto sample = make_sample<Dim>(Shape::kBox, 4, 0.2);
-  SolverOptions options;
-  options.penalty = 0.02;
-  options.tolerance = 1e-20;
-  options.max_iterations = 20;
+  const auto options = many_iterations(20);
   Solver<Dim> solver(sample.cage, sample.mesh, options);
   solver.solve();
-  auto refused = options;
-  refused.phi = DistanceScheme::kLinear;
-  EXPECT_THROW(solver.set_options(refused), OptionError);
-  refused = options;
-  refused.distances = Distances::kExact;
-  EXPECT_THROW(solver.set_options(refused), OptionError);
-  refused = options;
-  refused.coarse_to_fine = CoarseToFine::kOn;
-  EXPECT_THROW(solver.set_options(refused), OptionError);
-  EXPECT_EQ(solver.options().phi, options.phi);
-  EXPECT_EQ(solver.options().coarse_to_fine, options.coarse_to_fine);
-  solver.solve();
-  options.max_iterations = 40;
-  EXPECT_TRUE(same_bits(solver.solution(), solve(sample.cage, sample.mesh, options)));
+  for (const auto& change : std::vector<void (*)(SolverOptions&)>{
+           [](auto& o) { o.tolerance = -1; },
+           [](auto& o) { o.distances = Distances::kInterpolated; },
+           [](auto& o) { o.coarse_to_fine = CoarseToFine::kOn; }}) {
+    auto refused = options;
+    change(refused);
+    EXPECT_THROW(solver.set_options(refused), OptionError);
+    EXPECT_EQ(solver.options().tolerance, options.tolerance);
+    EXPECT_EQ(solver.options().distances, options.distances);
+    EXPECT_EQ(solver.options().coarse_to_fine, options.coarse_to_fine);
+  }
+  expect_same(solver.solve(), solve(sample.cage, sample.mesh, many_iterations(40)));
 }
 
-// A cage in metres and one in millimetres are solved alike by the same options.
+// Distances that were interpolated for a loose tolerance are not accurate enough for a tight one.
+TEST_IN_2D_AND_3D(ContinuedSolveTest, ATighterToleranceComputesDistancesAgain) {
+  const auto sample = sample_of_cases<Dim>();
+  const auto mesher = mesher_of_cases<Dim>();
+  SolverOptions options;
+  options.coarse_to_fine = CoarseToFine::kOn;
+  options.tolerance = 1e-2;
+  Solver<Dim> solver(sample.cage, sample.mesh, options, mesher);
+  EXPECT_EQ(solver.solve().report.distances.source, Distances::kInterpolated);
+  options.tolerance = 1e-9;
+  options.certify = true;
+  solver.set_options(options);
+  Solver<Dim> fresh(sample.cage, sample.mesh, options, mesher);
+  EXPECT_EQ(solver.problem().phi.dense(), fresh.problem().phi.dense());
+  const auto& solution = solver.solve();
+  EXPECT_EQ(solution.report.distances.source, Distances::kExact);
+  expect_same(solution, fresh.solve());
+  // The certificate is one of exact phi, which make_problem() measures on its own.
+  SolverOptions certified;
+  certified.certify = true;
+  const auto exact = solve(smooth_problem(sample), many_iterations(800, certified)).report;
+  const double optimum = exact.certificate.objective;
+  EXPECT_LE(solution.report.certificate.lower_bound, optimum * (1 + 1e-9));
+  EXPECT_NEAR(solution.report.certificate.objective, optimum, 5e-4 * optimum);
+}
+
+// Pairs that are negligible for the first tolerance are not for the second.
+TEST_IN_2D_AND_3D(ContinuedSolveTest, TheActiveSetSuitsASmallerTolerance) {
+  const auto sample = sample_of_cases<Dim>();
+  const auto exact = solve(sample.cage, sample.mesh, many_iterations(2000)).weights.dense();
+  SolverOptions options;
+  options.precision = Precision::kDouble;
+  options.active_set = ActiveSet::kOn;
+  options.tolerance = 1e-4;
+  Solver<Dim> solver(sample.cage, sample.mesh, options);
+  EXPECT_EQ(solver.solve().report.status, SolveStatus::kConverged);
+  options.tolerance = 1e-12;
+  options.max_iterations = 2000;
+  solver.set_options(options);
+  const auto& fine = solver.solve();
+  EXPECT_LT(fine.report.active_set.density, 1);
+  EXPECT_LT(mean_squared_difference(sample.mesh, fine.weights.dense(), exact), 3e-9);
+}
+
+// The duals of all pairs, which a certificate needs, exist only after a run on all pairs.
+TEST_IN_2D_AND_3D(ContinuedSolveTest, ACertificateAfterTheActiveSetIsThatOfANewSolver) {
+  const auto sample = sample_of_cases<Dim>();
+  SolverOptions options, certified;
+  options.active_set = ActiveSet::kOn;
+  certified.certify = true;
+  Solver<Dim> solver(sample.cage, sample.mesh, options);
+  EXPECT_LT(solver.solve().report.active_set.density, 1);
+  solver.set_options(certified);
+  const auto& solution = solver.solve();
+  expect_same(solution, solve(sample.cage, sample.mesh, certified));
+  EXPECT_NE(solution.report.certificate.proof, nullptr);
+  // On large meshes, kAuto chooses the active set for the first run only, and the run starts over.
+  const auto problem = smooth_problem(sample);
+  const Observer nobody;
+  SolveReport report;
+  MethodRun<Dim> run(problem), fresh(problem);
+  run.solve(plan::settings_of(options), Reporter(nobody), report);
+  EXPECT_FALSE(run.can_certify());
+  const auto settings = plan::settings_of(certified);
+  const auto weights = run.solve(settings, Reporter(nobody), report).to_dense();
+  EXPECT_EQ(weights, fresh.solve(settings, Reporter(nobody), report).to_dense());
+  const auto proof = run.certify(weights, nullptr);
+  EXPECT_EQ(proof.lower_bound, fresh.certify(weights, nullptr).lower_bound);
+  EXPECT_GT(proof.lower_bound, 0);
+}
+
+// ---- the rest -----------------------------------------------------------------------------------
+
+// A run that a time limit ends is judged: it reports how far it was.
+TEST_IN_2D_AND_3D(ContinuedSolveTest, ABudgetOfSecondsReportsResiduals) {
+  const auto sample = sample_of_cases<Dim>();
+  for (const auto method :
+       {Method::kWeights, Method::kGradient, Method::kPaper, Method::kLbc2014}) {
+    SCOPED_TRACE(name_of(method));
+    SolverOptions options;
+    options.method = method;
+    Solver<Dim> solver(sample.cage, sample.mesh, options);
+    const auto& report = solver.solve({0, 1e-9}).report;
+    EXPECT_EQ(report.status, SolveStatus::kIterationLimit);
+    EXPECT_GE(report.iterations, 1);
+    EXPECT_GT(report.relative_primal_residual, 0);
+    EXPECT_EQ(report.relative_dual_residual > 0,
+              method == Method::kPaper || method == Method::kLbc2014);
+  }
+}
+
+// A cage in meters and one in millimeters are solved alike by the same options.
 TEST_IN_2D_AND_3D(ContinuedSolveTest, PenaltiesDoNotDependOnTheUnitOfLength) {
   const auto sample = make_sample<Dim>(Shape::kCorner, 4, 0.2);
   auto scaled = sample;
   scaled.cage.points *= 1024;
   scaled.mesh.points *= 1024;
-  for (const auto method : {Method::kValue, Method::kLbc2014, Method::kGradient, Method::kPaper}) {
-    SCOPED_TRACE(static_cast<int>(method));
+  for (const auto method :
+       {Method::kWeights, Method::kLbc2014, Method::kGradient, Method::kPaper}) {
+    SCOPED_TRACE(name_of(method));
     SolverOptions options;
     options.method = method;
     options.max_iterations = 30;
@@ -242,17 +304,10 @@ TEST_IN_2D_AND_3D(ContinuedSolveTest, PenaltiesDoNotDependOnTheUnitOfLength) {
     EXPECT_NEAR(one.report.penalty, *options.penalty, 1e-12 * *options.penalty);
     EXPECT_NEAR(one.report.published_penalty, 10, 1e-11);
     EXPECT_NEAR(other.report.published_penalty, 10, 1e-11);
-  }
-}
-
-// What a run reports can be asked for.
-TEST_IN_2D_AND_3D(ContinuedSolveTest, TheDefaultPenaltyCanBeGiven) {
-  const auto sample = make_sample<Dim>(Shape::kCorner, 4, 0.2);
-  for (const auto method : {Method::kGradient, Method::kPaper}) {
-    SolverOptions options;
-    options.method = method;
+    // What a run reports can be asked for.
+    options.penalty.reset();
     options.precision = Precision::kDouble;
-    options.max_iterations = 30;
+    if (method == Method::kLbc2014) continue;  // a given penalty is the published method
     const auto by_method = solve(sample.cage, sample.mesh, options);
     options.penalty = by_method.report.penalty;
     const auto given = solve(sample.cage, sample.mesh, options);

@@ -3,9 +3,9 @@
 // iterations and a fourth method that have nothing in common but the problem.
 #include "flbc/harmonic.h"
 #include "flbc/published_penalty.h"
-#include "flbc/solver.h"
 #include "solver/methods/splitting/compact_splitting.h"
 #include "support/reference_optimum.h"
+#include "support/solver_options.h"
 #include "support/test.h"
 
 namespace flbc::testing {
@@ -13,7 +13,7 @@ namespace {
 
 template <int Dim>
 LbcProblem<Dim> problem_of(const ReferenceOptimum<Dim>& reference) {
-  auto problem = make_problem(reference.cage, reference.mesh, DistanceScheme::kConstant);
+  auto problem = make_problem(reference.cage, reference.mesh, DistanceScheme::kConstant, 0);
   problem.phi = reference.phi;
   return problem;
 }
@@ -22,12 +22,9 @@ LbcProblem<Dim> problem_of(const ReferenceOptimum<Dim>& reference) {
 // suit larger meshes and fewer digits.
 template <int Dim>
 SolverOptions accurate(const LbcProblem<Dim>& problem, Method method, NonNegative non_negative) {
-  SolverOptions options;
+  auto options = many_iterations(4000, without_smoothness());
   options.method = method;
   options.non_negative = non_negative;
-  options.precision = Precision::kDouble;
-  options.tolerance = 1e-30;  // never: run to the end
-  options.max_iterations = 4000;
   double penalty = 300;
   if (method == Method::kGradient) {
     options.max_iterations = 30000;
@@ -61,9 +58,9 @@ void expect_found(Method method, NonNegative non_negative) {
   }
 }
 
-TEST_IN_2D_AND_3D(OptimaTest, ValueFindsBothOptima) {
-  expect_found<Dim>(Method::kValue, NonNegative::kOff);
-  expect_found<Dim>(Method::kValue, NonNegative::kConstraint);
+TEST_IN_2D_AND_3D(OptimaTest, WeightsFindBothOptima) {
+  expect_found<Dim>(Method::kWeights, NonNegative::kOff);
+  expect_found<Dim>(Method::kWeights, NonNegative::kConstraint);
 }
 
 TEST_IN_2D_AND_3D(OptimaTest, GradientFindsTheUnconstrainedOptimum) {
@@ -93,7 +90,7 @@ TEST_IN_2D_AND_3D(OptimaTest, TheOriginalSolverFindsTheNonNegativeOptimum) {
     compact::CompactSplitting<double, Dim> splitting(problem, metric,
                                                      {0.6 * size / per_cell, 1.65});
     splitting.start_from_weights(harmonic_coordinates(problem));
-    splitting.iterate(0, 8000, false);
+    splitting.iterate(0, 8000);
     expect_optimal(problem, splitting.all_weights(), reference.non_negative);
   }
 }
@@ -104,11 +101,11 @@ TEST_IN_2D_AND_3D(OptimaTest, CertificatesHold) {
     const auto problem = problem_of(reference);
     const double optimum = reference.non_negative.objective;
     for (const auto method :
-         {Method::kValue, Method::kLbc2014, Method::kGradient, Method::kPaper}) {
+         {Method::kWeights, Method::kLbc2014, Method::kGradient, Method::kPaper}) {
       for (const int iterations : {1, 3, 10, 100, 3000}) {
         SCOPED_TRACE(reference.name + ", method " + std::to_string(static_cast<int>(method)) +
                      ", iterations " + std::to_string(iterations));
-        SolverOptions options;
+        auto options = without_smoothness();
         options.method = method;
         options.tolerance = 1e-17;
         options.max_iterations = iterations;
@@ -118,7 +115,7 @@ TEST_IN_2D_AND_3D(OptimaTest, CertificatesHold) {
         EXPECT_GE(certificate.objective, optimum * (1 - 1e-9));
         EXPECT_NEAR(certificate.relative_gap, 1 - certificate.lower_bound / certificate.objective,
                     1e-12);
-        if (method == Method::kValue && iterations == 3000) {
+        if (method == Method::kWeights && iterations == 3000) {
           EXPECT_LT(certificate.relative_gap, 1e-4);
         }
       }

@@ -131,12 +131,12 @@ TEST_IN_2D_AND_3D(SolvePartsTest, EachIsAsAlone) {
       });
     }
     for (const auto method :
-         {Method::kValue, Method::kGradient, Method::kPaper, Method::kLbc2014}) {
-      SCOPED_TRACE(static_cast<int>(method));
+         {Method::kWeights, Method::kGradient, Method::kPaper, Method::kLbc2014}) {
+      SCOPED_TRACE(name_of(method));
       SolverOptions options;
       options.method = method;
       options.max_iterations = 40;
-      options.certify = method == Method::kValue;
+      options.certify = method == Method::kWeights;
       expect_as_alone(
           pair, [&](const auto& cage, const auto& mesh) { return solve(cage, mesh, options); });
     }
@@ -147,6 +147,7 @@ TEST_IN_2D_AND_3D(SolvePartsTest, EachIsAsAlone) {
 TEST_IN_2D_AND_3D(SolvePartsTest, TotalVariationAddsUp) {
   const auto pair = std::move(pairs<Dim>().front());
   SolverOptions options;
+  options.smoothness = 0;
   options.phi = DistanceScheme::kConstant;
   const auto [weights, report] = solve(pair.whole.cage, pair.whole.mesh, options);
   EXPECT_EQ(report.status, SolveStatus::kConverged);
@@ -198,7 +199,8 @@ TEST_IN_2D_AND_3D(SolvePartsTest, PartsOfMeshAndCageMustBeTheSame) {
   expect_refused("vertex", [&] { solve(alone[0].cage, whole.mesh); });
   // Classes that keep a state hold one part.
   expect_refused("not connected", [&] { Solver<Dim>(whole.cage, whole.mesh); });
-  expect_refused("2 parts", [&] { make_problem(whole.cage, whole.mesh, DistanceScheme::kSquare); });
+  expect_refused("2 parts",
+                 [&] { make_problem(whole.cage, whole.mesh, DistanceScheme::kSquare, 0); });
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/solver.h"
-
 #include <thread>
 
 #include "flbc/coordinates.h"
 #include "flbc/harmonic.h"
+#include "flbc/names.h"
 #include "flbc/published_penalty.h"
 #include "flbc/recovery.h"
 #include "support/fine_cages.h"
+#include "support/solver_options.h"
 #include "support/test.h"
 
 namespace flbc::testing {
@@ -29,7 +29,7 @@ TEST_IN_2D_AND_3D(SolverTest, CoordinatesHaveTheirProperties) {
     expect_properties(sample,
                       compute_coordinates(sample.cage, sample.mesh, Coordinates::kHarmonic));
     for (const auto method : {Method::kGradient, Method::kPaper}) {
-      SCOPED_TRACE(static_cast<int>(method));
+      SCOPED_TRACE(name_of(method));
       SolverOptions options;
       options.method = method;
       options.max_iterations = 100;  // the constraints hold from the first one on
@@ -49,7 +49,7 @@ TEST_IN_2D_AND_3D(SolverTest, RefusesMeshesThatAreNotValid) {
     auto mesh = sample.mesh;
     change(mesh);
     expect_refused(words, [&] { solve(sample.cage, mesh); });
-    expect_refused(words, [&] { make_problem(sample.cage, mesh, DistanceScheme::kSquare); });
+    expect_refused(words, [&] { make_problem(sample.cage, mesh, DistanceScheme::kSquare, 0); });
     expect_refused(words, [&] { compute_coordinates(sample.cage, mesh, Coordinates::kHarmonic); });
   };
   refused("cell 1 of the domain mesh refers to vertex -1", [](auto& m) { m.cells(0, 1) = -1; });
@@ -63,7 +63,7 @@ TEST_IN_2D_AND_3D(SolverTest, RefusesMeshesThatAreNotValid) {
 
 TEST_IN_2D_AND_3D(SolverTest, RefusesPhiThatIsNotValid) {
   const auto sample = make_sample<Dim>(Shape::kCorner, 3, 0.2);
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  const auto problem = smooth_problem(sample);
   const Eigen::MatrixXd phi = problem.phi.dense();
   const auto refused = [&](const std::string& words, const Eigen::MatrixXd& values) {
     auto other = problem;
@@ -85,9 +85,9 @@ TEST_IN_2D_AND_3D(SolverTest, RefusesPhiThatIsNotValid) {
 // Without the projection to weights >= 0, single precision must not remain.
 TEST_IN_2D_AND_3D(SolverTest, WeightsThatMayBeNegativeReproduceExactly) {
   const auto sample = with_fine_cage<Dim>(Shape::kCorner, 2, Dim == 2 ? 8 : 4);
-  for (const auto method : {Method::kValue, Method::kLbc2014}) {
+  for (const auto method : {Method::kWeights, Method::kLbc2014}) {
     for (const auto active_set : {ActiveSet::kOff, ActiveSet::kOn}) {
-      SCOPED_TRACE(static_cast<int>(method));
+      SCOPED_TRACE(name_of(method));
       SolverOptions options;
       options.method = method;
       options.non_negative = NonNegative::kOff;
@@ -104,47 +104,23 @@ TEST_IN_2D_AND_3D(SolverTest, WeightsThatMayBeNegativeReproduceExactly) {
   }
 }
 
-// Without a global system it is the paper's iteration from the paper's start to its recovery, with
-// another penalty and relaxation.
-TEST_IN_2D_AND_3D(SolverTest, GradientWithoutALinearSolverIsThePapers) {
-  for (const auto& sample : samples<Dim>()) {
-    SCOPED_TRACE(sample.name);
-    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
-    const auto run = [&](Method method) {
-      SolverOptions options;
-      options.method = method;
-      options.non_negative = NonNegative::kOff;
-      options.linear_solver = LinearSolver::kNone;
-      options.penalty = 0.001;
-      options.relaxation = 1;
-      options.max_iterations = 30;
-      options.tolerance = 1e-30;
-      return solve(problem, options).weights.dense();
-    };
-    EXPECT_EQ((run(Method::kGradient) - run(Method::kPaper)).cwiseAbs().maxCoeff(), 0);
-  }
-}
-
 // Gradients with local constraints only, and weights with a global linear system: two iterations
 // with nothing in common but the problem, of which the optimum may not differ. Its value is a lower
 // bound for every feasible function.
 TEST_IN_2D_AND_3D(SolverTest, GradientsAndWeightsAgree) {
   for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);
-    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0);
     const auto optimum = [&](Method method, std::optional<double> penalty) {
-      SolverOptions options;
+      auto options = many_iterations(4000, without_smoothness());
       options.method = method;
-      options.precision = Precision::kDouble;
       options.non_negative = NonNegative::kOff;
       if (penalty) {
         options.penalty = published_penalty(sample.cage, sample.mesh, method, *penalty);
       }
-      options.tolerance = 1e-20;  // never: run to the end
-      options.max_iterations = 4000;
       return solve(problem, options).weights.dense();
     };
-    const auto weights = optimum(Method::kValue, {});
+    const auto weights = optimum(Method::kWeights, {});
     const auto gradients = optimum(Method::kPaper, Dim == 2 ? 1e4 : 1e5);
     const double value = testing::objective(problem.mesh, weights, problem.phi.dense());
     EXPECT_NEAR(testing::objective(problem.mesh, gradients, problem.phi.dense()), value,
@@ -181,20 +157,19 @@ TEST_IN_2D_AND_3D(SolverTest, DoesNotDependOnScalePlaceOrOrientation) {
 
 TEST_IN_2D_AND_3D(SolverTest, ReportsHowItEnded) {
   const auto sample = make_sample<Dim>(Shape::kBox, 4, 0.2);
-  SolverOptions options;
-  options.tolerance = 1e-30;
-  options.max_iterations = 7;
-  EXPECT_EQ(solve(sample.cage, sample.mesh, options).report.status, SolveStatus::kIterationLimit);
-  EXPECT_EQ(solve(sample.cage, sample.mesh, options).report.iterations, 7);
+  const auto limited = solve(sample.cage, sample.mesh, many_iterations(7)).report;
+  EXPECT_EQ(limited.status, SolveStatus::kIterationLimit);
+  EXPECT_EQ(limited.iterations, 7);
 
-  options.max_iterations = 1000;
   int calls = 0;
   Observer observer;
   observer.progress = [&](const Progress& progress) {
     EXPECT_EQ(progress.iteration, 10 * ++calls);
+    EXPECT_GT(progress.relative_primal_residual, 0);
+    EXPECT_GT(progress.objective(), 0);
     return calls < 3;
   };
-  const auto stopped = solve(sample.cage, sample.mesh, options, {}, observer);
+  const auto stopped = solve(sample.cage, sample.mesh, many_iterations(1000), {}, observer);
   EXPECT_EQ(stopped.report.status, SolveStatus::kStopped);
   EXPECT_EQ(stopped.report.iterations, 30);
   EXPECT_LT(stopped.report.quality.max_reproduction_error, 1e-13);
@@ -203,9 +178,7 @@ TEST_IN_2D_AND_3D(SolverTest, ReportsHowItEnded) {
 // In every iteration and during stages; each call may cancel.
 TEST_IN_2D_AND_3D(SolverTest, PollMayCancel) {
   const auto sample = make_sample<Dim>(Shape::kBox, 4, 0.2);
-  SolverOptions options;
-  options.tolerance = 1e-30;
-  options.max_iterations = 25;
+  auto options = many_iterations(25);
   options.certify = true;
   options.threads = 1;
   int calls = 0, last = -1;
@@ -306,10 +279,9 @@ TEST_IN_2D_AND_3D(SolverTest, RefusesImpossibleOptionsByName) {
   refused("tolerance", [](auto& o) { o.tolerance = std::nan(""); });
   refused("max_iterations", [](auto& o) { o.max_iterations = 0; });
   refused("penalty", [](auto& o) { o.penalty = -1; });
-  refused("relaxation", [](auto& o) { o.relaxation = 2; });
   refused("threads", [](auto& o) { o.threads = -1; });
-  refused("linear_solver", [](auto& o) { o.linear_solver = LinearSolver::kNone; });
-  refused("coarse_levels.coarsest", [](auto& o) { o.coarse_levels.coarsest = -1; });
+  refused("smoothness", [](auto& o) { o.smoothness = -1; });
+  refused("gap", [](auto& o) { o.gap = -1; });
   refused("coarse_to_fine", [](auto& o) { o.coarse_to_fine = CoarseToFine::kOn; });
 }
 

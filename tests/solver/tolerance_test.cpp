@@ -1,73 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether Method::kValue keeps what its tolerance promises: on real cages, at any scale, on meshes
-// of very different cells, and with few and many control points.
-#include "flbc/solver.h"
-#include "support/many_iterations.h"
+// Whether the methods keep what their tolerance promises: on real cages, at any scale, on meshes of
+// very different cells, in narrow gaps, and with few and many control points.
+#include "mesh/cell_geometry.h"
 #include "support/solver_models.h"
+#include "support/solver_options.h"
 #include "support/test.h"
 
 namespace flbc::testing {
 namespace {
 
-// The optimum that errors are measured against, proven to be good enough for that.
-template <int Dim>
-WeightMatrix optimum(const LbcProblem<Dim>& problem, int iterations, bool prove = true) {
-  auto options = many_iterations(iterations);
-  options.certify = prove;
-  const auto solution = solve(problem, options);
-  EXPECT_LT(solution.report.certificate.relative_gap, 1e-4);  // 0 without proof
-  return solution.weights.dense();
-}
+// What a true mean squared error may be, relative to the tolerance. Weights of round cages and
+// boxes are nearly undetermined, so that they still creep when changes are small.
+constexpr double kPromise = 1, kRoundPromise = 5, kGradientPromise = 3;
 
 SolverOptions with_tolerance(double tolerance) {
   SolverOptions options;
   options.tolerance = tolerance;
-  options.certify = true;
   return options;
 }
 
-//! \param largest_gap  at a tolerance of 1e-7
+// The promise of kWeights, for the problem of default options.
 template <int Dim>
-void expect_promise_kept(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, int iterations,
-                         double largest_gap) {
-  const auto problem = make_problem(cage, mesh, DistanceScheme::kSquare);
-  const auto exact = optimum(problem, iterations);
-  double previous_gap = std::numeric_limits<double>::infinity();
-  for (const double tolerance : {1e-5, 1e-6, 1e-7}) {
+void expect_promise_kept(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                         double promise = kPromise) {
+  const auto problem = smooth_problem(Sample<Dim>{cage, mesh, ""});
+  const auto exact = solve(problem, many_iterations(1500)).weights.dense();
+  for (const double tolerance : {1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
     SCOPED_TRACE(tolerance);
-    const auto solution = solve(problem, with_tolerance(tolerance));
-    EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
-    EXPECT_LT(mean_squared_difference(mesh, solution.weights.dense(), exact),
-              kAllowance * tolerance);
-    // The objective is as far off as the weights are, not as their square.
-    const double gap = solution.report.certificate.relative_gap;
-    EXPECT_GE(gap, -1e-9);
-    EXPECT_LT(gap, largest_gap * std::sqrt(tolerance / 1e-7));
-    constexpr double kRounding = 1e-8;  // of single precision
-    EXPECT_LE(gap, previous_gap + kRounding);
-    previous_gap = gap;
+    const auto [weights, report] = solve(problem, with_tolerance(tolerance));
+    EXPECT_EQ(report.status, SolveStatus::kConverged);
+    EXPECT_EQ(report.criterion, Criterion::kTolerance);
+    EXPECT_LT(mean_squared_difference(mesh, weights.dense(), exact), promise * tolerance);
   }
-}
-
-// A tolerance alone estimates errors, so the run that it ends says how far the objective may be
-// off.
-TEST_IN_2D_AND_3D(ToleranceTest, WithoutSmoothnessARunEndsWithACertificate) {
-  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 12 : 4, 0.2);
-  SolverOptions options;
-  options.tolerance = 1e-5;
-  const auto plain = solve(sample.cage, sample.mesh, options).report;
-  options.certify = true;
-  const auto asked = solve(sample.cage, sample.mesh, options).report;
-  EXPECT_EQ(plain.criterion, Criterion::kTolerance);
-  EXPECT_EQ(plain.iterations, asked.iterations);
-  EXPECT_GT(plain.certificate.relative_gap, 0);
-  EXPECT_EQ(plain.certificate.relative_gap, asked.certificate.relative_gap);
-  EXPECT_EQ(plain.certificate.proof, nullptr);  // which would take memory
-  options.certify = false;
-  options.smoothness = 0.003;
-  const auto smooth = solve(sample.cage, sample.mesh, options).report;
-  EXPECT_EQ(smooth.criterion, Criterion::kTolerance);
-  EXPECT_EQ(smooth.certificate.objective, 0);  // none: the weights are unique and estimated well
 }
 
 // ---- scale --------------------------------------------------------------------------------------
@@ -76,15 +40,16 @@ TEST_IN_2D_AND_3D(ToleranceTest, IsTheSameAtEveryScale) {
   for (const auto shape : {Shape::kCorner, Shape::kRing}) {
     const auto sample = make_sample<Dim>(shape, Dim == 2 ? 12 : 4, 0.2);
     const double width = bounding_box_diagonal(sample.cage.points);
-    const auto expected = solve(sample.cage, sample.mesh, with_tolerance(1e-7));
+    auto options = with_tolerance(1e-7);
+    options.certify = true;
+    const auto expected = solve(sample.cage, sample.mesh, options);
     for (const double size : {0.001, 0.03, 7.0, 1000.0}) {
       SCOPED_TRACE(sample.name + ", size " + std::to_string(size));
       auto scaled = sample;
       scaled.cage.points *= size / width;
       scaled.mesh.points *= size / width;
-      const auto solution = solve(scaled.cage, scaled.mesh, with_tolerance(1e-7));
+      const auto solution = solve(scaled.cage, scaled.mesh, options);
       EXPECT_EQ(solution.report.iterations, expected.report.iterations);
-      EXPECT_LT((solution.weights.dense() - expected.weights.dense()).cwiseAbs().maxCoeff(), 1e-4);
       EXPECT_LT(
           mean_squared_difference(sample.mesh, solution.weights.dense(), expected.weights.dense()),
           1e-11);
@@ -97,7 +62,7 @@ TEST_IN_2D_AND_3D(ToleranceTest, IsTheSameAtEveryScale) {
   }
 }
 
-// ---- graded meshes ------------------------------------------------------------------------------
+// ---- meshes and cages that are hard -------------------------------------------------------------
 
 // A box that is meshed the finer the nearer to one corner: distances r from it, in the maximum
 // norm, become r^power. \param ratio  between the sizes of the largest and the smallest cells
@@ -114,96 +79,66 @@ Sample<Dim> graded_box(Index subdivisions, double ratio) {
 
 TEST_IN_2D_AND_3D(ToleranceTest, HoldsOnMeshesGradedByAFactorOfAHundred) {
   const auto sample = graded_box<Dim>(Dim == 2 ? 24 : 8, 100);
-  double least = std::numeric_limits<double>::infinity();
-  double largest = 0;
-  for (Index s = 0; s < sample.mesh.num_cells(); ++s) {
-    const double size = std::pow(std::abs(signed_measure(sample.mesh, s)), 1.0 / Dim);
-    least = std::min(least, size);
-    largest = std::max(largest, size);
-  }
-  ASSERT_GT(largest, 100 * least);
-  expect_promise_kept(sample.cage, sample.mesh, 2000, 0.02);
+  const Eigen::VectorXd sizes = cell_measures(sample.mesh).array().pow(1.0 / Dim);
+  ASSERT_GT(sizes.maxCoeff(), 100 * sizes.minCoeff());
+  expect_promise_kept(sample.cage, sample.mesh, kRoundPromise);
 }
 
-// ---- few and many control points ----------------------------------------------------------------
-
-TEST(Tolerance2dTest, HoldsOnRegularPolygons) {
-  for (const Index corners : {3, 4, 7, 15}) {
+TEST(Tolerance2dTest, HoldsOnRegularPolygonsAndStars) {
+  for (const Index corners : {4, 15, 60}) {
     SCOPED_TRACE(corners);
     const auto cage = regular_polygon(corners);
-    ASSERT_TRUE(find_defects(cage).empty());
-    expect_promise_kept(cage, mesh_of(cage, 1500), 2000, 0.02);
+    expect_promise_kept(cage, mesh_of(cage, 800), kRoundPromise);
   }
+  const auto spikes = regular_polygon(48, 0.3);
+  expect_promise_kept(spikes, mesh_of(spikes, 1500));
 }
 
 TEST(Tolerance3dTest, HoldsOnRoundCages) {
-  for (const Index k : {1, 2, 3}) {
+  for (const Index k : {1, 3}) {
     const auto cage = round_cage(k);
     SCOPED_TRACE(cage.size());
-    expect_promise_kept(cage, mesh_of(cage, 1500), 1500, 0.02);
+    expect_promise_kept(cage, mesh_of(cage, 800), kRoundPromise);
   }
 }
 
-// With many control points on a round cage, weights stagnate for long, far from the optimum, while
-// duals grow; then they converge slowly. The reference is checked by one with half the iterations
-// how far it is from the optimum itself.
-TEST(Tolerance2dTest, HoldsOnPolygonsOfManyCorners) {
-  for (const Index corners : {30, 60}) {
-    SCOPED_TRACE(corners);
-    const auto cage = regular_polygon(corners);
-    const auto mesh = mesh_of(cage, 500);
-    const auto problem = make_problem(cage, mesh, DistanceScheme::kSquare);
-    const auto exact = optimum(problem, 6000, false);
-    ASSERT_LT(mean_squared_difference(mesh, exact, optimum(problem, 3000, false)), 1e-7);
-    for (const double tolerance : {1e-5, 1e-6}) {
-      SCOPED_TRACE(tolerance);
-      const auto solution = solve(problem, with_tolerance(tolerance));
-      EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
-      EXPECT_LT(mean_squared_difference(mesh, solution.weights.dense(), exact),
-                kAllowance * tolerance);
-    }
+// Counterclockwise.
+Cage<2> polygon(const std::vector<Eigen::Vector2d>& corners) {
+  const auto n = static_cast<Index>(corners.size());
+  Cage<2> cage{PointList<2>(2, n), FacetList<2>(2, n)};
+  for (Index k = 0; k < n; ++k) {
+    cage.points.col(k) = corners[k];
+    cage.facets.col(k) << k, (k + 1) % n;
   }
+  return cage;
 }
 
-// Where the promise cannot be kept within the iterations there are, that is what is said; and the
-// objective is nearly the least one all the same.
-template <int Dim>
-void expect_no_claim(const Cage<Dim>& cage, Index vertices) {
-  SCOPED_TRACE(cage.size());
-  ASSERT_TRUE(find_defects(cage).empty());
-  auto options = with_tolerance(1e-7);
-  options.max_iterations = 800;
-  const auto solution = solve(cage, mesh_of(cage, vertices), options);
-  EXPECT_EQ(solution.report.status, SolveStatus::kIterationLimit);
-  EXPECT_LT(solution.report.certificate.relative_gap, 0.15);
-  EXPECT_GE(solution.report.quality.min_weight, 0);
+// Weights on both sides of a narrow gap hardly know of each other, and converge slowly.
+TEST(Tolerance2dTest, HoldsInNarrowGaps) {
+  const auto slit =
+      polygon({{0, 0}, {4, 0}, {4, 1.95}, {1, 1.95}, {1, 2.05}, {4, 2.05}, {4, 4}, {0, 4}});
+  expect_promise_kept(slit, mesh_of(slit, 1500));
+  std::vector<Eigen::Vector2d> corners{{0, 0}, {8, 0}};
+  for (double k = 8; k >= 2; --k) {
+    corners.insert(corners.end(), {{k, 3}, {k - 0.45, 3}, {k - 0.45, 0.6}, {k - 0.55, 0.6}});
+  }
+  corners.insert(corners.end(), {{1, 3}, {0, 3}});
+  const auto comb = polygon(corners);
+  expect_promise_kept(comb, mesh_of(comb, 2000));
 }
 
-TEST(Tolerance2dTest, IsNotClaimedTooSoonOnPolygonsOfManyCorners) {
-  expect_no_claim(regular_polygon(60), 1000);
-  expect_no_claim(regular_polygon(250), 3000);
-}
+// ---- limits -------------------------------------------------------------------------------------
 
-TEST(Tolerance3dTest, IsNotClaimedTooSoonOnRoundCagesOfManyControlPoints) {
-  expect_no_claim(round_cage(6), 2000);
-}
-
-// Single precision ends all progress at some error, and no tolerance below it may be claimed.
-TEST_IN_2D_AND_3D(ToleranceTest, IsNotClaimedBeyondSinglePrecision) {
+// Rounding ends all progress at some error, which single precision keeps small.
+TEST_IN_2D_AND_3D(ToleranceTest, OfTinyErrorsIsAsFarAsSinglePrecisionGoes) {
   const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 12 : 4, 0.2);
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
-  const auto exact = optimum(problem, 6000, false);
-  for (const double tolerance : {1e-9, 1e-11, 1e-13, 1e-15}) {
-    SCOPED_TRACE(tolerance);
+  const auto problem = smooth_problem(sample);
+  const auto exact = solve(problem, many_iterations(1500)).weights.dense();
+  for (const double tolerance : {1e-11, 1e-13, 1e-15}) {
     auto options = with_tolerance(tolerance);
-    options.max_iterations = 4000;
-    const auto solution = solve(problem, options);
-    const double error = mean_squared_difference(sample.mesh, solution.weights.dense(), exact);
-    if (solution.report.status == SolveStatus::kConverged) {
-      EXPECT_LT(error, kAllowance * tolerance) << solution.report.iterations;
-    } else {
-      EXPECT_LT(tolerance, 1e-9);
-    }
+    options.max_iterations = 1500;
+    const auto weights = solve(problem, options).weights.dense();
+    EXPECT_LT(mean_squared_difference(sample.mesh, weights, exact), 1e-8) << tolerance;
   }
 }
 
@@ -216,61 +151,86 @@ TEST_IN_2D_AND_3D(ToleranceTest, ASimplexHasItsBarycentricCoordinates) {
   EXPECT_LT((solution.weights.dense() - expected).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+// Without smoothness, a tolerance only estimates the error, so the run that it ends reports how far
+// the objective may be off.
+TEST_IN_2D_AND_3D(ToleranceTest, WithoutSmoothnessARunEndsWithACertificate) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 12 : 4, 0.2);
+  auto options = with_tolerance(1e-5);
+  const auto smooth = solve(sample.cage, sample.mesh, options).report;
+  EXPECT_EQ(smooth.criterion, Criterion::kTolerance);
+  EXPECT_EQ(smooth.certificate.objective, 0);  // none: the weights are unique and estimated well
+  options.smoothness = 0;
+  const auto plain = solve(sample.cage, sample.mesh, options).report;
+  options.certify = true;
+  const auto asked = solve(sample.cage, sample.mesh, options).report;
+  EXPECT_EQ(plain.criterion, Criterion::kTolerance);
+  EXPECT_EQ(plain.iterations, asked.iterations);
+  EXPECT_GT(plain.certificate.relative_gap, 0);
+  EXPECT_EQ(plain.certificate.relative_gap, asked.certificate.relative_gap);
+  EXPECT_EQ(plain.certificate.proof, nullptr);  // which would take memory
+}
+
+// ---- kGradient ----------------------------------------------------------------------------------
+
+// The error is that to the optimum without non-negativity, which kWeights finds by another
+// iteration.
+template <int Dim>
+void expect_gradient_promise_kept(const LbcProblem<Dim>& problem,
+                                  const std::vector<double>& tolerances) {
+  SolverOptions options;
+  options.non_negative = NonNegative::kOff;
+  const auto exact = solve(problem, many_iterations(1500, options)).weights.dense();
+  options.method = Method::kGradient;
+  for (const double tolerance : tolerances) {
+    SCOPED_TRACE(tolerance);
+    options.tolerance = tolerance;
+#ifdef _WIN32
+    // TetGen places vertices differently here, and the mesh of the arm takes more than usual.
+    options.max_iterations = 100000;
+#endif
+    const auto [weights, report] = solve(problem, options);
+    EXPECT_EQ(report.status, SolveStatus::kConverged);
+    EXPECT_LT(mean_squared_difference(problem.mesh, weights.dense(), exact),
+              kGradientPromise * tolerance);
+  }
+}
+
+// The ring has a hole, which adds period constraints.
+TEST_IN_2D_AND_3D(GradientToleranceTest, HoldsOnSamples) {
+  for (const auto shape : {Shape::kCorner, Shape::kRing}) {
+    const auto sample = make_sample<Dim>(shape, Dim == 2 ? 12 : 4, 0.2);
+    SCOPED_TRACE(sample.name);
+    expect_gradient_promise_kept(smooth_problem(sample), {1e-4, 1e-5, 1e-6});
+  }
+}
+
 // ---- real cages ---------------------------------------------------------------------------------
 
 template <int Dim>
-void expect_promise_kept_on(const Model& model) {
+void expect_promises_kept_on(const Model& model) {
   if (!has_model(model.file)) GTEST_SKIP() << "the real models are absent";
   const auto cage = load_cage<Dim>(model.file);
   const auto mesh = mesh_of(cage, model.vertices);
-  const auto problem = make_problem(cage, mesh, DistanceScheme::kSquare);
-  const auto exact = optimum(problem, 3000, false);
-  for (const double tolerance : {1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
-    SCOPED_TRACE(tolerance);
-    SolverOptions options;
-    options.tolerance = tolerance;
-    const auto solution = solve(problem, options);
-    EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
-    EXPECT_LT(mean_squared_difference(mesh, solution.weights.dense(), exact),
-              kAllowance * tolerance);
-  }
+  expect_promise_kept(cage, mesh);
+  std::vector<double> tolerances = {1e-4, 1e-5, 1e-6};
+  while (tolerances.back() < model.finest) tolerances.pop_back();
+  expect_gradient_promise_kept(smooth_problem(Sample<Dim>{cage, mesh, ""}), tolerances);
 }
 
 class LongTolerance : public ::testing::TestWithParam<Model> {};
 TEST_P(LongTolerance, Holds) {
-  GetParam().is_planar() ? expect_promise_kept_on<2>(GetParam())
-                         : expect_promise_kept_on<3>(GetParam());
+  GetParam().is_planar() ? expect_promises_kept_on<2>(GetParam())
+                         : expect_promises_kept_on<3>(GetParam());
 }
 INSTANTIATE_TEST_SUITE_P(Models, LongTolerance,
                          ::testing::Values(Model{"woody", "2d/woody-control-edgeset.obj", 2000},
                                            Model{"cactus", "2d/cactus-control-edgeset.obj", 2000},
                                            Model{"logo", "2d/LBClogo-control-edgeset.obj", 2000},
-                                           Model{"horse", "3d/horse_cage.obj", 2000},
+                                           Model{"horse", "3d/horse_cage.obj", 2000, 1e-5},
                                            Model{"shark", "3d/shark_cage.obj", 2000},
-                                           Model{"beast", "3d/beast_cage.obj", 2000},
-                                           Model{"arm", "3d/arm_cage.obj", 2500}),
+                                           Model{"beast", "3d/beast_cage.obj", 2000, 1e-5},
+                                           Model{"arm", "3d/arm_cage.obj", 950, 1e-4}),
                          name_of_model);
-
-// ---- slow weights -------------------------------------------------------------------------------
-
-// The first penalty is too large for weights in spikes, and they hardly move. Runs ended at 11
-// times the tolerance, after 71 iterations.
-TEST(Tolerance, HoldsInManySpikes) {
-  const auto cage = regular_polygon(48, 0.3);
-  const auto mesh = mesh_of(cage, 2000);
-  const auto problem = make_problem(cage, mesh, DistanceScheme::kSquare);
-  SolverOptions exactly;
-  exactly.tolerance = 1e-9;
-  exactly.precision = Precision::kDouble;
-  const auto exact = solve(problem, exactly);
-  ASSERT_EQ(exact.report.status, SolveStatus::kConverged);
-  for (const double tolerance : {1e-5, 1e-6}) {
-    const auto solution = solve(problem, with_tolerance(tolerance));
-    EXPECT_EQ(solution.report.status, SolveStatus::kConverged);
-    EXPECT_LT(mean_squared_difference(mesh, solution.weights.dense(), exact.weights.dense()),
-              2 * tolerance);
-  }
-}
 
 }  // namespace
 }  // namespace flbc::testing

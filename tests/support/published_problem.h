@@ -11,7 +11,7 @@ namespace flbc::testing {
 template <int Dim>
 LbcProblem<Dim> published_problem(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                                   DistanceScheme scheme) {
-  auto problem = make_problem(cage, mesh, scheme);
+  auto problem = make_problem(cage, mesh, scheme, 0);
   const Vector<Dim> center =
       (mesh.points.rowwise().minCoeff() + mesh.points.rowwise().maxCoeff()) / 2;
   problem.scale = 250 / (mesh.points.colwise() - center).colwise().norm().maxCoeff();

@@ -29,7 +29,4 @@ inline DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
   return tetrahedralize(cage, {vertices});
 }
 
-//! The contract is a mean squared error of `tolerance`, up to this factor.
-constexpr double kAllowance = 3;
-
 }  // namespace flbc::testing

@@ -168,11 +168,12 @@ async function testErrors() {
   await app.drop([join(meshes, "3d/limb_model.obj")]);
   await app.tab.waitForFunction(() => document.getElementById("stages").children.length > 1);
   await app.shot("dark_busy");
-  const begin = performance.now();
-  await app.tab.$eval("[data-do=cancel]", (button) => button.click());
+  const stages = await app.tab.$eval("[data-do=cancel]", (button) => {
+    button.click();
+    return document.getElementById("stages").children.length;
+  });
   await app.tab.waitForFunction(() => !document.getElementById("start").hidden);
-  const taken = performance.now() - begin;
-  assert.ok(taken < 500, `${taken} ms to cancel`);
+  assert.equal(await app.tab.$eval("#stages", (list) => list.children.length), stages);
   await app.drop([join(meshes, "3d/limb_model.obj")]);
   await app.shown();
 
