@@ -197,7 +197,7 @@ flbc solve square.obj $V --gap 1e-3 --non-negative project -o x.npy
 1 flbc solve square.obj $V --method gradient --non-negative constraint -o x.npy
 flbc solve square.obj $V --method gradient --non-negative project -o x.npy
 flbc solve square.obj $V --method weights --non-negative constraint -o x.npy
-# ; try the default penalty and relaxation, or double precision
+# ; try the default penalty, or double precision
 2 flbc solve square.obj $V --penalty 1e300 -o x.npy
 flbc solve square.obj $V -o x.npy
 )";
