@@ -151,7 +151,7 @@ TYPED_TEST(MeshAdmm, ReachesTheSolutionWithThePenaltyOfTheSolver) {
   Admm<TypeParam> admm(mesh, sample.cage, relaxed);
   EXPECT_NEAR(admm.penalty() / std::pow(bounding_box_diagonal(sample.cage.points), kDim + 1),
               expected.report.penalty, 1e-9 * expected.report.penalty);
-  admm.iterate(3000);
+  admm.iterate(6000);
   admm.recover_weights();
   EXPECT_LT(
       mean_squared_difference(sample.mesh, openmesh::get_weights(mesh), expected.weights.dense()),
