@@ -119,7 +119,7 @@ TEST_IN_2D_AND_3D(ContinuedSolveTest, ASolveInSlicesIsOneInOnePiece) {
 struct Change {
   const char* name;
   void (*change)(SolverOptions&);
-  bool resumes = false;  // whether a run that has begun goes on
+  bool resumes = false;  // whether a run that has begun resumes
 };
 
 const Change kChanges[] = {
