@@ -78,8 +78,7 @@ template <int Dim>
 Index vertices_of_solve(const Cage<Dim>& cage, Index wanted) {
   if constexpr (Dim == 3) {
     try {
-      const auto mesher = coarse_mesher<Dim>(Mesher::kGiven);
-      if (mesher) return std::max(wanted, mesher(cage, 1).num_vertices());
+      return std::max(wanted, make_domain<Dim>({cage, {}, 1}).mesh.num_vertices());
     } catch (const Error&) {  // the solve will refuse the cage
     }
   }

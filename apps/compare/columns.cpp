@@ -54,7 +54,6 @@ void mesh_domain(Comparison<Dim>& all) {
   CageSolver<Dim> solver(all.cage, model, settings);
   solver.make_domain(arguments.quiet);
   all.domain = solver.domain();
-  all.made_by = solver.mesher();
   all.placement = solver.placement();
   if (arguments.model.empty()) all.shape = shape_of(all.domain);
   all.folder.add(domain_file<Dim>(), "",
@@ -70,7 +69,7 @@ Solution weights_of_mesh(const Comparison<Dim>& all, const Column<Dim>& column) 
     bar.show(progress);
     return true;
   };
-  return compute_weights(all.cage, all.domain, settings, all.made_by, observer);
+  return compute_weights(all.cage, all.domain, settings, observer);
 }
 
 template <int Dim>

@@ -25,7 +25,6 @@ constexpr Wording kWordings[] = {
     {"which compute_coordinates() does not return; use green_coordinates() in C++",
      "so they have no file of weights; use flbc deform --method green, or flbc compare"},
     {"non_negative constraint is for the methods", "--non-negative constraint is for the methods"},
-    {"coarse_to_fine cannot be on", "--coarse-to-fine cannot be on"},
     {"gap must be positive", "--gap must be positive"},
     {"smoothness must be positive", "--smoothness must be positive"},
     {"smoothness is for the methods", "--smoothness is for the methods"},

@@ -16,10 +16,7 @@ nlohmann::ordered_json levels_json(const std::vector<LevelReport>& levels) {
     json.push_back({{"vertices", level.vertices},
                     {"cells", level.cells},
                     {"iterations", level.iterations},
-                    {"seconds",
-                     {{"mesh", level.mesh_seconds},
-                      {"setup", level.setup_seconds},
-                      {"solve", level.solve_seconds}}}});
+                    {"seconds", {{"solve", level.solve_seconds}}}});
   }
   return json;
 }
@@ -43,7 +40,6 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
           {"mesher", name_of(settings.meshing.mesher)},
           {"method", name_of_method(settings, given.method)},
           {"non_negative", name_of(options.non_negative)},
-          {"coarse_to_fine", name_of(options.coarse_to_fine)},
           {"active", name_of(options.active_set)},
           {"certify", options.certify},
           {"phi", settings.phi.empty() ? name_of(options.phi) : settings.phi},

@@ -90,26 +90,20 @@ nlohmann::ordered_json parts_json(const Cage<Dim>& cage, const std::vector<Solve
 
 template <int Dim>
 Solution compute_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
-                         const SolveSettings& settings, Mesher made_by, const Observer& observer) {
+                         const SolveSettings& settings, const Observer& observer) {
   auto options = settings.options;
   if (settings.coordinates) {
     return compute_coordinates(cage, domain, *settings.coordinates,
                                {options.non_negative, options.threads}, observer);
   }
-  // Starts from coarser meshes where that pays and a mesher was built in.
-  const auto mesher = coarse_mesher<Dim>(made_by);
-  if (options.coarse_to_fine == CoarseToFine::kOn && !mesher) {
-    throw OptionError("--coarse-to-fine on: this flbc was built without a mesher for " +
-                      std::to_string(Dim) + "D");
-  }
   if (settings.penalty) {
     options.penalty = published_penalty(cage, domain, options.method, *settings.penalty);
   }
-  if (settings.phi.empty()) return flbc::solve(cage, domain, options, mesher, observer);
+  if (settings.phi.empty()) return flbc::solve(cage, domain, options, observer);
   auto problem =
       make_problem(cage, domain, DistanceScheme::kConstant, *resolve(options).smoothness);
   problem.phi = WeightFunctions(read_weight_file(settings.phi).dense());
-  return naming(settings.phi, [&] { return flbc::solve(problem, options, {}, observer); });
+  return naming(settings.phi, [&] { return flbc::solve(problem, options, observer); });
 }
 
 template <int Dim>
@@ -239,7 +233,7 @@ void CageSolver<Dim>::solve(bool quiet) {
   };
   observer.stage = [&](Stage stage, double done) { bar.show(name_of(stage), done); };
   solution_ = naming(settings_.domain.empty() ? settings_.cage : settings_.domain,
-                     [&] { return compute_weights(cage_, domain_, settings_, mesher_, observer); });
+                     [&] { return compute_weights(cage_, domain_, settings_, observer); });
   if (settings_.history) history_ = recorder.finished(report());
   if (!settings_.model.empty()) rows_ = weights_of_model();
 }
@@ -336,7 +330,7 @@ bool report_convergence(const SolveReport& report, const SolveSettings& settings
 
 #define FLBC_INSTANTIATE(Dim)                                                           \
   template Solution compute_weights(const Cage<Dim>&, const DomainMesh<Dim>&,           \
-                                    const SolveSettings&, Mesher, const Observer&);     \
+                                    const SolveSettings&, const Observer&);             \
   template SparseWeights weights_of_points(const Cage<Dim>&, const DomainMesh<Dim>&,    \
                                            const SparseWeights&, const Placement<Dim>&, \
                                            const SolveSettings&);                       \

@@ -24,10 +24,9 @@
 namespace flbc::app {
 
 //! Computes the coordinates of the settings, or solves with their options.
-//! \param made_by  what made the mesh, and makes coarser ones
 template <int Dim>
 Solution compute_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
-                         const SolveSettings& settings, Mesher made_by, const Observer& observer);
+                         const SolveSettings& settings, const Observer& observer);
 
 //! Their weights at placed points. \param of_domain  not used for pointwise coordinates
 template <int Dim>

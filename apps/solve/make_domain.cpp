@@ -160,23 +160,6 @@ MadeDomain<Dim> make_domain(const DomainRequest<Dim>& request) {
   return naming(name, [&] { return fill_parts(request, options); });
 }
 
-template <int Dim>
-CoarseMesher<Dim> coarse_mesher(Mesher mesher) {
-  const auto meshers = meshers_for<Dim>(mesher);
-  if (meshers.empty()) return {};
-  // A mesher that fails on so few vertices must not keep the solve waiting.
-  constexpr double kTimeLimit = 60;
-  return [chosen = meshers.front()](const Cage<Dim>& cage, Index vertices) {
-    MeshingOptions<Dim> options;
-    options.vertices = vertices;
-    options.roughly = true;
-    options.time_limit = kTimeLimit;
-    return fill(chosen, cage, options);
-  };
-}
-
-template CoarseMesher<2> coarse_mesher(Mesher);
-template CoarseMesher<3> coarse_mesher(Mesher);
 template MadeDomain<2> make_domain(const DomainRequest<2>&);
 template MadeDomain<3> make_domain(const DomainRequest<3>&);
 

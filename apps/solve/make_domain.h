@@ -6,7 +6,6 @@
 #include <string>
 
 #include "flbc/cage.h"
-#include "flbc/coarse_to_fine.h"
 #include "flbc/meshing.h"
 
 namespace flbc::app {
@@ -56,10 +55,5 @@ struct MadeDomain {
 //! dimension; InputError if the cage cannot be meshed
 template <int Dim>
 MadeDomain<Dim> make_domain(const DomainRequest<Dim>& request);
-
-//! Meshes of the cage's interior for a start from coarser ones; empty if the program was built
-//! without the mesher for this dimension. \param mesher  the one that made the finest mesh
-template <int Dim>
-CoarseMesher<Dim> coarse_mesher(Mesher mesher);
 
 }  // namespace flbc::app

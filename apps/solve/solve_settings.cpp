@@ -53,14 +53,13 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
   const auto name = std::string("the method ") + name_of_method(settings, method);
   if (settings.coordinates) {
     for (const char* option :
-         {"--phi", "--smoothness", "--distances", "--precision", "--coarse-to-fine", "--active",
+         {"--phi", "--smoothness", "--distances", "--precision", "--active",
           "--tolerance", "--gap", "--max-iterations", "--penalty", "--certify"}) {
       refuse(option, name + " does not use it");
     }
   }
   if (method != Method::kWeights) {
     refuse("--active", name + " does not use it");
-    refuse("--coarse-to-fine", name + " does not use it");
   }
   if (is_meshless(settings)) {
     for (const char* option : {"--domain", "--vertices", "--embed", "--mesher", "--mesh-timeout"}) {
@@ -141,8 +140,6 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
              "weights. extend: reproduce the vertex, possibly with negative weights");
   add_choice(command, "--non-negative", options.non_negative,
              "method that keeps weights non-negative (default: depends on --method)");
-  add_choice(command, "--coarse-to-fine", options.coarse_to_fine,
-             "use a multilevel start from coarser meshes (default: auto, where it saves time)");
   add_phi(command, settings);
   add_choice(command, "--active", options.active_set,
              "store and update only weights that may be positive (default: auto, which is on in "

@@ -136,7 +136,7 @@ struct Runner {
     observer.progress = [iterations](const Progress& progress) {
       return progress.finer_levels > 0 || progress.iteration < iterations;
     };
-    return solve(setting.problem, options, coarse_mesher<Dim>(), observer);
+    return solve(setting.problem, options, observer);
   }
 
   bool is_good_after(int iterations) const {
@@ -195,7 +195,7 @@ Row sample_row(const Setting<Dim>& setting) {
   SolverOptions options;
   options.threads = setting.context.threads;
   const auto report =
-      fastest(kRaceRuns, [&] { return solve(cage, mesh, options, coarse_mesher<Dim>()); }).report;
+      fastest(kRaceRuns, [&] { return solve(cage, mesh, options); }).report;
   const auto harmonic = fastest(kRaceRuns, [&] {
                           return compute_coordinates(cage, mesh, Coordinates::kHarmonic,
                                                      {NonNegative::kAuto, options.threads});

@@ -31,7 +31,7 @@ std::string entry(const std::string& name, int iterations, const SparseWeights& 
 template <int Dim>
 std::string solved(const std::string& name, const Cage<Dim>& cage, const SolverOptions& options) {
   const auto mesh = mesh_of(cage, kVertices);
-  const auto solution = solve(cage, mesh, options, coarse_mesher<Dim>());
+  const auto solution = solve(cage, mesh, options);
   return entry(name, solution.report.iterations, solution.weights);
 }
 
@@ -69,7 +69,7 @@ std::string automatic() {
   const auto mesh = mesh_of(cage, kVertices);
   SolverOptions options;
   options.threads = 1;
-  const auto solution = solve(cage, mesh, options, coarse_mesher<3>());
+  const auto solution = solve(cage, mesh, options);
   SparsifyOptions few;
   few.max_influences = 8;
   const auto reduced = reduce_influences<3>(cage.points, mesh.points, edges_of_cells(mesh),

@@ -17,10 +17,9 @@ namespace flbc::bench {
 namespace {
 
 template <int Dim>
-MeshingOptions<Dim> meshing_options(Index vertices, bool roughly) {
+MeshingOptions<Dim> meshing_options(Index vertices) {
   MeshingOptions<Dim> options;
   options.vertices = vertices;
-  options.roughly = roughly;
   return options;
 }
 
@@ -78,12 +77,12 @@ const std::vector<NamedMethod>& methods() {
   return kMethods;
 }
 
-DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices, bool roughly) {
-  return triangulate(cage, meshing_options<2>(vertices, roughly));
+DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices) {
+  return triangulate(cage, meshing_options<2>(vertices));
 }
 
-DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices, bool roughly) {
-  return tetrahedralize(cage, meshing_options<3>(vertices, roughly));
+DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
+  return tetrahedralize(cage, meshing_options<3>(vertices));
 }
 
 template <int Dim>

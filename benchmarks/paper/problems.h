@@ -63,15 +63,9 @@ struct NamedMethod {
 //! over-relaxed gradient method, the splitting on the weights.
 const std::vector<NamedMethod>& methods();
 
-//! Meshes a cage. \param roughly  in one run of the mesher
-DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices, bool roughly = false);
-DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices, bool roughly = false);
-
-//! Makes the coarser meshes that solve() may start from.
-template <int Dim>
-CoarseMesher<Dim> coarse_mesher() {
-  return [](const Cage<Dim>& cage, Index vertices) { return mesh_of(cage, vertices, true); };
-}
+//! Meshes a cage.
+DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices);
+DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices);
 
 //! The cage in a file. \throws flbc::Error
 template <int Dim>

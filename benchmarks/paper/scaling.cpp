@@ -14,7 +14,7 @@ Row measure(const Setting<Dim>& setting, const NamedMethod& method) {
   const double problem_memory = resident_mebibytes();
   const double setup_peak = peak_mebibytes();
   reset_peak();
-  const auto report = solve(setting.problem, options, coarse_mesher<Dim>()).report;
+  const auto report = solve(setting.problem, options).report;
   const double solve_peak = peak_mebibytes();
 
   auto row = mesh_row(setting).add("method", method.name);

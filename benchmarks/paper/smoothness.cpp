@@ -68,7 +68,7 @@ Rows measure(Setting<Dim> setting) {
     options.tolerance = 1e-7;
     const auto cold = solve(problem, options);
     const double error = squared_error(problem, cold.weights, optimum.weights);
-    const auto report = solve(problem.cage, problem.mesh, usual, coarse_mesher<Dim>()).report;
+    const auto report = solve(problem.cage, problem.mesh, usual).report;
     rows.push_back(mesh_row(setting)
                        .add("smoothness", smoothness)
                        .add("converged", cold.report.status == SolveStatus::kConverged)

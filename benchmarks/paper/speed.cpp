@@ -33,7 +33,7 @@ Row measure(const Context& context, const Model& model, const Cage<Dim>& cage, I
   const int repetitions = mesh.num_vertices() <= kLargestRepeated ? kRepetitions : 1;
   double peak = 0;  // of the first run, because later ones keep an earlier solution
   const auto solution = fastest(repetitions, [&] {
-    auto once = solve(cage, mesh, options, coarse_mesher<Dim>());
+    auto once = solve(cage, mesh, options);
     if (peak == 0) peak = peak_mebibytes();
     return once;
   });

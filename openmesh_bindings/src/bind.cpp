@@ -106,8 +106,7 @@ Binding<Dim> bind_points(const BindInput<Dim>& input, const BindOptions& options
   Stopwatch watch;
   const auto domain = make_interior(input, options);
   report.mesh_seconds = watch.lap();
-  const auto solution = flbc::solve(input.cage, domain, options.solver, coarse_mesher(input.mesher),
-                                    options.observer);
+  const auto solution = flbc::solve(input.cage, domain, options.solver, options.observer);
   report.solve = solution.report;
   report.solve_seconds = watch.lap();
   auto evaluation = evaluate(input, domain, solution.weights, options.outside);

@@ -60,7 +60,6 @@ class SolverOptions(TypedDict, total=False):
     distances: str
     precision: str
     active_set: str
-    coarse_to_fine: str
     penalty: Optional[float]
 
 
@@ -99,8 +98,6 @@ OPTIONS = """\
         Of the iteration: "single" (the default), "double".
     active_set : str, default "auto"
         Whether to update only weights that may be positive: "on", "off".
-    coarse_to_fine : str, default "auto"
-        Whether to start from coarser meshes: "on", "off".
     penalty : float, optional
         Penalty parameter, in units of the cage size.
 """

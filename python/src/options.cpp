@@ -89,7 +89,6 @@ const std::vector<Field>& fields() {
       FLBC_FIELD("distances", distances),
       FLBC_FIELD("precision", precision),
       FLBC_FIELD("active_set", active_set),
-      FLBC_FIELD("coarse_to_fine", coarse_to_fine),
       FLBC_FIELD("penalty", penalty),
   };
   return table;
@@ -102,8 +101,7 @@ py::list levels_of(const SolveReport& report) {
   for (const auto& level : report.coarse_levels) {
     levels.append(py::dict(
         "vertices"_a = level.vertices, "cells"_a = level.cells, "iterations"_a = level.iterations,
-        "seconds"_a = py::dict("mesh"_a = level.mesh_seconds, "setup"_a = level.setup_seconds,
-                               "solve"_a = level.solve_seconds)));
+        "seconds"_a = py::dict("solve"_a = level.solve_seconds)));
   }
   return levels;
 }

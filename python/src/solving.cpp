@@ -79,29 +79,6 @@ void require_sound(const Cage<Dim>& cage) {
 #endif
 }
 
-template <int Dim>
-constexpr bool kHasMesher = false;
-#ifdef FLBC_WITH_CGAL
-template <>
-constexpr bool kHasMesher<2> = true;
-#endif
-#ifdef FLBC_WITH_TETGEN
-template <>
-constexpr bool kHasMesher<3> = true;
-#endif
-
-// As for the program flbc, so that weights are bit-identical.
-template <int Dim>
-CoarseMesher<Dim> coarse_mesher() {
-  if (!kHasMesher<Dim>) return {};
-  return [](const Cage<Dim>& cage, Index vertices) {
-    MeshingOptions<Dim> options;
-    options.vertices = vertices;
-    options.roughly = true;
-    return fill(cage, options);
-  };
-}
-
 py::tuple mesh(const Doubles& points, const Indices& facets, Index vertices,
                const std::optional<Doubles>& embedded, double time_limit) {
   return by_dimension(points, [&](auto dim) -> py::tuple {
@@ -188,11 +165,11 @@ py::tuple solve(const Doubles& points, const Indices& facets, const Doubles& ver
         auto problem =
             make_problem(cage, domain, DistanceScheme::kConstant, *resolve(options).smoothness);
         problem.phi = std::move(given);
-        return flbc::solve(problem, options, {}, observer);
+        return flbc::solve(problem, options, observer);
       }));
     }
     return solved(without_gil(
-        [&] { return flbc::solve<kDim>(cage, domain, options, coarse_mesher<kDim>(), observer); }));
+        [&] { return flbc::solve<kDim>(cage, domain, options, observer); }));
   });
 }
 
@@ -234,8 +211,7 @@ class AnySolver {
       auto domain = mesh_of<kDim>(vertices, cells);
       const auto options = here(options_of(keywords));
       solver_ = without_gil([&] {
-        return std::make_unique<Solver<kDim>>(std::move(cage), std::move(domain), options,
-                                              coarse_mesher<kDim>());
+        return std::make_unique<Solver<kDim>>(std::move(cage), std::move(domain), options);
       });
     });
   }

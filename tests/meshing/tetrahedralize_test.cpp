@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/meshing.h"
+#include "flbc/nested_mesh.h"
 #include "support/child_processes.h"
 #include "support/mesh_checks.h"
 #include "support/model_cages.h"
@@ -39,7 +40,8 @@ TEST(TetrahedralizeTest, CountAndCover) {
       expect_fills(cage, mesh, 8 * size * size * size);
       if (count > 0) expect_count(mesh, count, 0.10);
       // A regular cage's count jumps unless the cells' shapes are bounded less tightly.
-      EXPECT_LT(worst_radius_edge_ratio(mesh), count == 0 ? 1.5 : 1.9);
+      const auto coarse = coarse_mesh(mesh);
+      EXPECT_LT(worst_radius_edge_ratio(coarse ? coarse->mesh : mesh), count == 0 ? 1.5 : 1.9);
     }
   }
 }
@@ -119,17 +121,17 @@ TEST(TetrahedralizeTest, MoreVerticesThanTheFewestAreNeverTooFew) {
   }
 }
 
-// One run is no search: a count of that order, or the coarsest mesh there is.
-TEST(TetrahedralizeTest, RoughlyAsManyVertices) {
+TEST(TetrahedralizeTest, IsRefinedWhereTheCageAllowsACoarserMesh) {
   const Cage<3> cage = box_cage<3>(Vector<3>(0, 0, 0), Vector<3>(1, 2, 1));
-  const Index coarsest = tetrahedralize(cage).num_vertices();
-  for (const Index count : {1, 500, 3000}) {
-    MeshingOptions<3> options = vertices<3>(count);
-    options.roughly = true;
-    const auto mesh = tetrahedralize(cage, options);
-    EXPECT_GE(3 * mesh.num_vertices(), count);
-    EXPECT_LE(mesh.num_vertices(), std::max(coarsest, 3 * count));
+  const auto coarsest = tetrahedralize(cage);
+  EXPECT_FALSE(coarse_mesh(coarsest));
+  for (const Index count : {500, 3000}) {
+    const auto mesh = tetrahedralize(cage, vertices<3>(count));
+    const auto coarse = coarse_mesh(mesh);
+    ASSERT_TRUE(coarse);
+    expect_fills(cage, coarse->mesh, 2);
     expect_fills(cage, mesh, 2);
+    EXPECT_EQ(mesh.points.leftCols(cage.size()), cage.points);
   }
 }
 

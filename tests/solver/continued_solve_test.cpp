@@ -4,8 +4,8 @@
 #include "flbc/names.h"
 #include "flbc/published_penalty.h"
 #include "solver/methods/method_run.h"
-#include "support/coarse_sample_mesher.h"
 #include "support/fine_cages.h"
+#include "support/refined_sample.h"
 #include "support/solver_options.h"
 #include "support/test.h"
 
@@ -17,20 +17,14 @@ template <int Dim>
 struct SolveCase {
   std::string name;
   SolverOptions options{};
-  CoarseMesher<Dim> mesher{};
+  bool nested = false;  // whether the mesh is refined
 };
 
 template <int Dim>
 Sample<Dim> sample_of_cases() {
-  return with_fine_cage<Dim>(Shape::kCorner, 2, Dim == 2 ? 10 : 4);
-}
-
-// Coarse meshes of sample_of_cases().
-template <int Dim>
-CoarseMesher<Dim> mesher_of_cases() {
-  return [](const Cage<Dim>& cage, Index) {
-    return mesh_in(cage, with_fine_cage<Dim>(Shape::kCorner, 2, Dim == 2 ? 4 : 2));
-  };
+  auto sample = with_fine_cage<Dim>(Shape::kCorner, 2, Dim == 2 ? 6 : 2);
+  sample.mesh = refine(sample.mesh);
+  return sample;
 }
 
 template <int Dim>
@@ -42,16 +36,14 @@ std::vector<SolveCase<Dim>> cases() {
     change(all.back().options);
     return all.back();
   };
-  const auto multilevel = [](SolverOptions& o) { o.coarse_to_fine = CoarseToFine::kOn; };
   const auto active = [](SolverOptions& o) { o.active_set = ActiveSet::kOn; };
   add("weights", [](auto&) {});
   add("ends by the gap", [](auto& o) { o.smoothness = 0, o.gap = 0.05; });
   add("active set", active);
   add("active set to the limit",
       [](auto& o) { o.active_set = ActiveSet::kOn, o.tolerance = 1e-20; });
-  add("multilevel start", multilevel).mesher = mesher_of_cases<Dim>();
-  add("multilevel start on the active set", [&](auto& o) { multilevel(o), active(o); }).mesher =
-      mesher_of_cases<Dim>();
+  add("start from a coarse mesh", [](auto&) {}).nested = true;
+  add("start from a coarse mesh on the active set", active).nested = true;
   for (const auto method : {Method::kGradient, Method::kPaper, Method::kLbc2014}) {
     add(name_of(method), [&](auto& o) { o.method = method; });
     // The penalties of the literature suit the tolerance, and other parts of the method.
@@ -82,17 +74,19 @@ void expect_same(const Solution& solution, const Solution& expected) {
 }
 
 TEST_IN_2D_AND_3D(ContinuedSolveTest, ASolveInSlicesIsOneInOnePiece) {
-  const auto sample = sample_of_cases<Dim>();
+  const auto nested = sample_of_cases<Dim>();
   std::set<Criterion> criteria;
   for (const auto& c : cases<Dim>()) {
     SCOPED_TRACE(c.name);
-    const auto whole = solve(sample.cage, sample.mesh, c.options, c.mesher);
+    auto sample = nested;
+    if (!c.nested) sample.mesh = in_other_order(sample.mesh);
+    const auto whole = solve(sample.cage, sample.mesh, c.options);
     criteria.insert(whole.report.criterion);
-    EXPECT_EQ(whole.report.coarse_levels.empty(), !c.mesher);
+    EXPECT_EQ(whole.report.coarse_levels.empty(), !c.nested);
     EXPECT_EQ(whole.report.active_set.density < 1, c.options.active_set == ActiveSet::kOn);
     for (const int slice : {1, 3, 10, 1000}) {
       SCOPED_TRACE(slice);
-      Solver<Dim> solver(sample.cage, sample.mesh, c.options, c.mesher);
+      Solver<Dim> solver(sample.cage, sample.mesh, c.options);
       EXPECT_EQ(solver.solution().weights.num_points(), 0);
       for (int rounds = 0; rounds < 2; ++rounds) {  // again after restart()
         int made = 0;
@@ -135,7 +129,6 @@ const Change kChanges[] = {
     {"distances", [](auto& o) { o.distances = Distances::kInterpolated; }},
     {"precision", [](auto& o) { o.precision = Precision::kDouble; }},
     {"non_negative", [](auto& o) { o.non_negative = NonNegative::kOff; }},
-    {"coarse_to_fine", [](auto& o) { o.coarse_to_fine = CoarseToFine::kOn; }},
     {"active_set", [](auto& o) { o.active_set = ActiveSet::kOn; }},
     {"penalty", [](auto& o) { o.penalty = 0.02; }}};
 
@@ -145,16 +138,15 @@ TEST_IN_2D_AND_3D(ContinuedSolveTest, ChangedOptionsAreThoseOfANewSolver) {
   options.distances = Distances::kExact;
   options.tolerance = 1e-5;
   options.max_iterations = 300;
-  const auto mesher = mesher_of_cases<Dim>();
   for (const auto& [name, change, resumes] : kChanges) {
     SCOPED_TRACE(name);
     auto changed = options;
     change(changed);
-    Solver<Dim> fresh(sample.cage, sample.mesh, changed, mesher);
+    Solver<Dim> fresh(sample.cage, sample.mesh, changed);
     const auto expected = fresh.solve();
     for (const bool begun : {false, true}) {
       SCOPED_TRACE(begun ? "after a solve" : "before the first solve");
-      Solver<Dim> solver(sample.cage, sample.mesh, options, mesher);
+      Solver<Dim> solver(sample.cage, sample.mesh, options);
       if (begun) solver.solve({resumes ? 3 : 20});
       solver.set_options(changed);
       EXPECT_EQ(solver.problem().phi.dense(), fresh.problem().phi.dense());
@@ -180,14 +172,12 @@ TEST_IN_2D_AND_3D(ContinuedSolveTest, RefusedOptionsChangeNothing) {
   solver.solve();
   for (const auto& change : std::vector<void (*)(SolverOptions&)>{
            [](auto& o) { o.tolerance = -1; },
-           [](auto& o) { o.distances = Distances::kInterpolated; },
-           [](auto& o) { o.coarse_to_fine = CoarseToFine::kOn; }}) {
+           [](auto& o) { o.distances = Distances::kInterpolated; }}) {
     auto refused = options;
     change(refused);
     EXPECT_THROW(solver.set_options(refused), OptionError);
     EXPECT_EQ(solver.options().tolerance, options.tolerance);
     EXPECT_EQ(solver.options().distances, options.distances);
-    EXPECT_EQ(solver.options().coarse_to_fine, options.coarse_to_fine);
   }
   expect_same(solver.solve(), solve(sample.cage, sample.mesh, many_iterations(40)));
 }
@@ -195,16 +185,14 @@ TEST_IN_2D_AND_3D(ContinuedSolveTest, RefusedOptionsChangeNothing) {
 // Distances that were interpolated for a loose tolerance are not accurate enough for a tight one.
 TEST_IN_2D_AND_3D(ContinuedSolveTest, ATighterToleranceComputesDistancesAgain) {
   const auto sample = sample_of_cases<Dim>();
-  const auto mesher = mesher_of_cases<Dim>();
   SolverOptions options;
-  options.coarse_to_fine = CoarseToFine::kOn;
   options.tolerance = 1e-2;
-  Solver<Dim> solver(sample.cage, sample.mesh, options, mesher);
+  Solver<Dim> solver(sample.cage, sample.mesh, options);
   EXPECT_EQ(solver.solve().report.distances.source, Distances::kInterpolated);
   options.tolerance = 1e-9;
   options.certify = true;
   solver.set_options(options);
-  Solver<Dim> fresh(sample.cage, sample.mesh, options, mesher);
+  Solver<Dim> fresh(sample.cage, sample.mesh, options);
   EXPECT_EQ(solver.problem().phi.dense(), fresh.problem().phi.dense());
   const auto& solution = solver.solve();
   EXPECT_EQ(solution.report.distances.source, Distances::kExact);

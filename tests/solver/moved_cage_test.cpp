@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Editing a rest cage: the same optima as from scratch, for any path.
 #include "flbc/names.h"
-#include "support/coarse_sample_mesher.h"
+#include "support/refined_sample.h"
 #include "support/solver_options.h"
 #include "support/test.h"
 
@@ -48,9 +48,8 @@ double error_of(const Solver<Dim>& solver) {
 }
 
 template <int Dim>
-Solver<Dim> solved(const Sample<Dim>& sample, const SolverOptions& options = with_tolerance(),
-                   const CoarseMesher<Dim>& mesher = {}) {
-  Solver<Dim> solver(sample.cage, sample.mesh, options, mesher);
+Solver<Dim> solved(const Sample<Dim>& sample, const SolverOptions& options = with_tolerance()) {
+  Solver<Dim> solver(sample.cage, sample.mesh, options);
   solver.solve();
   return solver;
 }
@@ -203,10 +202,10 @@ TEST_IN_2D_AND_3D(MovedCageTest, FollowsOnTheActiveSet) {
 }
 
 TEST_IN_2D_AND_3D(MovedCageTest, DistancesComeFromACoarseMeshThatMovesAlong) {
-  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 24 : 8, 0.2);
+  const auto sample = refined_sample<Dim>(Shape::kCorner, Dim == 2 ? 12 : 4);
   auto options = with_tolerance();
   options.distances = Distances::kInterpolated;
-  auto solver = solved(sample, options, coarse_sample_mesher<Dim>(Dim == 2 ? 8 : 4));
+  auto solver = solved(sample, options);
   EXPECT_EQ(solver.solution().report.distances.source, Distances::kInterpolated);
   const auto expect_near_exact = [&](const Solution& solution) {
     const auto& distances = solution.report.distances;
@@ -227,18 +226,6 @@ TEST_IN_2D_AND_3D(MovedCageTest, DistancesComeFromACoarseMeshThatMovesAlong) {
   turned.row(1) = -3 * bent(sample.cage, 0.02).row(0);
   if (Dim == 3) turned.row(2) *= 3;
   expect_near_exact(solver.move(turned));
-}
-
-TEST_IN_2D_AND_3D(MovedCageTest, WithoutACoarseMeshDistancesAreExact) {
-  const auto sample = sample_of<Dim>();
-  const CoarseMesher<Dim> fails = [](const Cage<Dim>&, Index) -> DomainMesh<Dim> {
-    throw InputError("no mesh");
-  };
-  auto plain = solved(sample), solver = solved(sample, with_tolerance(), fails);
-  const auto control_points = with_one_moved(sample.cage, 0.01);
-  const auto& solution = solver.move(control_points);
-  EXPECT_EQ(solution.report.distances.source, Distances::kExact);
-  EXPECT_TRUE(solution.weights == plain.move(control_points).weights);
 }
 
 TEST_IN_2D_AND_3D(MovedCageTest, OtherMethodsStartOver) {

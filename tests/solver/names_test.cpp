@@ -10,7 +10,7 @@ template <class Enum>
 class NamesTest : public ::testing::Test {};
 using Enumerations =
     ::testing::Types<Method, Coordinates, NonNegative, DistanceScheme, Distances, Precision,
-                     ActiveSet, CoarseToFine, DefectKind, SolveStatus, Criterion, OutsidePoints>;
+                     ActiveSet, DefectKind, SolveStatus, Criterion, OutsidePoints>;
 TYPED_TEST_SUITE(NamesTest, Enumerations);
 
 // kAuto may be another name for a value, so values can have two names.

@@ -3,7 +3,7 @@
 // themselves are compared.
 #include "flbc/certificate.h"
 #include "flbc/harmonic.h"
-#include "support/coarse_sample_mesher.h"
+#include "support/refined_sample.h"
 #include "support/newton_optimum.h"
 #include "support/solver_options.h"
 #include "support/test.h"
@@ -73,16 +73,12 @@ TEST_IN_2D_AND_3D(SmoothnessTest, GradientFindsTheOptimumOfNewtonsMethod) {
 
 // In every precision, on the active set, and after a multilevel start.
 TEST_IN_2D_AND_3D(SmoothnessTest, AllVariantsFindOneOptimum) {
-  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 12 : 6, 0.2);
+  const auto sample = refined_sample<Dim>(Shape::kCorner, Dim == 2 ? 6 : 3);
   const auto optimum = solve(sample.cage, sample.mesh, many_iterations(1000)).weights.dense();
   const auto expect_optimal = [&](const char* what, auto change) {
     SolverOptions options;
     change(options);
-    CoarseMesher<Dim> mesher;
-    if (options.coarse_to_fine == CoarseToFine::kOn) {
-      mesher = coarse_sample_mesher<Dim>(Dim == 2 ? 4 : 3);
-    }
-    const auto [weights, report] = solve(sample.cage, sample.mesh, options, mesher);
+    const auto [weights, report] = solve(sample.cage, sample.mesh, options);
     EXPECT_EQ(report.status, SolveStatus::kConverged) << what;
     EXPECT_LT(mean_squared_difference(sample.mesh, weights.dense(), optimum),
               3 * *resolve(options).tolerance)
@@ -90,10 +86,7 @@ TEST_IN_2D_AND_3D(SmoothnessTest, AllVariantsFindOneOptimum) {
   };
   expect_optimal("double precision", [](auto& o) { o.precision = Precision::kDouble; });
   expect_optimal("active set", [](auto& o) { o.active_set = ActiveSet::kOn; });
-  expect_optimal("multilevel start", [](auto& o) {
-    o.coarse_to_fine = CoarseToFine::kOn;
-    o.distances = Distances::kExact;
-  });
+  expect_optimal("exact distances", [](auto& o) { o.distances = Distances::kExact; });
   expect_optimal("default options", [](auto&) {});
 }
 

@@ -167,7 +167,7 @@ TEST_IN_2D_AND_3D(SolvePartsTest, ProgressIsThatOfTheWhole) {
   };
   observer.stage = [&](Stage, double done) { stages.push_back(done); };
   options.certify = true;
-  solve(pair.whole.cage, pair.whole.mesh, options, {}, observer);
+  solve(pair.whole.cage, pair.whole.mesh, options, observer);
   ASSERT_FALSE(to_come.empty());
   EXPECT_EQ(to_come.front(), 1);
   EXPECT_EQ(to_come.back(), 0);
@@ -177,7 +177,7 @@ TEST_IN_2D_AND_3D(SolvePartsTest, ProgressIsThatOfTheWhole) {
 
   int calls = 0;
   observer.progress = [&](const Progress&) { return ++calls < 2; };
-  const auto stopped = solve(pair.whole.cage, pair.whole.mesh, options, {}, observer);
+  const auto stopped = solve(pair.whole.cage, pair.whole.mesh, options, observer);
   EXPECT_EQ(stopped.report.status, SolveStatus::kStopped);
   EXPECT_EQ(stopped.report.criterion, Criterion::kNone);
   // The other part makes one iteration, to have weights, and nobody is asked again.

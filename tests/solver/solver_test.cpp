@@ -169,7 +169,7 @@ TEST_IN_2D_AND_3D(SolverTest, ReportsHowItEnded) {
     EXPECT_GT(progress.objective(), 0);
     return calls < 3;
   };
-  const auto stopped = solve(sample.cage, sample.mesh, many_iterations(1000), {}, observer);
+  const auto stopped = solve(sample.cage, sample.mesh, many_iterations(1000), observer);
   EXPECT_EQ(stopped.report.status, SolveStatus::kStopped);
   EXPECT_EQ(stopped.report.iterations, 30);
   EXPECT_LT(stopped.report.quality.max_reproduction_error, 1e-13);
@@ -186,19 +186,19 @@ TEST_IN_2D_AND_3D(SolverTest, PollMayCancel) {
   observer.poll = [&] {
     if (++calls == last) throw std::out_of_range("cancelled");
   };
-  const auto weights = solve(sample.cage, sample.mesh, options, {}, observer).weights.dense();
+  const auto weights = solve(sample.cage, sample.mesh, options, observer).weights.dense();
   const int all = calls;
   EXPECT_GT(all, 25);
   EXPECT_EQ(weights, solve(sample.cage, sample.mesh, options).weights.dense());
   for (last = 1; last <= all; last += 1 + all / 40) {
     calls = 0;
-    EXPECT_THROW(solve(sample.cage, sample.mesh, options, {}, observer), std::out_of_range);
+    EXPECT_THROW(solve(sample.cage, sample.mesh, options, observer), std::out_of_range);
     EXPECT_EQ(calls, last);
   }
 
   Solver<Dim> solver(sample.cage, sample.mesh, options);
   observer.poll = [] { throw std::out_of_range("cancelled"); };
-  EXPECT_THROW(solve(sample.cage, sample.mesh, options, {}, observer), std::out_of_range);
+  EXPECT_THROW(solve(sample.cage, sample.mesh, options, observer), std::out_of_range);
   EXPECT_THROW(solver.solve({}, observer), std::out_of_range);
   EXPECT_EQ(solver.solve().weights.dense(), weights);
 }
@@ -217,7 +217,7 @@ TEST_IN_2D_AND_3D(SolverTest, StagesTellHowFarTheyAre) {
       EXPECT_EQ(std::this_thread::get_id(), caller);
       reported[stage].push_back(done);
     };
-    EXPECT_EQ(solve(sample.cage, sample.mesh, options, {}, observer).weights.dense(), without);
+    EXPECT_EQ(solve(sample.cage, sample.mesh, options, observer).weights.dense(), without);
     for (const auto stage : {Stage::kDistances, Stage::kNonNegative, Stage::kCertificate}) {
       const auto& parts = reported[stage];
       ASSERT_FALSE(parts.empty());
@@ -282,7 +282,6 @@ TEST_IN_2D_AND_3D(SolverTest, RefusesImpossibleOptionsByName) {
   refused("threads", [](auto& o) { o.threads = -1; });
   refused("smoothness", [](auto& o) { o.smoothness = -1; });
   refused("gap", [](auto& o) { o.gap = -1; });
-  refused("coarse_to_fine", [](auto& o) { o.coarse_to_fine = CoarseToFine::kOn; });
 }
 
 }  // namespace

@@ -392,7 +392,6 @@ class Work {
       report(stage == Stage::kDistances ? "measuring distances" : "solving", done);
     };
     const auto solver = solver_options(options);
-    const auto mesher = app::coarse_mesher<Dim>(mesher_);
     const auto take = [&](const auto& solution) {
       set_weights_of_mesh(solution.weights);
       const SolveReport& of = solution.report;
@@ -401,9 +400,9 @@ class Work {
                         {"converged", of.status == SolveStatus::kConverged}});
     };
     if (cage_parts(cage_).size() > 1) {
-      return take(flbc::solve(cage_, mesh_, solver, mesher, observer));
+      return take(flbc::solve(cage_, mesh_, solver, observer));
     }
-    solver_ = std::make_unique<Solver<Dim>>(cage_, mesh_, solver, mesher);
+    solver_ = std::make_unique<Solver<Dim>>(cage_, mesh_, solver);
     return take(solver_->solve({}, observer));
   }
 
@@ -428,8 +427,7 @@ class Work {
       throw InputError("a cage with several parts cannot be reshaped");
     }
     if (!solver_) {
-      solver_ = std::make_unique<Solver<Dim>>(cage_, mesh_, solver_options({}),
-                                              app::coarse_mesher<Dim>(mesher_));
+      solver_ = std::make_unique<Solver<Dim>>(cage_, mesh_, solver_options({}));
       solver_->solve();
     }
     // Long enough to converge after most moves, short enough to be interrupted.

@@ -19,6 +19,8 @@ template <int Dim>
 struct MeshingOptions {
   //! Target number of vertices, met within 5% in 2D and about 10% in 3D; 0 = the minimum that
   //! element quality allows. The meshers throw OptionError if the target is below this minimum.
+  //! Where the minimum allows it, the mesh is a coarser one after refine() (nested_mesh.h), from
+  //! which a solve starts.
   Index vertices = 0;
 
   //! Points inside the cage that become mesh vertices with the same coordinates. They directly
@@ -27,10 +29,6 @@ struct MeshingOptions {
 
   //! Time limit in seconds for one run of a mesher, including retries.
   double time_limit = 60;
-
-  //! Whether to accept the first mesh within a factor of about three of the target number of
-  //! vertices. One run of the mesher is enough for coarse meshes (coarse_to_fine.h).
-  bool roughly = false;
 };
 
 //! Points for MeshingOptions::embedded_points, and their relation to the given points.

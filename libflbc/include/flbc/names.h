@@ -17,7 +17,7 @@ namespace flbc {
 
 //! The name of a value, such as "weights" or "lbc2014".
 //! \tparam Enum  Method, Coordinates, NonNegative, DistanceScheme, Distances, Precision, ActiveSet,
-//! CoarseToFine, SolveStatus, Criterion, DefectKind, or OutsidePoints
+//! SolveStatus, Criterion, DefectKind, or OutsidePoints
 template <class Enum>
 const char* name_of(Enum value);
 

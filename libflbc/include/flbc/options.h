@@ -5,7 +5,6 @@
 
 #include <optional>
 
-#include "flbc/coarse_to_fine.h"
 #include "flbc/distance_weights.h"
 #include "flbc/types.h"
 
@@ -39,15 +38,15 @@ enum class Precision {
 
 //! Source of the geodesic distances for the functions phi.
 enum class Distances {
-  kAuto,         //!< kInterpolated for Method::kWeights if it is faster and meets the tolerance
+  kAuto,         //!< kInterpolated for Method::kWeights on a refined mesh if it meets the tolerance
   kExact,        //!< computed on the mesh itself
-  kInterpolated  //!< interpolated from a coarser mesh; needs a mesher
+  kInterpolated  //!< interpolated from the coarse mesh of a refined one (nested_mesh.h)
 };
 
 //! Whether the iteration works on the active set instead of all pairs of vertices and control
 //! points. The active set contains the pairs whose weights may be positive at the optimum. The
 //! solver finds, extends, and checks it. Memory then follows these pairs, except for 4 n V bytes of
-//! distances, and 16 n V bytes of harmonic coordinates at a start without a coarser mesh.
+//! distances, and 16 n V bytes of harmonic coordinates at a start without a coarse mesh.
 enum class ActiveSet {
   kAuto,  //!< in 3D with at least 80 control points and 400,000 pairs, unless `certify` or `gap` is
           //!< set
@@ -82,9 +81,6 @@ struct SolverOptions {
 
   //! Enforcement of w >= 0; kConstraint is available only for kWeights and kLbc2014.
   NonNegative non_negative = NonNegative::kAuto;
-
-  //! Whether kWeights uses a multilevel start, which needs a mesher as an argument of solve().
-  CoarseToFine coarse_to_fine = CoarseToFine::kAuto;
 
   //! Tolerance, > 0.
   //! - kWeights: estimated mean squared error of the weights (equation (5) of the paper). The
@@ -130,7 +126,7 @@ struct SolverOptions {
 void validate(const SolverOptions& options);
 
 //! Replaces automatic options by the values that will be used. Options that depend on the problem
-//! stay automatic: the penalty and, for CoarseToFine::kAuto, the coarse levels.
+//! stay automatic: the penalty.
 //! \param options  valid
 SolverOptions resolve(SolverOptions options);
 

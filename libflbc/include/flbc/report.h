@@ -50,13 +50,11 @@ struct ActiveSetReport {
   int growths = 0;     //!< number of extensions, made when weights reached its border
 };
 
-//! A coarse mesh of a multilevel start (coarse_to_fine.h).
+//! The solve on the coarse mesh of a refined one (nested_mesh.h).
 struct LevelReport {
   Index vertices = 0;        //!< of the coarse mesh
   Index cells = 0;           //!< of the coarse mesh
   int iterations = 0;        //!< on the coarse mesh
-  double mesh_seconds = 0;   //!< meshing
-  double setup_seconds = 0;  //!< topology, boundary values, phi
   double solve_seconds = 0;  //!< start and iteration
 };
 
@@ -85,7 +83,7 @@ struct SolveReport {
   ActiveSetReport active_set{};              //!< of Method::kWeights
   StageSeconds seconds{};                    //!< wall-clock times of the phases
   Quality quality{};                         //!< of the weights
-  std::vector<LevelReport> coarse_levels{};  //!< coarsest first; empty without a multilevel start
+  std::vector<LevelReport> coarse_levels{};  //!< none or one
   std::vector<SolveReport> parts{};          //!< if the cage has several parts, ordered by first
                                              //!< control point
 };

@@ -5,9 +5,7 @@
 #pragma once
 
 #include <memory>
-#include <type_traits>
 
-#include "flbc/coarse_to_fine.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/observer.h"
 #include "flbc/options.h"
@@ -22,47 +20,38 @@ struct Solution {
   SolveReport report{};     //!< report of the run
 };
 
-//! A mesher as an argument: any callable that converts to CoarseMesher, or {} for none.
-template <int Dim>
-using MesherArgument = std::common_type_t<CoarseMesher<Dim>>;
-
 //! Computes the coordinates of a cage.
 //!
-//! With a mesher, method kWeights can use a multilevel start: it starts from weights and duals of a
-//! coarser mesh, which is solved in the same way. options.coarse_to_fine controls this. Distances
-//! may also come from the coarser mesh (SolverOptions::distances). The result is the same up to the
-//! tolerance. A coarse mesh is skipped if the mesher throws or returns a mesh that is not much
-//! smaller. The report describes the given mesh and lists the coarse meshes. Solve time includes
-//! time for coarse meshes and their meshing, and the observer is called on all meshes.
+//! If the mesh was made by refine() (nested_mesh.h), as those of the meshers, method kWeights starts
+//! from weights and duals of its coarse mesh, which is solved first. Distances may also come from
+//! there (SolverOptions::distances). The result is the same up to the tolerance. The report
+//! describes the given mesh and names the coarse one.
 //!
 //! If the cage has several parts, each is solved independently, and the result is bit-identical to
 //! solving that part alone. Weights are exactly 0 for control points of other parts. Penalties
 //! refer to the size of the part, and Progress::finer_levels counts the remaining parts.
 //! \param cage  n control points
 //! \param mesh  domain mesh of the cage, V vertices (see normalize_and_validate)
-//! \param mesher  makes the coarse meshes; {} for none
 //! \param observer  receives progress and may stop the run
 //! \return weights and report; if the solve does not converge, the report has the status
-//! \throws InputError if the mesh or a coarse mesh does not match the cage; OptionError,
-//! SolverError
+//! \throws InputError if the mesh does not match the cage; OptionError, SolverError
 template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-               const SolverOptions& options = {}, const MesherArgument<Dim>& mesher = {},
-               const Observer& observer = {});
+               const SolverOptions& options = {}, const Observer& observer = {});
 
 //! The same with known facets, for example from a half-edge mesh.
 //! \param topology  of the mesh; ignored if the cage has several parts
 template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                const MeshTopology<Dim>& topology, const SolverOptions& options,
-               const MesherArgument<Dim>& mesher, const Observer& observer = {});
+               const Observer& observer = {});
 
 //! Solves a problem from make_problem(). Several solves with different options may share it.
 //! Parameters and errors are as above.
 //! \param problem  made with options.phi, and with options.smoothness if that is set
 template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {},
-               const MesherArgument<Dim>& mesher = {}, const Observer& observer = {});
+               const Observer& observer = {});
 
 //! Whether a solve of this size uses an active set (SolverOptions::active_set) if the supports of
 //! the weights are small enough. It then takes much less memory.
@@ -84,11 +73,8 @@ class Solver {
   //! \param cage  n control points, with a connected interior
   //! \param mesh  domain mesh of the cage, V vertices (see normalize_and_validate)
   //! \param options  of all solves until set_options()
-  //! \param mesher  makes meshes for a multilevel start; {} for none. One of them also moves with
-  //! the cage, and provides distances if SolverOptions::distances allows it
   //! \throws InputError if the mesh does not match the cage; OptionError
-  Solver(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options = {},
-         const MesherArgument<Dim>& mesher = {});
+  Solver(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options = {});
   ~Solver();
   Solver(Solver&&) noexcept;
   Solver& operator=(Solver&&) noexcept;

@@ -23,9 +23,10 @@ struct Sample {
 }  // namespace
 
 template <int Dim>
-DomainMesh<Dim> search_vertex_count(const VertexCountGoal& goal, DomainMesh<Dim> best,
+DomainMesh<Dim> search_vertex_count(const VertexCountGoal<Dim>& goal, DomainMesh<Dim> best,
                                     double first_bound, double exponent,
-                                    const std::function<DomainMesh<Dim>(double)>& make_mesh) {
+                                    const std::function<DomainMesh<Dim>(double)>& make_mesh,
+                                    int max_runs) {
   const double wanted = std::log(double(goal.vertices));
   double too_fine = -std::numeric_limits<double>::infinity();  // bracket of the logarithmic bound
   double too_coarse = std::numeric_limits<double>::infinity();
@@ -33,11 +34,11 @@ DomainMesh<Dim> search_vertex_count(const VertexCountGoal& goal, DomainMesh<Dim>
   Sample last{0, 0};
 
   double log_bound = std::log(first_bound);
-  for (int run = 0; run < goal.max_runs; ++run) {
-    if (goal.is_met(best.num_vertices())) break;
+  for (int run = 0; run < max_runs; ++run) {
+    if (goal.is_met(best)) break;
     DomainMesh<Dim> mesh = make_mesh(std::exp(log_bound));
-    const Sample sample{log_bound, std::log(double(mesh.num_vertices()))};
-    if (goal.error(mesh.num_vertices()) < goal.error(best.num_vertices())) best = std::move(mesh);
+    const Sample sample{log_bound, std::log(goal.count(mesh))};
+    if (goal.error(mesh) < goal.error(best)) best = std::move(mesh);
 
     (sample.log_count > wanted ? too_fine : too_coarse) = log_bound;
     if (run > 0 && sample.log_bound != last.log_bound) {

@@ -156,21 +156,17 @@ DomainMesh<2> triangulate(const Cage<2>& cage, const MeshingOptions<2>& options)
   const PointList<2> input = collect_input_points(cage, options);
 
   DomainMesh<2> mesh = mesh_interior(cage, input, 0, options);
-  if (!options.roughly) {
-    check_vertex_count(options.vertices, mesh.num_vertices(), kCountTolerance);
-  }
+  check_vertex_count(options.vertices, mesh.num_vertices(), kCountTolerance);
+  auto goal = VertexCountGoal<2>::of(options.vertices, kCountTolerance, mesh);
   if (options.vertices > mesh.num_vertices()) {
     // Assumes half as many vertices as triangles, and nearly equilateral triangles.
-    const double first_bound = 1.6 * std::sqrt(total_measure(mesh) / options.vertices);
-    VertexCountGoal goal;
-    goal.vertices = options.vertices;
-    if (options.roughly) goal.max_runs = 1;
+    const double first_bound = 1.6 * std::sqrt(total_measure(mesh) / goal.before_refining());
     mesh = search_vertex_count<2>(goal, std::move(mesh), first_bound, 2, [&](double longest_edge) {
       return mesh_interior(cage, input, longest_edge, options);
     });
   }
   finish_mesh(mesh, static_cast<Index>(input.cols()));
-  return mesh;
+  return goal.result(std::move(mesh));
 }
 
 }  // namespace flbc

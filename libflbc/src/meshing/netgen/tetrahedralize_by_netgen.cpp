@@ -259,21 +259,32 @@ DomainMesh<3> fill_coarsely(const Task& task) {
   return fill_by_first(task, longest);
 }
 
-DomainMesh<3> fill_with(const Task& task, Index vertices, bool roughly) {
-  if (vertices == 0) return fill_coarsely(task);
-  const double first = guess_longest_edge(task, vertices);
+DomainMesh<3> fill_to_count(const Task& task, const VertexCountGoal<3>& goal) {
+  constexpr int kRuns = 4;
+  const double first = guess_longest_edge(task, goal.before_refining());
   DomainMesh<3> mesh = fill(task, first);
-  if (roughly) return mesh;
-  const VertexCountGoal goal{vertices, kCountTolerance, 4};
-  const double ratio = double(mesh.num_vertices()) / vertices;
-  mesh =
-      search_vertex_count<3>(goal, std::move(mesh), first * std::pow(ratio, 1 / kCountExponent),
-                             kCountExponent, [&](double longest) { return fill(task, longest); });
+  const double ratio = goal.count(mesh) / goal.vertices;
+  return search_vertex_count<3>(
+      goal, std::move(mesh), first * std::pow(ratio, 1 / kCountExponent), kCountExponent,
+      [&](double longest) { return fill(task, longest); }, kRuns);
+}
+
+DomainMesh<3> fill_with(const Task& task, Index vertices) {
+  const auto finished = [&](DomainMesh<3> mesh) {
+    finish_mesh(mesh, task.oriented.cage.size());
+    return mesh;
+  };
+  if (vertices == 0) return finished(fill_coarsely(task));
+  const double most = (1 + kCountTolerance) * vertices;
+  const VertexCountGoal<3> nested{vertices, kCountTolerance, true};
+  DomainMesh<3> mesh = fill_to_count(task, nested);
+  if (nested.count(mesh) <= most) return nested.result(finished(std::move(mesh)));
+  mesh = fill_to_count(task, {vertices, kCountTolerance});
   // Regular surfaces are subdivided at a single length, so the count jumps; this is not an error.
-  if (mesh.num_vertices() > (1 + kCountTolerance) * vertices) {
+  if (mesh.num_vertices() > most) {
     check_vertex_count(vertices, fill_coarsely(task).num_vertices(), kCountTolerance);
   }
-  return mesh;
+  return finished(std::move(mesh));
 }
 
 }  // namespace
@@ -286,9 +297,7 @@ DomainMesh<3> tetrahedralize_by_netgen(const Cage<3>& cage, const MeshingOptions
         "Netgen cannot make given points vertices of its mesh; choose another mesher");
   }
   const Task task{orient(cage), bounding_box_diagonal(cage.points), options.time_limit};
-  DomainMesh<3> mesh = fill_with(task, options.vertices, options.roughly);
-  finish_mesh(mesh, cage.size());
-  return mesh;
+  return fill_with(task, options.vertices);
 }
 
 }  // namespace flbc

@@ -135,14 +135,13 @@ DomainMesh<3> compact(const Cage<3>& cage, const PointList<3>& input, DomainMesh
 
 // The cells of a regular cage are all halved at the same volume bound, so the count jumps. A
 // different shape bound then gives counts in between.
-DomainMesh<3> refine_to_count(Index wanted, double first_bound, DomainMesh<3> coarsest,
-                              const MeshMaker& make_mesh) {
-  const VertexCountGoal goal{wanted, kCountTolerance};
+DomainMesh<3> refine_to_count(const VertexCountGoal<3>& goal, double first_bound,
+                              DomainMesh<3> coarsest, const MeshMaker& make_mesh) {
   DomainMesh<3> mesh = std::move(coarsest);
   for (double ratio : {kRadiusEdgeRatio, 1.3, 1.6, 1.2, 1.8}) {
     mesh = search_vertex_count<3>(goal, std::move(mesh), first_bound, kCountExponent,
                                   [&](double bound) { return make_mesh(ratio, bound); });
-    if (goal.is_met(mesh.num_vertices())) break;
+    if (goal.is_met(mesh)) break;
   }
   return mesh;
 }
@@ -167,7 +166,6 @@ struct Task {
   const Cage<3>& cage;
   TetgenInput input;
   Index vertices;  // wanted; 0 = any
-  bool roughly;    // in one run
 };
 
 // \param time_limit  for each run of TetGen
@@ -185,12 +183,15 @@ DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, double time_limit)
     return compact(task.cage, task.input.points, std::move(mesh));
   };
   DomainMesh<3> mesh = make_mesh(kRadiusEdgeRatio, 0);
-  if (!task.roughly) check_vertex_count(task.vertices, mesh.num_vertices(), kCountTolerance);
-  if (task.vertices <= mesh.num_vertices()) return mesh;
-  const double bound = guess_volume_bound(task.cage, std::abs(total_measure(mesh)),
-                                          mesh.num_vertices(), task.vertices);
-  if (task.roughly) return make_mesh(kRadiusEdgeRatio, bound);
-  return refine_to_count(task.vertices, bound, std::move(mesh), make_mesh);
+  check_vertex_count(task.vertices, mesh.num_vertices(), kCountTolerance);
+  const auto goal = VertexCountGoal<3>::of(task.vertices, kCountTolerance, mesh);
+  if (task.vertices > mesh.num_vertices()) {
+    const double bound = guess_volume_bound(task.cage, std::abs(total_measure(mesh)),
+                                            mesh.num_vertices(), goal.before_refining());
+    mesh = refine_to_count(goal, bound, std::move(mesh), make_mesh);
+  }
+  finish_mesh(mesh, static_cast<Index>(task.input.points.cols()));
+  return goal.result(std::move(mesh));
 }
 
 // A mesh that also contains cage edges between coplanar facets; empty if TetGen fails. Without
@@ -223,24 +224,22 @@ DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& optio
   const PointList<3> points = collect_input_points(cage, options);
   const Task task{cage,
                   {points, cage.facets, find_cavities(cage, options.time_limit)},
-                  options.vertices,
-                  options.roughly};
+                  options.vertices};
 
-  const VertexCountGoal goal{task.vertices, kCountTolerance};
   DomainMesh<3> mesh;
   try {
-    if (!options.roughly && has_coplanar_facets(cage)) {
+    if (has_coplanar_facets(cage)) {
       mesh = keep_coplanar_edges(task, ample_time(task, options.time_limit));
     }
     const bool has_count =
-        mesh.num_vertices() > 0 && (task.vertices == 0 || goal.is_met(mesh.num_vertices()));
+        mesh.num_vertices() > 0 &&
+        (task.vertices == 0 || VertexCountGoal<3>{task.vertices, kCountTolerance}.is_met(mesh));
     if (!has_count) mesh = fill(task, CoplanarFacets::kJoin, options.time_limit);
   } catch (const InputError& error) {
     if (mesh.num_vertices() == 0) throw InputError(error.what() + describe_thinnest(cage));
   } catch (const TooFewVertices&) {  // joined facets of thin rods need more cells
     if (mesh.num_vertices() == 0) throw;
   }
-  finish_mesh(mesh, static_cast<Index>(points.cols()));
   return mesh;
 }
 

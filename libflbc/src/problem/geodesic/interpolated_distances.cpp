@@ -22,24 +22,22 @@ Eigen::ArrayXf straight_distances(const Sources<Dim>& sources, const Vector<Dim>
 }  // namespace
 
 template <int Dim>
-DistanceMatrix interpolated_distances(const KnownDistances<Dim>& known,
-                                      const PointList<Dim>& points,
-                                      const std::vector<Location<Dim>>& places) {
-  const Sources<Dim> sources = known.sources.transpose().template cast<float>().array();
-  DistanceMatrix detours = known.distances;
-  parallel_for(known.mesh.num_vertices(), [&](Index v) {
-    const auto straight = straight_distances<Dim>(sources, known.mesh.points.col(v));
+DistanceMatrix interpolated_distances(const PointList<Dim>& sources, const PointList<Dim>& points,
+                                      const std::vector<std::array<Index, 2>>& ends,
+                                      const DistanceMatrix& distances) {
+  const Sources<Dim> from = sources.transpose().template cast<float>().array();
+  DistanceMatrix detours = distances;
+  parallel_for(static_cast<Index>(detours.cols()), [&](Index v) {
+    const auto straight = straight_distances<Dim>(from, points.col(v));
     detours.col(v).array() = (detours.col(v).array() - straight).max(0.0f);  // rounding
   });
-  DistanceMatrix distances(known.sources.cols(), points.cols());
-  parallel_for(static_cast<Index>(points.cols()), [&](Index p) {
-    distances.col(p) = straight_distances<Dim>(sources, points.col(p));
-    for (int k = 0; k <= Dim; ++k) {
-      distances.col(p) += static_cast<float>(places[p].coordinates[k]) *
-                          detours.col(known.mesh.cells(k, places[p].cell));
-    }
+  DistanceMatrix all(sources.cols(), points.cols());
+  parallel_for(static_cast<Index>(points.cols()), [&](Index v) {
+    const auto [a, b] = ends[v];
+    all.col(v) = straight_distances<Dim>(from, points.col(v)).matrix() +
+                 (detours.col(a) + detours.col(b)) / 2;
   });
-  return distances;
+  return all;
 }
 
 FLBC_INSTANTIATE_FUNCTION(interpolated_distances)

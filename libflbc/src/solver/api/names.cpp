@@ -67,8 +67,6 @@ FLBC_NAMES(Distances, {Distances::kAuto, "auto"}, {Distances::kExact, "exact"},
 FLBC_NAMES(Precision, {Precision::kSingle, "single"}, {Precision::kAuto, "auto"},
            {Precision::kDouble, "double"})
 FLBC_NAMES(ActiveSet, {ActiveSet::kAuto, "auto"}, {ActiveSet::kOn, "on"}, {ActiveSet::kOff, "off"})
-FLBC_NAMES(CoarseToFine, {CoarseToFine::kAuto, "auto"}, {CoarseToFine::kOn, "on"},
-           {CoarseToFine::kOff, "off"})
 FLBC_NAMES(SolveStatus, {SolveStatus::kConverged, "converged"},
            {SolveStatus::kIterationLimit, "iteration limit"}, {SolveStatus::kStopped, "stopped"})
 FLBC_NAMES(Criterion, {Criterion::kNone, "none"}, {Criterion::kTolerance, "tolerance"},

@@ -25,33 +25,22 @@
 #include "polytope/project_columns.h"
 #include "problem/problem_geometry.h"
 #include "solver/api/solve_parts.h"
-#include "solver/multilevel/cascade.h"
-#include "solver/multilevel/coarse_distances.h"
-#include "solver/multilevel/set_up.h"
+#include "solver/multilevel/coarse_problem.h"
+#include "solver/multilevel/coarse_start.h"
 #include "solver/plan/choices.h"
 #include "solver/plan/settings.h"
 #include "solver/run/run.h"
+#include "solver/start/transfer.h"
 
 namespace flbc {
 namespace {
 
-void require_valid(const SolverOptions& options, Index control_points, bool has_mesher) {
+void require_valid(const SolverOptions& options, Index control_points) {
   validate(options);
   if (options.active_set == ActiveSet::kOn && control_points > plan::kMostActiveControlPoints) {
     throw OptionError("active_set on is for at most " +
                       std::to_string(plan::kMostActiveControlPoints) + " control points, not " +
                       std::to_string(control_points) + "; choose active_set auto");
-  }
-  if (options.coarse_to_fine == CoarseToFine::kOn && !has_mesher) {
-    throw OptionError("coarse_to_fine cannot be on without a mesher for the coarser meshes");
-  }
-}
-
-// The same before the problem is set up.
-void require_valid_setup(const SolverOptions& options, Index control_points, bool has_mesher) {
-  require_valid(options, control_points, has_mesher);
-  if (options.distances == Distances::kInterpolated && !has_mesher) {
-    throw OptionError("distances cannot be interpolated without a mesher for a coarser mesh");
   }
 }
 
@@ -67,15 +56,6 @@ void require_objective(const LbcProblem<Dim>& problem, const plan::Settings& set
 template <int Dim>
 int num_threads(const LbcProblem<Dim>& problem, const plan::Settings& settings) {
   return threads_for(settings.threads, problem.num_control_points(), problem.mesh.num_vertices());
-}
-
-template <int Dim>
-std::vector<CoarseProblem<Dim>> coarse_starts(const LbcProblem<Dim>& problem,
-                                              const CoarseMesher<Dim>& mesher,
-                                              const plan::Settings& settings) {
-  if (!mesher) return {};
-  const auto sizes = plan::coarse_sizes(plan::sizes_of(problem), settings);
-  return make_coarse_problems(problem, mesher, sizes, settings, CoarseUse{});
 }
 
 template <int Dim>
@@ -145,27 +125,44 @@ Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weigh
   return solution;
 }
 
+// Distances of a moved cage may become exact, those of a new one must be as asked for.
+template <int Dim>
+void require_distances(const NestedProblem<Dim>& ready, const plan::Settings& settings) {
+  if (settings.distances != Distances::kInterpolated || settings.phi == DistanceScheme::kConstant ||
+      ready.distances.source == Distances::kInterpolated) {
+    return;
+  }
+  throw OptionError(
+      "distances cannot be interpolated on this mesh, which was not made by refine(); choose "
+      "distances auto");
+}
+
 // Solves connected parts of a mesh. Keeps references to the arguments.
 // \param topology  of the whole mesh; null if not known
 template <int Dim>
 SolvePart<Dim> part_solver(const DomainMesh<Dim>& mesh, const SolverOptions& given,
-                           const CoarseMesher<Dim>& mesher, const MeshTopology<Dim>* topology) {
-  require_valid_setup(given, 0, bool(mesher));
-  return [&mesh, &mesher, topology, common = plan::settings_of(given)](
+                           const MeshTopology<Dim>* topology) {
+  require_valid(given, 0);
+  return [&mesh, topology, common = plan::settings_of(given)](
              const Cage<Dim>& part, const DomainMesh<Dim>& domain, const Reporter& reporter,
              bool stopped) {
-    require_valid(common, part.size(), bool(mesher));
+    require_valid(common, part.size());
     auto settings = common;
     if (stopped) settings.max_iterations = 1;
-    const auto* facets = &domain == &mesh ? topology : nullptr;
     const ThreadScope threads(threads_for(settings.threads, part.size(), domain.num_vertices()));
-    auto ready = set_up<Dim>(part, domain, settings, mesher, reporter, nullptr, facets);
+    Stopwatch watch;
+    auto ready = set_up(topology != nullptr && &domain == &mesh
+                            ? make_geometry(part, domain, *topology)
+                            : make_geometry(part, domain),
+                        settings, reporter);
+    require_distances(ready, settings);
+    const double setup_seconds = watch.lap();
     MethodRun<Dim> run(ready.problem);
     SolveReport report;
-    auto weights = solve_in_cascade(ready.problem, run, std::move(ready.coarse), settings, {},
-                                    reporter, report);
+    auto weights = solve_from_coarse(ready.problem, run, std::move(ready.coarse), settings, {},
+                                     reporter, report);
     auto solution = finish(ready.problem, run, std::move(weights), settings, reporter, report);
-    solution.report.seconds.setup = ready.seconds;
+    solution.report.seconds.setup = setup_seconds;
     solution.report.distances = ready.distances;
     if (stopped) solution.report.status = SolveStatus::kStopped;
     return solution;
@@ -207,11 +204,10 @@ void require_points_for(const Cage<Dim>& cage, const PointList<Dim>& control_poi
 // Options that stay the same during a run; all others take effect when it resumes. Names all
 // options, so that a new one cannot be forgotten.
 auto fixed_in_a_run(const SolverOptions& options) {
-  const auto& [method, phi, smoothness, distances, precision, non_negative, coarse_to_fine,
-               tolerance, gap, active_set, max_iterations, penalty, certify, threads] =
-      resolve(options);
-  return std::tuple(method, phi, smoothness, distances, precision, non_negative, coarse_to_fine,
-                    active_set, penalty);
+  const auto& [method, phi, smoothness, distances, precision, non_negative, tolerance, gap,
+               active_set, max_iterations, penalty, certify, threads] = resolve(options);
+  return std::tuple(method, phi, smoothness, distances, precision, non_negative, active_set,
+                    penalty);
 }
 
 }  // namespace
@@ -222,64 +218,65 @@ bool tries_active_set(int dim, Index control_points, Index vertices, const Solve
 
 template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& given,
-               const MesherArgument<Dim>& mesher, const Observer& observer) {
+               const Observer& observer) {
   auto options = given;
   if (!options.smoothness) options.smoothness = problem.smoothness;
-  require_valid(options, problem.num_control_points(), bool(mesher));
+  require_valid(options, problem.num_control_points());
   const auto settings = plan::settings_of(options);
   require_objective(problem, settings);
   const ThreadScope threads(num_threads(problem, settings));
   const Reporter reporter(observer);
   MethodRun<Dim> run(problem);
   SolveReport report;
-  auto weights = solve_in_cascade(problem, run, coarse_starts<Dim>(problem, mesher, settings),
-                                  settings, {}, reporter, report);
+  auto weights = solve_from_coarse(problem, run, coarse_problem(problem, settings), settings, {},
+                                   reporter, report);
   return finish(problem, run, std::move(weights), settings, reporter, std::move(report));
 }
 
 template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
-               const MesherArgument<Dim>& mesher, const Observer& observer) {
-  return solve_parts(cage, mesh, Reporter(observer),
-                     part_solver<Dim>(mesh, options, mesher, nullptr));
+               const Observer& observer) {
+  return solve_parts(cage, mesh, Reporter(observer), part_solver<Dim>(mesh, options, nullptr));
 }
 
 template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                const MeshTopology<Dim>& topology, const SolverOptions& options,
-               const MesherArgument<Dim>& mesher, const Observer& observer) {
-  return solve_parts(cage, mesh, Reporter(observer),
-                     part_solver<Dim>(mesh, options, mesher, &topology));
+               const Observer& observer) {
+  return solve_parts(cage, mesh, Reporter(observer), part_solver<Dim>(mesh, options, &topology));
 }
 
 template <int Dim>
 struct Solver<Dim>::State {
   // The state for one rest cage; the run refers to the problem.
-  struct Shape {
-    Cage<Dim> cage{};  // as given by the caller
-    DomainMesh<Dim> mesh{};
-    LbcProblem<Dim> problem{};
-    DistanceReport distances{};  // of phi
-    double setup_seconds = 0;    // until reported
+  struct Shape : NestedProblem<Dim> {
+    Cage<Dim> cage;  // as given by the caller
+    DomainMesh<Dim> mesh;
+    double setup_seconds = 0;  // until reported
     std::optional<MethodRun<Dim>> run{};
   };
 
   // Sets up the problem of a rest cage, as a new Solver does.
   void begin(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& given) {
-    require_valid_setup(given, cage.size(), bool(mesher));
+    require_valid(given, cage.size());
     const ThreadScope threads(threads_for(given.threads, cage.size(), mesh.num_vertices()));
-    std::optional<CoarseProblem<Dim>> coarsest;
-    const Observer nobody;
-    auto ready = set_up(cage, mesh, plan::settings_of(given), mesher, Reporter(nobody), &coarsest);
-    moving_distances.reset();
-    if (coarsest) moving_distances.emplace(std::move(*coarsest), ready.problem);
-    if (coarsest && anchor_weights.num_points() > 0) moving_distances->anchor(mesh, anchor_weights);
-    shape =
-        std::make_unique<Shape>(Shape{std::move(cage), std::move(mesh), std::move(ready.problem),
-                                      ready.distances, ready.seconds});
-    restart();
-    coarse = std::move(ready.coarse);
+    const Stopwatch watch;
+    const auto settings = plan::settings_of(given);
+    auto ready = set_up_shape(cage, mesh, make_geometry(cage, mesh), settings);
+    require_distances<Dim>(*ready, settings);
+    shape = std::move(ready);
+    shape->setup_seconds = watch.seconds();
     options = given;
+  }
+
+  static std::unique_ptr<Shape> set_up_shape(Cage<Dim> cage, DomainMesh<Dim> mesh,
+                                             LbcProblem<Dim> geometry,
+                                             const plan::Settings& settings) {
+    const Observer nobody;
+    auto shape = std::make_unique<Shape>(Shape{
+        set_up(std::move(geometry), settings, Reporter(nobody)), std::move(cage), std::move(mesh)});
+    shape->run.emplace(shape->problem);
+    return shape;
   }
 
   // Whether phi of the present problem is not what a new Solver would use, or is too inaccurate.
@@ -289,30 +286,16 @@ struct Solver<Dim>::State {
            !plan::accepts_phi_error(error, *resolve(given).tolerance);
   }
 
-  void restart() {
-    shape->run.emplace(shape->problem);
-    coarse.clear();
-  }
-
   // The mesh moved by the control points, not solved yet.
   std::unique_ptr<Shape> moved(const PointList<Dim>& control_points,
                                const plan::Settings& settings) {
     require_points_for(shape->cage, control_points);
-    auto other = std::make_unique<Shape>();
-    other->cage = {control_points, shape->cage.facets};
-    validate(other->cage);
-    other->mesh = {deform<Dim>(anchor_weights, control_points), shape->mesh.cells};
-    refuse_folds(anchor_mesh, other->mesh);
-    auto& problem = other->problem;
-    problem =
-        make_geometry(other->cage, other->mesh, shape->problem.topology, shape->problem.boundary);
-    problem.smoothness = *settings.smoothness;
-    other->run.emplace(problem);
-    other->distances = shape->distances;
-    auto distances = moving_distances ? (*moving_distances)(problem, settings, other->distances)
-                                      : distances_for(settings.phi, problem);
-    set_phi(problem, settings.phi, std::move(distances));
-    return other;
+    Cage<Dim> cage{control_points, shape->cage.facets};
+    validate(cage);
+    DomainMesh<Dim> moved{deform<Dim>(anchor_weights, control_points), shape->mesh.cells};
+    refuse_folds(anchor_mesh, moved);
+    auto geometry = make_geometry(cage, moved, shape->problem.topology, shape->problem.boundary);
+    return set_up_shape(std::move(cage), std::move(moved), std::move(geometry), settings);
   }
 
   // Solves from the start, or resumes the run. The solution is unchanged if it throws.
@@ -324,13 +307,13 @@ struct Solver<Dim>::State {
     const ThreadScope threads(num_threads(on.problem, settings));
     SolveReport report;
     Weights weights;
-    if (start != nullptr || on.run->has_begun() || &on != shape.get()) {
+    if (start != nullptr || on.run->has_begun()) {
       weights = solve_within<Dim>(budget, spent, *on.run, settings, reporter, report, {start});
     } else {
-      auto levels = std::exchange(coarse, {});
-      if (levels.empty()) levels = coarse_starts(on.problem, mesher, settings);
-      weights = solve_in_cascade(on.problem, *on.run, std::move(levels), settings, budget, reporter,
-                                 report);
+      auto coarse = std::exchange(on.coarse, std::nullopt);
+      if (!coarse) coarse = coarse_problem(on.problem, settings);
+      weights = solve_from_coarse(on.problem, *on.run, std::move(coarse), settings, budget,
+                                  reporter, report);
     }
     solution =
         finish(on.problem, *on.run, std::move(weights), settings, reporter, std::move(report));
@@ -339,19 +322,15 @@ struct Solver<Dim>::State {
   }
 
   SolverOptions options;
-  CoarseMesher<Dim> mesher;
-  std::vector<CoarseProblem<Dim>> coarse{};  // for the first solve
   std::unique_ptr<Shape> shape{};
   Solution solution{};
-  std::optional<MovingDistances<Dim>> moving_distances{};
   DomainMesh<Dim> anchor_mesh{};
   SparseWeights anchor_weights{};
 };
 
 template <int Dim>
-Solver<Dim>::Solver(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
-                    const MesherArgument<Dim>& mesher)
-    : state_(std::make_unique<State>(State{options, mesher})) {
+Solver<Dim>::Solver(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options)
+    : state_(std::make_unique<State>(State{options})) {
   normalize_and_validate(mesh);
   state_->begin(std::move(cage), std::move(mesh), options);
 }
@@ -391,13 +370,12 @@ const Solution& Solver<Dim>::move(const PointList<Dim>& control_points, const Bu
   const double spent = shape->setup_seconds;
   if (plan::inherits(settings.method) && before.run->has_duals()) {
     const auto duals = before.run->duals();
-    const auto transfer = Transfer<Dim>::between_shapes(before.problem, duals, shape->problem);
+    const Transfer<Dim> transfer(before.problem, duals, shape->problem);
     state.solve_on(*shape, &transfer, budget, spent, observer);
   } else {
     state.solve_on(*shape, nullptr, budget, spent, observer);
   }
   state.shape = std::move(shape);
-  state.coarse.clear();
   return solution();
 }
 
@@ -406,25 +384,23 @@ void Solver<Dim>::anchor() {
   if (state_->solution.weights.num_points() == 0) solve();
   state_->anchor_mesh = mesh();
   state_->anchor_weights = solution().weights;
-  if (state_->moving_distances) state_->moving_distances->anchor(mesh(), state_->anchor_weights);
 }
 
 template <int Dim>
 void Solver<Dim>::set_options(const SolverOptions& options) {
   auto& state = *state_;
-  require_valid(options, state.shape->cage.size(), bool(state.mesher));
-  const auto& [cage, mesh, problem, distances, seconds, run] = *state.shape;
-  if (run->has_begun() && fixed_in_a_run(options) == fixed_in_a_run(state.options) &&
+  require_valid(options, state.shape->cage.size());
+  if (state.shape->run->has_begun() && fixed_in_a_run(options) == fixed_in_a_run(state.options) &&
       !state.needs_other_phi(options)) {
     state.options = options;
   } else {
-    state.begin(cage, mesh, options);
+    state.begin(state.shape->cage, state.shape->mesh, options);
   }
 }
 
 template <int Dim>
 void Solver<Dim>::restart() {
-  state_->restart();
+  state_->shape->run.emplace(state_->shape->problem);
 }
 
 template <int Dim>
@@ -453,12 +429,11 @@ const Solution& Solver<Dim>::solution() const {
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                                      \
-  template Solution solve(const LbcProblem<Dim>&, const SolverOptions&,                            \
-                          const MesherArgument<Dim>&, const Observer&);                            \
+  template Solution solve(const LbcProblem<Dim>&, const SolverOptions&, const Observer&);          \
   template Solution solve<Dim>(const Cage<Dim>&, const DomainMesh<Dim>&, const SolverOptions&,     \
-                               const MesherArgument<Dim>&, const Observer&);                       \
+                               const Observer&);                                                   \
   template Solution solve<Dim>(const Cage<Dim>&, const DomainMesh<Dim>&, const MeshTopology<Dim>&, \
-                               const SolverOptions&, const MesherArgument<Dim>&, const Observer&); \
+                               const SolverOptions&, const Observer&);                             \
   template class Solver<Dim>;
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -1,93 +1,129 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/multilevel/coarse_problem.h"
 
-#include <exception>
-#include <new>
-#include <optional>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "base/instantiate.h"
-#include "base/stopwatch.h"
-#include "flbc/domain_mesh.h"
+#include "base/parallel.h"
+#include "base/stage_progress.h"
+#include "flbc/errors.h"
 #include "problem/geodesic/interpolated_distances.h"
-#include "problem/problem_geometry.h"
 #include "solver/plan/choices.h"
 #include "solver/plan/constants.h"
-#include "solver/start/transfer.h"
 
 namespace flbc {
 namespace {
 
-// Makes a mesh that is a useful level between the one below (0 vertices = none) and the finest.
-template <int Dim>
-std::optional<DomainMesh<Dim>> make_mesh(const CoarseMesher<Dim>& mesher, const Cage<Dim>& cage,
-                                         Index wanted, Index below, Index finest) {
-  try {
-    auto mesh = mesher(cage, wanted);
-    if (plan::kClearlyFiner * mesh.num_vertices() > finest ||
-        mesh.num_vertices() < plan::kClearlyFiner * below)
-      return {};
-    normalize_and_validate(mesh);
-    require_connected(mesh);
-    return mesh;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
-    return {};
-  }
+// A sample of control points, evenly spaced in the order of their largest distance to the domain.
+std::vector<Index> choose_control_points(const DistanceMatrix& distances) {
+  const auto n = static_cast<Index>(distances.rows());
+  const Index count = std::min(n, plan::kCheckedControlPoints);
+  const Eigen::VectorXf farthest = distances.rowwise().maxCoeff();
+  std::vector<Index> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return farthest[a] > farthest[b]; });
+  std::vector<Index> chosen;
+  chosen.reserve(static_cast<std::size_t>(count));
+  for (Index k = 0; k < count; ++k) chosen.push_back(order[k * (n - 1) / std::max(1, count - 1)]);
+  return chosen;
 }
 
-// Inherited distances are checked when the finest mesh uses them.
-// \param below  next coarser problem; null: none
+// Inserts exact distances for some control points and returns the error of phi there.
 template <int Dim>
-void measure_phi(const CoarseProblem<Dim>* below, const plan::Settings& settings, CoarseUse use,
-                 CoarseProblem<Dim>& level) {
-  std::optional<DistanceMatrix> distances;
-  if (use.distances && below != nullptr) {
-    distances = distances_from(below->problem, level.problem,
-                               places_in(below->problem, level.problem.mesh.points));
+double check_on_sample(const LbcProblem<Dim>& problem, DistanceScheme scheme,
+                       DistanceMatrix& distances) {
+  const auto chosen = choose_control_points(distances);
+  const auto count = static_cast<Index>(chosen.size());
+  std::vector<Index> sources;
+  DistanceMatrix both(2 * count, distances.cols());
+  for (Index k = 0; k < count; ++k) {
+    sources.push_back(problem.boundary.control_vertices[chosen[k]]);
+    both.row(k) = distances.row(chosen[k]);
   }
-  if (!distances) distances = distances_for(settings.phi, level.problem);
-  set_phi(level.problem, settings.phi, std::move(*distances));
+  both.bottomRows(count) = geodesic_distances(problem.mesh, problem.topology, sources);
+  for (Index k = 0; k < count; ++k) {
+    distances.row(chosen[k]) = both.row(count + k);
+  }
+  const WeightFunctions phi(scheme, std::move(both), problem.mesh, 2 * count);
+  const Eigen::Vector2d zero = Eigen::Vector2d::Zero();
+  const auto squares = parallel_sum(problem.mesh.num_cells(), zero, [&](Index begin, Index end) {
+    Eigen::Vector2d sum = zero;  // of the differences, and of phi
+    for (Index s = begin; s < end; ++s) {
+      const Eigen::VectorXd on_cell = phi.col(s);
+      sum[0] += (on_cell.head(count) - on_cell.tail(count)).squaredNorm();
+      sum[1] += on_cell.tail(count).squaredNorm();
+    }
+    return sum;
+  });
+  return std::sqrt(squares[0] / squares[1]);
+}
+
+// Distances from the coarse mesh; exact ones if their effect on the weights is too large.
+template <int Dim>
+DistanceMatrix choose_distances(const CoarseProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
+                                const plan::Settings& settings, DistanceReport& report) {
+  auto distances = interpolated_distances<Dim>(problem.cage.points, problem.mesh.points,
+                                               coarse.ends, coarse.problem.phi.distances());
+  const double error = check_on_sample(problem, settings.phi, distances);
+  if (settings.distances == Distances::kAuto &&
+      !plan::accepts_phi_error(error, *settings.tolerance)) {
+    return distances_for(settings.phi, problem);
+  }
+  report = {Distances::kInterpolated, coarse.problem.mesh.num_vertices(), error};
+  return distances;
+}
+
+// The coarse problem without phi.
+template <int Dim>
+std::optional<CoarseProblem<Dim>> coarse_geometry(const LbcProblem<Dim>& problem) {
+  auto coarse = coarse_mesh(problem.mesh);
+  if (!coarse) return {};
+  try {
+    CoarseProblem<Dim> made{make_geometry(problem.cage, std::move(coarse->mesh)),
+                            std::move(coarse->ends)};
+    made.problem.smoothness = problem.smoothness;
+    return made;
+  } catch (const InputError&) {  // the coarse mesh may lack control points
+    return {};
+  }
 }
 
 }  // namespace
 
 template <int Dim>
-DistanceMatrix distances_from(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
-                              const std::vector<Location<Dim>>& places) {
-  return interpolated_distances<Dim>({coarse.mesh, coarse.cage.points, coarse.phi.distances()},
-                                     problem.mesh.points, places);
-}
-
-template <int Dim>
-std::vector<CoarseProblem<Dim>> make_coarse_problems(const LbcProblem<Dim>& problem,
-                                                     const CoarseMesher<Dim>& mesher,
-                                                     const std::vector<Index>& sizes,
-                                                     const plan::Settings& settings,
-                                                     CoarseUse use) {
-  std::vector<CoarseProblem<Dim>> coarse;
-  for (const Index size : sizes) {
-    Stopwatch watch;
-    const auto* below = coarse.empty() ? nullptr : &coarse.back();
-    auto mesh = make_mesh(mesher, problem.cage, size, below ? below->report.vertices : 0,
-                          problem.mesh.num_vertices());
-    if (!mesh) continue;
-    LevelReport report;
-    report.vertices = mesh->num_vertices();
-    report.cells = mesh->num_cells();
-    report.mesh_seconds = watch.lap();
-    CoarseProblem<Dim> level{make_geometry(problem.cage, std::move(*mesh))};
-    level.problem.smoothness = problem.smoothness;
-    measure_phi(below, settings, use, level);
-    report.setup_seconds = watch.lap();
-    level.report = report;
-    coarse.push_back(std::move(level));
-  }
+std::optional<CoarseProblem<Dim>> coarse_problem(const LbcProblem<Dim>& problem,
+                                                 const plan::Settings& settings) {
+  if (!plan::inherits(settings.method)) return {};
+  auto coarse = coarse_geometry(problem);
+  if (coarse) set_phi(coarse->problem, settings.phi);
   return coarse;
 }
 
-FLBC_INSTANTIATE_FUNCTION(distances_from)
-FLBC_INSTANTIATE_FUNCTION(make_coarse_problems)
+template <int Dim>
+NestedProblem<Dim> set_up(LbcProblem<Dim> geometry, const plan::Settings& settings,
+                          const Reporter& reporter) {
+  const StageScope scope(reporter.stage(Stage::kDistances));
+  NestedProblem<Dim> nested{std::move(geometry)};
+  auto& [problem, coarse, report] = nested;
+  problem.smoothness = *settings.smoothness;
+  if (plan::inherits(settings.method) || settings.distances == Distances::kInterpolated) {
+    coarse = coarse_geometry(problem);
+  }
+  if (coarse) set_phi(coarse->problem, settings.phi);
+  const bool interpolates = coarse && settings.phi != DistanceScheme::kConstant &&
+                            settings.distances != Distances::kExact;
+  set_phi(problem, settings.phi,
+          interpolates ? choose_distances(*coarse, problem, settings, report)
+                       : distances_for(settings.phi, problem));
+  if (!plan::inherits(settings.method)) coarse.reset();
+  return nested;
+}
+
+FLBC_INSTANTIATE_FUNCTION(coarse_problem)
+FLBC_INSTANTIATE_FUNCTION(set_up)
 
 }  // namespace flbc

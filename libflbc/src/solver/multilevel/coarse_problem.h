@@ -1,52 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Problems on coarser meshes of the same cage.
+//! The problem on the coarse mesh of a refined mesh: source of distances and of a start.
 #pragma once
 
-#include <vector>
+#include <optional>
 
-#include "flbc/cell_locator.h"
-#include "flbc/coarse_to_fine.h"
-#include "flbc/lbc_problem.h"
+#include "flbc/nested_mesh.h"
 #include "flbc/report.h"
+#include "problem/problem_geometry.h"
 #include "solver/plan/settings.h"
+#include "solver/run/reporter.h"
 
 namespace flbc {
 
-//! A problem on a coarser mesh, for a multilevel start or for interpolated distances.
+//! A problem on a coarse mesh.
 template <int Dim>
 struct CoarseProblem {
   LbcProblem<Dim> problem;
-  std::vector<Location<Dim>> finest_vertices{};  //!< locations of the vertices of the finest mesh,
-                                                 //!< if known
-  LevelReport report{};                          //!< sizes, and times of meshing and setup
+  std::vector<std::array<Index, 2>> ends{};  //!< CoarseMesh::ends
 };
 
-//! The purposes of coarse problems.
-struct CoarseUse {
-  bool start = true;       //!< for a multilevel start
-  bool distances = false;  //!< for interpolated distances
+//! A problem with its coarse problem.
+template <int Dim>
+struct NestedProblem {
+  LbcProblem<Dim> problem;
+  std::optional<CoarseProblem<Dim>> coarse{};  //!< if the mesh is refined and the method starts so
+  DistanceReport distances{};
 };
 
-//! Distances interpolated from a coarse problem, n x V.
-//! \param places  of the V vertices in the coarse mesh
+//! The coarse problem for a method that can start from it. \param problem  phi is not needed
+//! \return nothing if the mesh is not refined
 template <int Dim>
-DistanceMatrix distances_from(const LbcProblem<Dim>& coarse, const LbcProblem<Dim>& problem,
-                              const std::vector<Location<Dim>>& places);
+std::optional<CoarseProblem<Dim>> coarse_problem(const LbcProblem<Dim>& problem,
+                                                 const plan::Settings& settings);
 
-//! Meshes the cage and sets up the coarse problems. Skips meshes on which the mesher fails (the
-//! cage may need more vertices), or that are not clearly coarser than the next. If finer meshes
-//! interpolate distances, only the coarsest mesh computes them.
-//! \param problem  the finest problem; phi is not needed
-//! \param mesher  not empty
-//! \param sizes  numbers of vertices, ascending
-//!
-//! \return coarsest first
-//! \throws InputError if a coarse mesh does not belong to the cage
+//! Completes the geometry of a problem by phi, as make_problem() does. Distances come from the
+//! coarse mesh if the options say so. \param stage  of the distances
 template <int Dim>
-std::vector<CoarseProblem<Dim>> make_coarse_problems(const LbcProblem<Dim>& problem,
-                                                     const CoarseMesher<Dim>& mesher,
-                                                     const std::vector<Index>& sizes,
-                                                     const plan::Settings& settings, CoarseUse use);
+NestedProblem<Dim> set_up(LbcProblem<Dim> geometry, const plan::Settings& settings,
+                          const Reporter& reporter);
 
 }  // namespace flbc

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/plan/choices.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/instantiate.h"
@@ -45,34 +44,6 @@ bool active_set_pays(double density, const Settings& settings) {
 double penalty_unit(Method method, int dim, double size) {
   const int measures = method == Method::kLbc2014 ? 2 : method == Method::kWeights ? 1 : 0;
   return std::pow(size, dim + 1 - measures * dim);
-}
-
-std::vector<Index> coarse_sizes(const Sizes& sizes, const Settings& settings) {
-  if (settings.coarse_to_fine == CoarseToFine::kOff || !inherits(settings.method)) return {};
-  const bool always = settings.coarse_to_fine == CoarseToFine::kOn;
-  const auto limits = worthwhile(sizes.dim, active_set(sizes, settings));
-  const Index coarsest = always ? kCoarsest : limits.coarsest;
-  const double numbers = static_cast<double>(sizes.vertices) * sizes.control_points;
-  if (!always && numbers < limits.numbers) return {};
-  std::vector<Index> vertices;
-  double size = sizes.vertices / kCoarseFactor;
-  while (size >= coarsest) {
-    vertices.push_back(static_cast<Index>(size));
-    size /= kCoarseFactor;
-  }
-  // An explicit request always gives a coarse mesh.
-  if (vertices.empty() && always && sizes.vertices >= 2 * coarsest) {
-    vertices.push_back(coarsest);
-  }
-  std::reverse(vertices.begin(), vertices.end());
-  return vertices;
-}
-
-bool interpolates_distances(const Sizes& sizes, const Settings& settings, bool has_coarse_mesh) {
-  if (settings.phi == DistanceScheme::kConstant) return false;
-  if (settings.distances != Distances::kAuto) return settings.distances == Distances::kInterpolated;
-  if (settings.method != Method::kWeights) return false;
-  return has_coarse_mesh || (sizes.dim == 3 && sizes.vertices >= kInterpolatedVertices);
 }
 
 bool accepts_phi_error(double error, double tolerance) {

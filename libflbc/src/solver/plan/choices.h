@@ -3,8 +3,6 @@
 //! Every automatic choice of a solve, from sizes and settings. The constants are in constants.h.
 #pragma once
 
-#include <vector>
-
 #include "flbc/lbc_problem.h"
 #include "linear/linear_solver.h"
 #include "solver/plan/settings.h"
@@ -61,14 +59,6 @@ double published_scale(const DomainMesh<Dim>& mesh) {
       (mesh.points.rowwise().minCoeff() + mesh.points.rowwise().maxCoeff()) / 2;
   return kRadius / (mesh.points.colwise() - center).colwise().norm().maxCoeff();
 }
-
-//! Numbers of vertices of the coarse meshes of a multilevel start, ascending; empty if it is
-//! disabled or does not pay.
-std::vector<Index> coarse_sizes(const Sizes& sizes, const Settings& settings);
-
-//! Whether to interpolate distances from a coarser mesh if they are accurate enough.
-//! \param has_coarse_mesh  whether the multilevel start has a coarse mesh
-bool interpolates_distances(const Sizes& sizes, const Settings& settings, bool has_coarse_mesh);
 
 //! Whether interpolated distances are accurate enough. \param error  DistanceReport::phi_error
 bool accepts_phi_error(double error, double tolerance);

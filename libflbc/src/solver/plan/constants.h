@@ -109,37 +109,14 @@ constexpr int kBetweenLooks = 30;
 //! The active set grows if squared weights at its border exceed this fraction of the error.
 constexpr double kEndsOfError = 0.1;
 
-// ---- coarser meshes -----------------------------------------------------------------------------
+// ---- coarse meshes ------------------------------------------------------------------------------
 
-//! Minimum ratio of vertices between a level and the next coarser one.
-constexpr double kClearlyFiner = 1.7;
-//! CoarseToFine::kOn: minimum number of vertices of a coarse mesh.
-constexpr Index kCoarsest = 50;
-//! Tolerance on coarse meshes relative to the final one.
-constexpr double kLooseness = 4;
-
-//! Vertices of a mesh relative to those of the next coarser one. `weights` needs few iterations, so
-//! coarse meshes must be cheap.
-constexpr Index kCoarseFactor = 12;
-
-//! When a multilevel start pays.
-struct Worthwhile {
-  double numbers;  //!< minimum of vertices times control points
-  Index coarsest;  //!< vertices
-};
-//! \param on_active_set  after a multilevel start, it need not grow and takes a third of the
-//! iterations
-constexpr Worthwhile worthwhile(int dim, bool on_active_set) {
-  return on_active_set ? Worthwhile{kActivePairs, 500}
-         : dim == 2    ? Worthwhile{2.5e5, 750}
-                       : Worthwhile{7e5, 1000};
-}
+//! Tolerance on the coarse mesh, a fifth of its distance from the next: a start does not depend on
+//! the tolerance, so a run can resume with another.
+constexpr double kCoarseTolerance = 1e-5;
 
 // ---- distances behind phi -----------------------------------------------------------------------
 
-//! Minimum number of vertices for distances from a mesh that has no other use, in 3D. On smaller
-//! meshes, it takes as long as exact distances.
-constexpr Index kInterpolatedVertices = 3000;
 //! Control points whose distances are checked.
 constexpr Index kCheckedControlPoints = 4;
 //! Squared change of weights per squared relative error of phi: four times the maximum over all

@@ -28,7 +28,7 @@ double ErrorEstimate::operator()(double change) {
                     std::max(plan::kLargestRate, 1 - plan::kLeastPower / calls_));
   }
   rate = std::pow(rate, 1.0 / interval_);
-  return plan::kSafety * now / count * std::pow(rate / (1 - rate), 2);
+  return plan::kSafety * now / static_cast<double>(count) * std::pow(rate / (1 - rate), 2);
 }
 
 Ratios StopRule::judge(const Step& step, double tolerance, bool counts) {

@@ -7,7 +7,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "flbc/coarse_to_fine.h"
 #include "flbc/openmesh/deform.h"
 #include "flbc/openmesh/gradients.h"
 #include "flbc/openmesh/meshers.h"
@@ -26,10 +25,10 @@ struct PropertyOptions {
 //! solve() on a mesh of a valid type.
 template <int Dim, class Mesh>
 SolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& options,
-                     const PropertyOptions& properties, const CoarseMesher<Dim>& mesher) {
+                     const PropertyOptions& properties) {
   validate(options);
   const auto domain = snapped_domain(mesh, cage);
-  auto solution = flbc::solve(cage, domain.mesh, domain.topology, options, mesher);
+  auto solution = flbc::solve(cage, domain.mesh, domain.topology, options);
   set_weights(mesh, solution.weights, properties.weights, properties.persistent);
   set_rest_cage(mesh, cage.points, properties.weights, properties.persistent);
   internal::remove_property<Wide<double>>(mesh, internal::name_of_rest(properties.weights));
@@ -43,19 +42,14 @@ SolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& opt
 //! Solves on a domain mesh, a triangle mesh in the plane or a TetMesh, and writes the weights as
 //! properties. The mesh itself does not change. The solve runs on arrays; gradient_admm.h iterates
 //! on the mesh itself. Boundary vertices within 1e-6 of the cage size count as on the cage.
-//! \param mesher  makes coarser meshes for a multilevel start where that pays
-//! (flbc/coarse_to_fine.h); {} for no such start. By default, the mesher of the component that the
-//! program links in addition to flbc::openmesh: flbc::cgal in the plane, flbc::tetgen in space
 //! \throws InputError naming the element if the mesh does not match the cage or has deleted
 //! elements; OptionError, SolverError. The properties are then unchanged
 template <class Mesh, int Dim>
-SolveReport solve(
-    Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& options = {},
-    const PropertyOptions& properties = {},
-    const MesherArgument<Dim>& mesher = internal::coarse_mesher(internal::linked_mesher<Dim>())) {
+SolveReport solve(Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& options = {},
+                  const PropertyOptions& properties = {}) {
   if constexpr (std::is_same_v<Mesh, TetMesh>) {
     static_assert(Dim == 3, "tetrahedra do not fill a cage in the plane");
-    return solve_on<Dim>(mesh, cage, options, properties, mesher);
+    return solve_on<Dim>(mesh, cage, options, properties);
   } else {
     constexpr bool kIsSurface = Dim == 3;
     static_assert(!kIsSurface,
@@ -63,7 +57,7 @@ SolveReport solve(
     static_assert(kIsSurface || Mesh::IsTriMesh,
                   "a domain in the plane has triangles: use a TriMesh");
     if constexpr (!kIsSurface && Mesh::IsTriMesh) {
-      return solve_on<Dim>(mesh, cage, options, properties, mesher);
+      return solve_on<Dim>(mesh, cage, options, properties);
     }
   }
 }

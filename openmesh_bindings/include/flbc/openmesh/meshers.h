@@ -5,7 +5,6 @@
 
 #include <functional>
 
-#include "flbc/coarse_to_fine.h"
 #include "flbc/errors.h"
 #include "flbc/meshing.h"
 
@@ -30,11 +29,6 @@ constexpr bool kLinksTetgen = false;
 #endif
 template <int Dim>
 constexpr bool kLinksMesher = Dim == 2 ? kLinksCgal : kLinksTetgen;
-
-//! Makes coarse meshes with a mesher, with about the requested number of vertices and a time limit
-//! of one minute. Empty if the mesher is empty.
-template <int Dim>
-CoarseMesher<Dim> coarse_mesher(Mesher<Dim> mesher);
 
 //! The linked mesher; empty if no component is linked. With CGAL, facets that cross are named, of
 //! which TetGen only says that they are there, or crashes.

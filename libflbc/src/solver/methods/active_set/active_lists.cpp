@@ -112,16 +112,11 @@ double threshold_for(double tolerance) {
 template <int Dim>
 ActiveLists active_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& coarse,
                         double threshold) {
-  constexpr double kNotInterpolated = 1e-12;
-  const auto& mesh = coarse.coarse_mesh();
-  const auto& weights = coarse.coarse_weights();
-  const auto near = near_lists(mesh, problem.num_control_points(),
+  const auto& weights = coarse.weights();
+  const auto near = near_lists(coarse.mesh(), problem.num_control_points(),
                                [&](Index v) { return (weights.at(v).array() > threshold).eval(); });
   return completed(problem, coarse.start().weights, [&](Index v, Flags& flags) {
-    const auto& place = coarse.place_of(v);
-    for (int k = 0; k <= Dim; ++k) {
-      if (place.coordinates[k] > kNotInterpolated) add(near.of(mesh.cells(k, place.cell)), flags);
-    }
+    for (const Index end : coarse.ends_of(v)) add(near.of(end), flags);
   });
 }
 

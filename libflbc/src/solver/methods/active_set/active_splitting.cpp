@@ -49,7 +49,7 @@ ActiveSplitting<Scalar, Dim>::ActiveSplitting(const LbcProblem<Dim>& problem,
       active_(std::move(active)) {
   const auto system = splitting::system_matrix(problem, metric_);
   const auto order = sweep_order(system);
-  data_ = compact::make_rows_and_cells<Scalar>(problem, metric_, order.position, unit_);
+  data_ = compact::make_rows_and_cells<Scalar>(problem, metric_, order.position);
   const auto vertices = vertices_of_rows(problem, data_);
   lists_ =
       std::make_unique<PackedLists>(lists_of(active_, vertices, static_cast<ControlPoint>(n_)));

@@ -46,7 +46,7 @@ void inner_first(std::array<int, N>& corners, const Predicate& is_inside) {
 
 // Cells with all corners on the boundary do not affect the weights.
 template <class Scalar, int Dim>
-void set_up_cells(const LbcProblem<Dim>& problem, const splitting::Metric& metric, double unit,
+void set_up_cells(const LbcProblem<Dim>& problem, const splitting::Metric& metric,
                   CompactData<Scalar, Dim>& data) {
   const auto num_interior = static_cast<Index>(data.vertices.size());
   const auto row_of = [&](int k, Index s) { return data.row_of[problem.mesh.cells(k, s)]; };
@@ -84,10 +84,10 @@ double radius_unit(const LbcProblem<Dim>& problem, const splitting::Metric& metr
 template <class Scalar, int Dim>
 CompactData<Scalar, Dim> make_rows_and_cells(const LbcProblem<Dim>& problem,
                                              const splitting::Metric& metric,
-                                             const std::vector<Index>& position, double unit) {
+                                             const std::vector<Index>& position) {
   CompactData<Scalar, Dim> data;
   set_up_rows(problem, metric, position, data);
-  set_up_cells(problem, metric, unit, data);
+  set_up_cells(problem, metric, data);
   return data;
 }
 

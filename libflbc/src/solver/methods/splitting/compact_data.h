@@ -52,11 +52,10 @@ constexpr double kSmallestPhi = 1e-10;
 
 //! Everything except the radii and the constraints.
 //! \param position  the row of every unknown in the arrays of the linear solver
-//! \param unit  u: a radius is u phi A / sqrt(m)
 template <class Scalar, int Dim>
 CompactData<Scalar, Dim> make_rows_and_cells(const LbcProblem<Dim>& problem,
                                              const splitting::Metric& metric,
-                                             const std::vector<Index>& position, double unit);
+                                             const std::vector<Index>& position);
 
 //! The constraints { sum w = 1, sum w c = x } of every row. \param stride  values per row
 template <class Scalar, int Dim>

@@ -27,7 +27,7 @@ CompactSplitting<Scalar, Dim>::CompactSplitting(const LbcProblem<Dim>& problem,
       stride_(padded(static_cast<std::size_t>(n_))),
       slices_(stride_, omp_get_max_threads()),
       solver_(splitting::system_matrix(problem, metric_), stride_, parameters.linear_solver) {
-  data_ = make_rows_and_cells<Scalar>(problem, metric_, solver_.position(), unit_);
+  data_ = make_rows_and_cells<Scalar>(problem, metric_, solver_.position());
   rows_ = {static_cast<std::size_t>(problem.mesh.num_vertices()) * stride_,
            data_.vertices.size() * stride_, metric_.vertex.size() > 0};
   P_ = AlignedArray<Scalar>(data_.cells.size() * Dim * stride_);

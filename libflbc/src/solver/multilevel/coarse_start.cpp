@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/multilevel/coarse_start.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/instantiate.h"
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "solver/methods/active_set/active_lists.h"
+#include "solver/plan/choices.h"
+#include "solver/plan/constants.h"
+#include "solver/start/transfer.h"
+
+namespace flbc {
+namespace {
+
+// \return whether it was stopped
+template <int Dim>
+bool solve_coarse(const LbcProblem<Dim>& problem, const plan::Settings& given,
+                  const Reporter& reporter, Duals<Dim>& duals, LevelReport& level) {
+  Stopwatch watch;
+  auto settings = given;
+  settings.tolerance = plan::kCoarseTolerance;
+  settings.certify = false;
+  const ThreadScope threads(
+      threads_for(given.threads, problem.num_control_points(), problem.mesh.num_vertices()));
+  settings.gap = 0;
+  settings.ends_by_gap = false;
+  SolveReport report;
+  MethodRun<Dim> run(problem);
+  run.solve(settings, reporter.with_more_to_come(1), report);
+  // An active set on the finer mesh reads duals only near nonzero weights.
+  const bool on_active_set = plan::active_set(plan::sizes_of(problem), given);
+  duals = run.duals(on_active_set ? active_set::threshold_for(*given.tolerance) : 0);
+  level = {report.vertices, report.cells, report.iterations, watch.lap()};
+  return report.status == SolveStatus::kStopped;
+}
+
+}  // namespace
+
+template <int Dim>
+Weights solve_within(const Budget& budget, double spent, MethodRun<Dim>& run,
+                     const plan::Settings& given, const Reporter& reporter, SolveReport& report,
+                     const WarmStart<Dim>& start) {
+  auto settings = given;
+  if (budget.iterations > 0) {
+    settings.max_iterations = std::min(settings.max_iterations, budget.iterations);
+  }
+  return run.solve(settings,
+                   budget.seconds > 0 ? reporter.with_limit(budget.seconds - spent) : reporter,
+                   report, start);
+}
+
+template <int Dim>
+Weights solve_from_coarse(const LbcProblem<Dim>& problem, MethodRun<Dim>& run,
+                          std::optional<CoarseProblem<Dim>> coarse, const plan::Settings& given,
+                          const Budget& budget, const Reporter& reporter, SolveReport& report) {
+  if (!coarse) return solve_within<Dim>(budget, 0, run, given, reporter, report, {});
+  Stopwatch watch;
+  Duals<Dim> duals;
+  LevelReport level;
+  const bool stopped = solve_coarse(coarse->problem, given, reporter, duals, level);
+  auto settings = given;
+  if (stopped) settings.max_iterations = 1;  // one iteration, to get weights on this mesh
+  const double spent = watch.seconds();
+  const Transfer<Dim> transfer(coarse->problem, duals, problem, coarse->ends);
+  const auto forget = [&] {
+    duals = {};
+    coarse.reset();
+  };
+  auto weights = solve_within<Dim>(budget, spent, run, settings, reporter, report,
+                                   {&transfer, forget});
+  if (stopped) report.status = SolveStatus::kStopped;
+  report.seconds.solve += spent;
+  report.coarse_levels = {level};
+  return weights;
+}
+
+FLBC_INSTANTIATE_FUNCTION(solve_within)
+FLBC_INSTANTIATE_FUNCTION(solve_from_coarse)
+
+}  // namespace flbc
