@@ -41,9 +41,6 @@ def cases(models, quick):
         yield f"{name} gradient double", [
             ["solve", cage, "-o", "OUT/w.npy", "--precision", "double", "--method", "gradient",
              *limits, "--report", "OUT/r.json"]]
-        yield f"{name} coarse to fine", [
-            ["solve", cage, "-o", "OUT/w.npy", "--coarse-to-fine", "on", "--vertices",
-             "4000" if flat else "6000", "--tolerance", "1e-5", "--report", "OUT/r.json"]]
         if model is None or not model.exists():
             continue
         pose = cage.with_name(cage.stem + "_pose.obj")

@@ -34,6 +34,7 @@ constexpr Wording kWordings[] = {
     {"threads must be in [1", "--threads must be in [1"},
     {"this format holds 8; reduce them first", "this format holds 8; use flbc sparsify -k 8"},
     {" s (time_limit)", " s (--mesh-timeout)"},
+    {" (vertices), the minimum that", " (--vertices), the minimum that"},
     {"of its mesh; choose another mesher",
      "of its mesh; choose another --mesher, or leave out --embed"},
 };

@@ -99,7 +99,7 @@ nlohmann::ordered_json report_json(const SolveReport& report, const SolveSetting
   nlohmann::ordered_json json;
   json["method"] = name_of_method(settings, report.method);
   json["dim"] = context.dim;
-  json["mesher"] = name_of(context.mesher);
+  json["mesher"] = context.mesher;
   json["control_points"] = report.control_points;
   json["vertices"] = report.vertices;
   json["cells"] = report.cells;
@@ -122,6 +122,7 @@ nlohmann::ordered_json report_json(const SolveReport& report, const SolveSetting
   json["active_set"] = {{"density", report.active_set.density},
                         {"growths", report.active_set.growths}};
   json["coarse_levels"] = levels_json(report.coarse_levels);
+  json["mesh_error"] = report.mesh_error;
   json["min_weight"] = context.delivered.min_weight;
   json["max_partition_error"] = context.delivered.max_partition_error;
   json["max_reproduction_error"] = context.delivered.max_reproduction_error;

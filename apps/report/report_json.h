@@ -14,7 +14,7 @@ namespace flbc::app {
 struct RunContext {
   int dim = 0;
   double mesh_seconds = 0;
-  Mesher mesher = Mesher::kGiven;
+  std::string mesher = "none";
   Quality delivered{};  //!< of the rows written: the model's if there is one
 };
 

@@ -50,12 +50,12 @@ void mesh_interior(Run<Dim>& run) {
   run.report["mesh"] = {{"file", name},
                         {"vertices", domain.num_vertices()},
                         {"cells", domain.num_cells()},
-                        {"mesher", name_of(solver.mesher())},
+                        {"mesher", solver.mesher()},
                         {"seconds", solver.mesh_seconds()}};
   Facts facts;
   facts << domain.num_vertices() << " vertices, " << domain.num_cells()
         << (Dim == 2 ? " triangles" : " tetrahedra");
-  if (solver.mesher() == Mesher::kNetgen) facts << ", by Netgen";
+  if (solver.mesher() == "netgen") facts << ", by Netgen";
   run.folder.add(name, facts.text(),
                  [&](const std::string& path) { io::write_domain(path, domain); });
 }
@@ -81,6 +81,11 @@ void compute_weights(Run<Dim>& run) {
   facts << "; " << delivered.mean_influences
         << " influences above 1e-4 per vertex, smallest weight " << delivered.min_weight
         << ", reproduction error " << delivered.max_reproduction_error;
+  if (report.mesh_error > 0) {
+    facts << "; mean squared distance from the weights of a much finer mesh about "
+          << report.mesh_error << " (--vertices " << 4 * report.vertices << ": about "
+          << report.mesh_error / 10 << ")";
+  }
   facts << describe(solver.placement(), bounding_box_diagonal(run.cage.points));
   if (is_certified(report)) {
     facts << ", within " << 100 * report.certificate.relative_gap << "% of the optimum";

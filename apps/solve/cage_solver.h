@@ -55,7 +55,8 @@ class CageSolver {
   const Solution& solution() const { return solution_; }
   const SolveReport& report() const { return solution_.report; }
   double mesh_seconds() const { return mesh_seconds_; }
-  Mesher mesher() const { return mesher_; }
+  //! The mesher of the mesh; "none" if it was read.
+  const std::string& mesher() const { return mesher_; }
 
   //! The points that the weights reproduce: the model's vertices, or those of the mesh. Vertices
   //! that follow the nearest point of the cage are there.
@@ -85,7 +86,7 @@ class CageSolver {
   OutsidePoints outside_;  // treatment of vertices there
   DomainMesh<Dim> domain_;
   double mesh_seconds_ = 0;  // for making or reading it
-  Mesher mesher_ = Mesher::kGiven;
+  std::string mesher_ = "none";
   Solution solution_;  // at the vertices of the domain
   std::vector<HistoryEntry> history_;
   Placement<Dim> placement_;        // of the model's vertices

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Meshing a cage with whatever mesher was built in.
+//! Meshes a cage as the command line says.
 #pragma once
 
 #include <string>
 
-#include "flbc/cage.h"
-#include "flbc/meshing.h"
+#include "flbc/make_domain.h"
 
 namespace flbc::app {
 
@@ -14,8 +13,7 @@ enum class Mesher {
   kAuto,  //!< CGAL in 2D; in 3D TetGen, and Netgen for cages on which that fails
   kCgal,
   kTetgen,
-  kNetgen,
-  kGiven  //!< none: the mesh was read from a file
+  kNetgen
 };
 
 //! Who makes meshes, and for how long.
@@ -25,12 +23,9 @@ struct MesherSettings {
 };
 
 inline const char* name_of(Mesher mesher) {
-  constexpr const char* kNames[] = {"auto", "cgal", "tetgen", "netgen", "none"};
+  constexpr const char* kNames[] = {"auto", "cgal", "tetgen", "netgen"};
   return kNames[static_cast<int>(mesher)];
 }
-
-//! Number of mesh vertices if the user does not ask for one.
-constexpr Index kDefaultVertices = 10000;
 
 //! A mesh to be made. Files are named in messages.
 template <int Dim>
@@ -41,14 +36,6 @@ struct DomainRequest {
   MesherSettings meshing{};
   std::string embedded_file{};  //!< of the model whose points become vertices; empty for none
   PointList<Dim> embedded{};    //!< these points
-};
-
-//! A mesh that was made.
-template <int Dim>
-struct MadeDomain {
-  DomainMesh<Dim> mesh{};
-  Mesher mesher = Mesher::kAuto;  //!< that made it, or any part of it where the first one failed
-  std::string note{};             //!< for the user: it is not quite as asked for, or made otherwise
 };
 
 //! \throws OptionError if the program was built without the mesher, or it is none for this

@@ -29,7 +29,6 @@ from ._errors import (
     NotConverged,
     OptionError,
     SolverError,
-    TooFewVertices,
 )
 from ._files import (
     read_cage,
@@ -61,7 +60,7 @@ __version__: str = _core.version
 __all__ = [
     "Binding", "Cage", "Certificate", "Defect", "DomainMesh", "Error", "InputError", "IoError",
     "Model", "NotConverged", "OptionError", "Page", "Progress", "Repaired", "Solution", "Solver",
-    "SolverError", "SolverOptions", "TooFewVertices", "bind", "check", "deform", "export",
+    "SolverError", "SolverOptions", "bind", "check", "deform", "export",
     "make_cage", "mean_value", "measure", "mesh", "read_cage", "read_mesh", "read_model",
     "read_weights", "repair", "solve", "sparsify", "transfer", "view", "write_cage", "write_mesh", "write_model", "write_weights",
 ]

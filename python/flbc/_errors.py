@@ -14,10 +14,6 @@ class OptionError(Error, ValueError):
     """An option outside its valid range."""
 
 
-class TooFewVertices(OptionError):
-    """The domain mesh needs more vertices than requested; the message names the minimum."""
-
-
 class IoError(Error, OSError):
     """A file that cannot be opened, read, or written."""
 

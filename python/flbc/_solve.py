@@ -19,7 +19,7 @@ from typing import (
 import numpy as np
 
 from . import _core
-from ._errors import Error, InputError, NotConverged, OptionError, TooFewVertices
+from ._errors import Error, InputError, NotConverged, OptionError
 from ._shapes import (
     DomainMesh,
     as_array,
@@ -305,7 +305,8 @@ def mesh(
     cage : Cage, or what `Cage` accepts
     vertices : int, optional
         Target number of vertices, met within 5% in 2D and about 10% in 3D; 0 for the minimum
-        that element quality allows. Default: 10000, or that minimum if it is larger.
+        that element quality allows, to which a smaller number is raised, with a warning.
+        Default: 10000.
     points : array_like, shape (P, d), optional
         Points that become vertices of the mesh. They follow the control points, in this
         order, without points on or outside the cage and without duplicates.
@@ -321,21 +322,15 @@ def mesh(
     ------
     InputError
         If the cage is defective or cannot be meshed.
-    TooFewVertices
-        If quality needs more vertices than requested.
     """
     shape = as_cage(cage)
     inside = None if points is None else as_points(points, "points", shape.dim)
 
-    def fill(count: int) -> DomainMesh:
-        return mesh_from(_core.mesh(shape.points, shape.facets, count, inside, time_limit))
-
-    if vertices is not None:
-        return fill(vertices)
-    try:
-        return fill(10000)
-    except TooFewVertices:
-        return fill(0)
+    count = 10000 if vertices is None else vertices
+    arrays, note = _core.mesh(shape.points, shape.facets, count, inside, time_limit)
+    if note and vertices is not None:
+        warnings.warn(note, stacklevel=2)
+    return mesh_from(arrays)
 
 
 def _solution(found: Any, cage: Cage, domain: DomainMesh, warn: bool) -> Solution:

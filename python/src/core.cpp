@@ -51,8 +51,6 @@ std::string in_words_of_python(std::string message) {
 void translate(std::exception_ptr pointer) {
   try {
     if (pointer) std::rethrow_exception(pointer);
-  } catch (const TooFewVertices& error) {
-    set_error("TooFewVertices", error.what());
   } catch (const OptionError& error) {
     set_error("OptionError", error.what());
   } catch (const InputError& error) {

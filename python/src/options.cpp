@@ -176,7 +176,8 @@ py::dict as_dict(const SolveReport& report, const std::optional<Coordinates>& co
                                "phi_error"_a = report.distances.phi_error),
       "active_set"_a = py::dict("density"_a = report.active_set.density,
                                 "growths"_a = report.active_set.growths),
-      "coarse_levels"_a = levels_of(report), "min_weight"_a = quality.min_weight,
+      "coarse_levels"_a = levels_of(report), "mesh_error"_a = report.mesh_error,
+      "min_weight"_a = quality.min_weight,
       "max_partition_error"_a = quality.max_partition_error,
       "max_reproduction_error"_a = quality.max_reproduction_error,
       "mean_influences"_a = quality.mean_influences, "penalty"_a = report.published_penalty);

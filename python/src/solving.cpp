@@ -12,7 +12,7 @@
 
 #include "arrays.h"
 #include "flbc/errors.h"
-#include "flbc/meshing.h"
+#include "flbc/linked_meshers.h"
 #include "flbc/solver.h"
 #include "options.h"
 
@@ -29,56 +29,6 @@ void throw_if_interrupted() {
 
 // ---------------------------------------------------------------------------------------- meshing
 
-DomainMesh<2> fill([[maybe_unused]] const Cage<2>& cage,
-                   [[maybe_unused]] const MeshingOptions<2>& options) {
-#ifdef FLBC_WITH_CGAL
-  return triangulate(cage, options);
-#else
-  throw OptionError("this flbc was built without CGAL and cannot mesh 2D cages; give a DomainMesh");
-#endif
-}
-
-DomainMesh<3> fill([[maybe_unused]] const Cage<3>& cage,
-                   [[maybe_unused]] const MeshingOptions<3>& options) {
-#ifdef FLBC_WITH_TETGEN
-  return tetrahedralize(cage, options);
-#elif defined(FLBC_WITH_NETGEN)
-  return tetrahedralize_by_netgen(cage, options);
-#else
-  throw OptionError(
-      "this flbc was built without TetGen and Netgen and cannot mesh 3D cages; give a DomainMesh");
-#endif
-}
-
-// Netgen can mesh some cages on which TetGen fails.
-template <int Dim>
-DomainMesh<Dim> fill_by_any(const Cage<Dim>& cage, const MeshingOptions<Dim>& options) {
-#if defined(FLBC_WITH_TETGEN) && defined(FLBC_WITH_NETGEN)
-  if constexpr (Dim == 3) {
-    try {
-      return fill(cage, options);
-    } catch (const InputError& first) {
-      throw_if_interrupted();  // Ctrl-C also ends the process of TetGen
-      try {
-        return tetrahedralize_by_netgen(cage, options);
-      } catch (const Error&) {
-        throw InputError(first.what());
-      }
-    }
-  }
-#endif
-  return fill(cage, options);
-}
-
-template <int Dim>
-void require_sound(const Cage<Dim>& cage) {
-  validate(cage);
-#ifdef FLBC_WITH_CGAL
-  const auto defects = find_self_intersections(cage, 1);
-  if (!defects.empty()) throw InputError(defects.front().message);
-#endif
-}
-
 py::tuple mesh(const Doubles& points, const Indices& facets, Index vertices,
                const std::optional<Doubles>& embedded, double time_limit) {
   return by_dimension(points, [&](auto dim) -> py::tuple {
@@ -88,11 +38,12 @@ py::tuple mesh(const Doubles& points, const Indices& facets, Index vertices,
     options.vertices = vertices;
     options.time_limit = time_limit;
     if (embedded) options.embedded_points = points_of<kDim>(*embedded);
-    return as_python(without_gil([&] {
-      require_sound(cage);
+    const auto made = without_gil([&] {
+      validate(cage);
       options.embedded_points = embeddable_points(cage, options.embedded_points).points;
-      return mesh_in_parts<kDim>(cage, options, fill_by_any<kDim>);
-    }));
+      return make_domain(cage, options, linked_meshers<kDim>(), throw_if_interrupted);
+    });
+    return py::make_tuple(as_python(made.mesh), made.note);
   });
 }
 

@@ -251,7 +251,7 @@ TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
   for (const std::string method : {"harmonic", "meanvalue"}) {
     for (const std::string option :
          {"--tolerance 1e-5", "--penalty 10", "--phi linear", "--precision single",
-          "--max-iterations 9", "--distances exact", "--coarse-to-fine off", "--active off",
+          "--max-iterations 9", "--distances exact", "--active off",
           "--gap 1e-3", "--certify"}) {
       const auto name = option.substr(0, option.find(' '));
       expect_refused(solve + "--method " + method + ' ' + option, 1,
@@ -259,7 +259,7 @@ TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
     }
   }
   for (const std::string method : {"gradient", "paper", "lbc2014"}) {
-    for (const std::string option : {"--active", "--coarse-to-fine"}) {
+    for (const std::string option : {"--active"}) {
       expect_refused(solve + "--method " + method + ' ' + option + " off", 1,
                      option + ": the method " + method + " does not use it");
     }
@@ -364,7 +364,7 @@ TEST_F(CommandLine, ReportsOfOtherCoordinatesHaveAnObjective) {
   EXPECT_GT(objective("meanvalue"), 1.01 * least);
   EXPECT_GT(objective("harmonic"), 1.01 * least);
   // Without smoothness it is what flbc check calls the weighted variation.
-  const double variation = objective("weights --smoothness 0");
+  const double variation = objective("weights --smoothness 0 --distances exact");
   EXPECT_LT(variation, least);
   expect("check 2d/letter_cage.obj --domain d.obj --weights w.npy --json c.json");
   const auto check = json_in("c.json");

@@ -90,7 +90,7 @@ void solve_on_cells(Mutator& mutator) {
   mutator.damage(Argument::kIndices, cage.facets);
   SolverOptions options;
   options.max_iterations = 12;
-  openmesh::solve(mesh, cage, options, {}, {});
+  openmesh::solve(mesh, cage, options, {});
   openmesh::deform(mesh, some_pose(mutator));
 }
 

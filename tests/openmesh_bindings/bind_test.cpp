@@ -199,7 +199,7 @@ TEST(BindCage, DoubledVerticesOfACageAreNamed) {
 }
 
 TEST(BindCage, CrossingFacetsAreNamed) {
-  if (!openmesh::internal::kLinksCgal) GTEST_SKIP() << "without CGAL";
+  if (!internal::kLinksCgal) GTEST_SKIP() << "without CGAL";
   OpenMesh::TriMesh_ArrayKernelT<> model;
   model.add_vertex({0, 1.7F, 0});  // in one of the boxes
   const Cage<3> cage = join(box_cage<3>(Vector<3>(-1, -2, -1), Vector<3>(1, 2, 1)),

@@ -333,7 +333,6 @@ class Work {
     report("filling the cage", 0);
     auto made = app::make_domain<Dim>({cage_, kCageFile, options.value("vertices", 0)});
     set_mesh(std::move(made.mesh));
-    mesher_ = made.mesher;
     // Twice the time of the native program.
     const auto estimate = app::estimate_solve(Dim, cage_.size(), mesh_.num_vertices(), {});
     return from_json({{"vertices", mesh_.num_vertices()},
@@ -345,7 +344,6 @@ class Work {
   val set_mesh(DomainMesh<Dim> mesh) {
     solver_.reset();
     mesh_ = std::move(mesh);
-    mesher_ = app::Mesher::kAuto;
     return val::undefined();
   }
 
@@ -580,7 +578,6 @@ class Work {
   Cage<Dim> cage_;
   view::ShownCage<Dim> shown_;
   DomainMesh<Dim> mesh_;
-  app::Mesher mesher_ = app::Mesher::kAuto;
   OutsidePoints outside_ = OutsidePoints::kFail;
   Placement<Dim> placement_;
   // None if the cage has several parts, or if another worker solved.

@@ -123,6 +123,7 @@ void add(const SolveReport& part, SolveReport& whole) {
   whole.relative_dual_residual =
       std::max(whole.relative_dual_residual, part.relative_dual_residual);
   whole.objective += part.objective;
+  whole.mesh_error = std::max(whole.mesh_error, part.mesh_error);
   whole.distances.source = std::max(whole.distances.source, part.distances.source);
   whole.distances.vertices += part.distances.vertices;
   whole.distances.phi_error = std::max(whole.distances.phi_error, part.distances.phi_error);

@@ -97,7 +97,7 @@ std::optional<CoarseProblem<Dim>> coarse_geometry(const LbcProblem<Dim>& problem
 template <int Dim>
 std::optional<CoarseProblem<Dim>> coarse_problem(const LbcProblem<Dim>& problem,
                                                  const plan::Settings& settings) {
-  if (!plan::inherits(settings.method)) return {};
+  if (!plan::inherits(settings.method) || problem.phi.is_given()) return {};
   auto coarse = coarse_geometry(problem);
   if (coarse) set_phi(coarse->problem, settings.phi);
   return coarse;

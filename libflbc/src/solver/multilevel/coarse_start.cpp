@@ -37,6 +37,26 @@ bool solve_coarse(const LbcProblem<Dim>& problem, const plan::Settings& given,
   return report.status == SolveStatus::kStopped;
 }
 
+// SolveReport::mesh_error. \param coarse  weights on the coarse mesh
+template <int Dim>
+double mesh_error(const LbcProblem<Dim>& problem, const Weights& weights,
+                  const SparseWeights& coarse, const std::vector<std::array<Index, 2>>& ends) {
+  const auto& interior = problem.boundary.interior_vertices();
+  const auto count = static_cast<Index>(interior.size());
+  const double sum = parallel_sum(count, 0.0, [&](Index begin, Index end) {
+    double part = 0;
+    for (Index k = begin; k < end; ++k) {
+      const Index v = interior[k];
+      const auto [a, b] = ends[v];
+      const Eigen::VectorXd here = weights.is_sparse() ? weights.sparse.at(v) : weights.dense.col(v);
+      part += (here - (coarse.at(a) + coarse.at(b)) / 2).squaredNorm();
+    }
+    return part;
+  });
+  const double numbers = std::max(1.0, double(count) * problem.num_control_points());
+  return sum / numbers / plan::coarse_to_mesh_error(Dim);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -64,8 +84,11 @@ Weights solve_from_coarse(const LbcProblem<Dim>& problem, MethodRun<Dim>& run,
   auto settings = given;
   if (stopped) settings.max_iterations = 1;  // one iteration, to get weights on this mesh
   const double spent = watch.seconds();
-  const Transfer<Dim> transfer(coarse->problem, duals, problem, coarse->ends);
+  const auto ends = std::move(coarse->ends);
+  const Transfer<Dim> transfer(coarse->problem, duals, problem, ends);
+  SparseWeights coarse_weights;
   const auto forget = [&] {
+    coarse_weights = std::move(duals.weights);
     duals = {};
     coarse.reset();
   };
@@ -74,6 +97,7 @@ Weights solve_from_coarse(const LbcProblem<Dim>& problem, MethodRun<Dim>& run,
   if (stopped) report.status = SolveStatus::kStopped;
   report.seconds.solve += spent;
   report.coarse_levels = {level};
+  report.mesh_error = mesh_error(problem, weights, coarse_weights, ends);
   return weights;
 }
 

@@ -13,76 +13,27 @@
 #include <utility>
 #include <vector>
 
+#include "flbc/bind.h"
 #include "flbc/bounding_box.h"
-#include "flbc/meshing.h"
-#include "flbc/observer.h"
+#include "flbc/linked_meshers.h"
 #include "flbc/openmesh/convert.h"
 #include "flbc/openmesh/deform.h"
-#include "flbc/openmesh/meshers.h"
 #include "flbc/openmesh/sparsify.h"
 #include "flbc/openmesh/weights.h"
-#include "flbc/options.h"
-#include "flbc/placement.h"
-#include "flbc/report.h"
 
 namespace flbc::openmesh {
 
-//! Treatment of the model's vertices outside the cage (flbc/placement.h). With kNearest they follow
-//! the nearest point of the cage at a constant offset, and with kKeep they stay where they are.
-//! With kExtend they keep all their weights, whatever BindOptions::max_influences: negative weights
-//! cannot be reduced.
+//! Treatment of the model's vertices outside the cage (flbc/placement.h).
 using flbc::OutsidePoints;
+using flbc::BindReport;
 
 //! Options of bind().
-struct BindOptions {
-  //! Number of vertices of the domain mesh; 0: the minimum that element quality allows. The default
-  //! is increased automatically if a cage needs more.
-  Index vertices = kDefaultVertices;
-  static constexpr Index kDefaultVertices = 10000;  //!< same as for the program flbc
-
-  //! Method, tolerance, threads.
-  SolverOptions solver{};
-  //! Of the solve; poll() also during the reduction. What it throws leaves bind(), and the model is
-  //! unchanged.
-  Observer observer{};
-  Index max_influences = 8;                      //!< per vertex; 0 = keep all weights
-  Reduction reduction = Reduction::kPoisson;     //!< how influences are reduced
-  OutsidePoints outside = OutsidePoints::kFail;  //!< vertices outside the cage
-  std::string weights = kWeights;                //!< name of the property
-  bool persistent = false;                       //!< whether .om files store the properties
-};
-
-//! Report of bind().
-struct BindReport {
-  SolveReport solve{};  //!< on the domain mesh
-  Quality quality{};    //!< of the final weights on the model
-  Index outside = 0;    //!< number of vertices outside the cage
-  double mesh_seconds = 0, solve_seconds = 0, evaluate_seconds = 0, sparsify_seconds = 0;
+struct BindOptions : flbc::BindOptions {
+  std::string weights = kWeights;  //!< name of the property
+  bool persistent = false;         //!< whether .om files store the properties
 };
 
 namespace internal {
-
-//! The cage, domain and mesher to bind with. The mesher, which may be empty if there is a domain,
-//! makes the domain and coarser meshes.
-template <int Dim>
-struct BindInput {
-  const Cage<Dim>& cage;
-  const PointList<Dim>& points;
-  const EdgeList& edges;
-  const DomainMesh<Dim>* domain;  // may be null
-  Mesher<Dim> mesher;
-};
-
-//! Weights of points.
-template <int Dim>
-struct Binding {
-  SparseWeights weights;
-  RowBlock<double> offsets;  //!< of width 0 if no point lies outside
-  BindReport report;
-};
-
-template <int Dim>
-Binding<Dim> bind_points(const BindInput<Dim>& input, const BindOptions& options);
 
 //! The weights with at most `most` influences (0: any number) nearest to `weights` that reproduce a
 //! point. \param cage  Dim x n \throws InputError naming the vertex if no weights >= 0 reproduce it
@@ -219,13 +170,27 @@ void keep_rest(Mesh& mesh, const std::string& weights, bool persistent) {
   if (persistent) rest.set_persistent(true);
 }
 
+//! A row per point; of width 0 without points.
+template <int Dim>
+RowBlock<double> rows_of(const PointList<Dim>& points) {
+  RowBlock<double> rows(1, points.cols() == 0 ? 0 : Dim);
+  rows.resize(static_cast<std::size_t>(points.cols()));
+  for (Eigen::Index p = 0; p < points.cols(); ++p) {
+    for (int d = 0; d < Dim; ++d) {
+      rows[static_cast<std::size_t>(p)][static_cast<std::size_t>(d)] = points(d, p);
+    }
+  }
+  return rows;
+}
+
 template <int Dim, class Mesh>
 BindReport bind_to(Mesh& model, const Cage<Dim>& cage, const DomainMesh<Dim>* domain,
-                   const Mesher<Dim>& mesher, const BindOptions& options) {
+                   const Meshers<Dim>& meshers, const BindOptions& options) {
   if constexpr (!std::is_same_v<Mesh, TetMesh>) refuse_deleted_elements(model);
   const auto points = points_of<Dim>(model);
   const auto edges = edge_list_at<Dim>(model, points);
-  auto binding = bind_points<Dim>({cage, points, edges, domain, mesher}, options);
+  auto binding = domain != nullptr ? flbc::bind<Dim>(cage, *domain, points, edges, options)
+                                   : flbc::bind<Dim>(cage, points, edges, options, meshers);
   if (options.max_influences > 0) {
     const Index most = options.outside == OutsidePoints::kExtend
                            ? 0
@@ -235,7 +200,7 @@ BindReport bind_to(Mesh& model, const Cage<Dim>& cage, const DomainMesh<Dim>* do
   } else {
     set_weights(model, binding.weights.dense(), options.weights, options.persistent);
   }
-  set_offsets(model, binding.offsets, options.weights, options.persistent);
+  set_offsets(model, rows_of(binding.offsets), options.weights, options.persistent);
   set_rest_cage(model, cage.points, options.weights, options.persistent);
   keep_rest(model, options.weights, options.persistent);
   return std::move(binding.report);
@@ -247,8 +212,8 @@ BindReport bind_to(Mesh& model, const Cage<Dim>& cage, const DomainMesh<Dim>* do
 //! and reduces influences. The weights become a property, which deform() uses to move the model.
 //! The current vertex positions become the rest positions; restore_rest() restores them.
 //!
-//! The domain mesh comes from tetrahedralize(), or from triangulate() for a cage in the plane. Link
-//! the component flbc::tetgen or flbc::cgal.
+//! The domain mesh comes from the mesher that the program links (flbc/linked_meshers.h): flbc::cgal
+//! for a cage in the plane, flbc::tetgen or flbc::netgen for a surface.
 //! \param model  a mesh of triangles or polygons, with points of floats or doubles, or a TetMesh
 //! \param cage  a Cage, or a mesh: a closed surface, or a planar mesh whose boundary is the cage
 //! (points with two coordinates)
@@ -258,19 +223,18 @@ template <class Model, class AnyCage>
 BindReport bind(Model& model, const AnyCage& any_cage, const BindOptions& options = {}) {
   const auto cage = internal::as_cage(any_cage);
   if constexpr (std::is_same_v<std::decay_t<decltype(cage)>, Cage<2>>) {
-    return internal::bind_to<2>(model, cage, nullptr, triangulate, options);
+    return internal::bind_to<2>(model, cage, nullptr, linked_meshers<2>(), options);
   } else {
-    return internal::bind_to<3>(model, cage, nullptr, tetrahedralize, options);
+    return internal::bind_to<3>(model, cage, nullptr, linked_meshers<3>(), options);
   }
 }
 
-//! The same with a given domain mesh, which needs no component. If a mesher component is linked,
-//! the solve may use it for a multilevel start.
+//! The same with a given domain mesh, which needs no component.
 //! \param domain  see normalize_and_validate()
 template <class Model, int Dim>
 BindReport bind(Model& model, const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
                 const BindOptions& options = {}) {
-  return internal::bind_to<Dim>(model, cage, &domain, internal::linked_mesher<Dim>(), options);
+  return internal::bind_to<Dim>(model, cage, &domain, {}, options);
 }
 
 //! Binds vertices that were added after bind(), for example by split(). They get the mean of the

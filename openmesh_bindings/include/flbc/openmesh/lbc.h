@@ -9,7 +9,6 @@
 
 #include "flbc/openmesh/deform.h"
 #include "flbc/openmesh/gradients.h"
-#include "flbc/openmesh/meshers.h"
 #include "flbc/openmesh/weights.h"
 #include "flbc/solver.h"
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <type_traits>
 
+#include "flbc/bind.h"
 #include "flbc/deform.h"
 #include "flbc/openmesh/convert.h"
 #include "flbc/openmesh/weights.h"
@@ -15,11 +16,7 @@
 
 namespace flbc::openmesh {
 
-//! How influences are reduced.
-enum class Reduction {
-  kPoisson,   //!< jointly for all vertices, without seams: reduce_by_poisson()
-  kQuadratic  //!< each vertex independently, faster: flbc::sparsify()
-};
+using flbc::Reduction;
 
 //! Options of sparsify().
 struct ReductionOptions {
