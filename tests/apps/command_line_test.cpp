@@ -116,9 +116,9 @@ TEST_F(CommandLine, TellsWhatIsInAFile) {
   expect("solve 2d/ring_cage.obj --method harmonic --vertices 500 -o w.npy");
   result = run("info w.npy");
   EXPECT_NE(result.output.find("for 22 control points"), std::string::npos) << result.output;
-  expect("convert -q w.npy -o w.txt");
+  expect("convert -q w.npy -o w.mtx");
   const auto words = [](const std::string& info) { return info.substr(info.find(": ")); };
-  EXPECT_EQ(words(run("info w.txt").output), words(result.output));
+  EXPECT_EQ(words(run("info w.mtx").output), words(result.output));
   for (const std::string mesh : {"d.obj", "d.mesh"}) {
     SCOPED_TRACE(mesh);
     const std::string cage = mesh == "d.obj" ? "2d/ring_cage.obj" : "3d/torus_cage.obj";

@@ -24,10 +24,9 @@ TEST_F(Formats, ExtensionsTellWhatFilesHold) {
   EXPECT_TRUE(holds("a.vtu", {io::kMesh<3>}));
   EXPECT_TRUE(holds("a.vtu", {io::kMesh<2>}));
   EXPECT_FALSE(holds("a.stl", {Content::kColors}));
-  for (const char* unknown : {"obj", "a.", "a.xyz", "-", ""}) {
-    EXPECT_FALSE(holds(unknown, {Content::kModel, Content::kTriplets})) << unknown;
+  for (const char* unknown : {"obj", "a.", "a.txt", "-", ""}) {
+    EXPECT_FALSE(holds(unknown, {Content::kModel, Content::kWeights})) << unknown;
   }
-  EXPECT_EQ(io::extensions_of({Content::kTriplets}), ".txt");
   EXPECT_EQ(io::extensions_of({Content::kFields}), ".vtu or .mesh");
   EXPECT_EQ(io::extensions_of({Content::kWeights}), ".mtx, .dmat, .npy, .csv, .mat or .lbw");
 }
@@ -37,7 +36,7 @@ template <int Dim>
 void expect_meshes_return(const std::string& path) {
   const auto mesh = samples<Dim>().front().mesh;
   for (const std::string extension : {"obj", "off", "ply", "stl", "om", "vtu", "mesh", "node",
-                                      "ele", "msh", "mtx", "dmat", "npy", "csv", "mat", "txt"}) {
+                                      "ele", "msh", "mtx", "dmat", "npy", "csv", "mat"}) {
     SCOPED_TRACE(extension);
     const auto file = path + "." + extension;
     if (holds(file, {io::kMesh<Dim>})) {

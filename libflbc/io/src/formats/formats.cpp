@@ -38,7 +38,6 @@ constexpr Format kFormats[] = {
     {"csv", {}, {}, {}, {read_csv, write_csv}},
     {"mat", {}, {}, {}, {read_mat, write_mat}},
     {"lbw", {}, {}, {}, {nullptr, nullptr, read_lbw, write_lbw}},
-    {"txt"},  // flbc/io/weights_triplets.h
 };
 
 bool has(const Format& format, Content content) {
@@ -51,8 +50,6 @@ bool has(const Format& format, Content content) {
       return format.mesh_3d.read;
     case Content::kWeights:
       return format.weights.read || format.weights.read_sparse;
-    case Content::kTriplets:
-      return format.extension == "txt";
     case Content::kColors:
       return format.model.attributes != Attributes::kNone;
     case Content::kFields:
