@@ -75,7 +75,7 @@ void add_convert_command(CLI::App& app, int&) {
   auto* command =
       app.add_subcommand("convert", "convert weights, a mesh, or a model to another format");
   command->footer(
-      "Weights: .mtx, .dmat, .npy, .csv, .mat. Conversions between them are lossless. Also .lbw,\n"
+      "Weights: .mtx, .dmat, .npy, .csv. Conversions between them are lossless. Also .lbw,\n"
       "for graphics cards: single precision, at most 8 influences per vertex (flbc sparsify -k "
       "8).\n"
       "Models: .obj, .off, .ply, .stl, .om, .glb; .gltf is only read. Meshes: 2D .obj, .off,\n"

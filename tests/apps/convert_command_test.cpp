@@ -38,7 +38,7 @@ class ConvertCommand : public CommandLineTest {
 };
 
 TEST_F(ConvertCommand, WeightsBetweenAllFormats) {
-  const std::string formats[] = {"npy", "dmat", "mtx", "csv", "mat"};
+  const std::string formats[] = {"npy", "dmat", "mtx", "csv"};
   const auto weights = write_weights("a.npy");
   for (const auto& from : formats) {
     if (from != "npy") expect_converted("a.npy -o a." + from);
@@ -130,8 +130,8 @@ TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
   const auto to = [&](const std::string& name) { return " -o " + name; };
   expect_refused("a.npy" + to("b.obj"), 1, "b.obj: weights cannot be written as a mesh");
   expect_refused(model + to("b.npy"), 1, "b.npy: a mesh cannot be written as weights");
-  expect_refused("a.txt" + to("b.npy"), 1, "weights end in .mtx, .dmat, .npy, .csv, .mat or .lbw");
-  expect_refused("a.npy" + to("b.txt"), 1, "must end in .mtx, .dmat, .npy, .csv, .mat or .lbw");
+  expect_refused("a.txt" + to("b.npy"), 1, "weights end in .mtx, .dmat, .npy, .csv or .lbw");
+  expect_refused("a.npy" + to("b.txt"), 1, "must end in .mtx, .dmat, .npy, .csv or .lbw");
   expect_refused(model + to("b.xls"), 1, "b.xls: unknown file format");
   expect_refused(model + to("b.msh"), 1, "b.msh: " + model + " holds no tetrahedra");
   expect_refused("a.vtu" + to("b.obj"), 1, "b.obj: a.vtu holds tetrahedra");

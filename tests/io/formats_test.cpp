@@ -28,7 +28,7 @@ TEST_F(Formats, ExtensionsTellWhatFilesHold) {
     EXPECT_FALSE(holds(unknown, {Content::kModel, Content::kWeights})) << unknown;
   }
   EXPECT_EQ(io::extensions_of({Content::kFields}), ".vtu or .mesh");
-  EXPECT_EQ(io::extensions_of({Content::kWeights}), ".mtx, .dmat, .npy, .csv, .mat or .lbw");
+  EXPECT_EQ(io::extensions_of({Content::kWeights}), ".mtx, .dmat, .npy, .csv or .lbw");
 }
 
 // What the table says a mesh can be written to, it can be read from.
@@ -36,7 +36,7 @@ template <int Dim>
 void expect_meshes_return(const std::string& path) {
   const auto mesh = samples<Dim>().front().mesh;
   for (const std::string extension : {"obj", "off", "ply", "stl", "om", "vtu", "mesh", "node",
-                                      "ele", "msh", "mtx", "dmat", "npy", "csv", "mat"}) {
+                                      "ele", "msh", "mtx", "dmat", "npy", "csv"}) {
     SCOPED_TRACE(extension);
     const auto file = path + "." + extension;
     if (holds(file, {io::kMesh<Dim>})) {

@@ -36,7 +36,6 @@ constexpr Format kFormats[] = {
     {"dmat", {}, {}, {}, {read_dmat, write_dmat}},
     {"npy", {}, {}, {}, {read_npy, write_npy}},
     {"csv", {}, {}, {}, {read_csv, write_csv}},
-    {"mat", {}, {}, {}, {read_mat, write_mat}},
     {"lbw", {}, {}, {}, {nullptr, nullptr, read_lbw, write_lbw}},
 };
 

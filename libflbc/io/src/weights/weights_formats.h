@@ -24,7 +24,6 @@ SparseWeights read_mtx(const std::string& path, std::string content);
 WeightMatrix read_dmat(const std::string& path, std::string content);
 WeightMatrix read_npy(const std::string& path, std::string content);
 WeightMatrix read_csv(const std::string& path, std::string content);
-WeightMatrix read_mat(const std::string& path, std::string content);
 
 //! Checks that weights are finite, because readers reject other values. \throws InputError naming
 //! the first one
@@ -35,7 +34,6 @@ void write_mtx(std::ostream& out, const SparseWeights& weights);
 void write_dmat(std::ostream& out, const WeightMatrix& weights);
 void write_npy(std::ostream& out, const WeightMatrix& weights);
 void write_csv(std::ostream& out, const WeightMatrix& weights);
-void write_mat(std::ostream& out, const WeightMatrix& weights);
 
 //! Maximum number of matrix elements (8 MiB) that a file may declare without storing. In a larger
 //! matrix, each row and column must have an element, because weights sum to 1.
