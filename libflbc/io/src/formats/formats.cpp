@@ -32,11 +32,11 @@ constexpr Format kFormats[] = {
     {"node", {}, {}, kTetGen},
     {"ele", {}, {}, kTetGen},
     {"msh", {}, {}, {read_gmsh, write_gmsh}},
-    {"mtx", {}, {}, {}, {nullptr, nullptr, read_mtx, write_mtx}},
+    {"mtx", {}, {}, {}, {read_mtx, write_mtx}},
     {"dmat", {}, {}, {}, {read_dmat, write_dmat}},
     {"npy", {}, {}, {}, {read_npy, write_npy}},
     {"csv", {}, {}, {}, {read_csv, write_csv}},
-    {"lbw", {}, {}, {}, {nullptr, nullptr, read_lbw, write_lbw}},
+    {"lbw", {}, {}, {}, {read_lbw, write_lbw}},
 };
 
 bool has(const Format& format, Content content) {
@@ -48,7 +48,7 @@ bool has(const Format& format, Content content) {
     case Content::kMesh3D:
       return format.mesh_3d.read;
     case Content::kWeights:
-      return format.weights.read || format.weights.read_sparse;
+      return format.weights.read;
     case Content::kColors:
       return format.model.attributes != Attributes::kNone;
     case Content::kFields:
