@@ -21,14 +21,14 @@ struct ConvertArguments {
 void check_weight_arguments(const WeightConversion& files) {
   if (io::holds(files.output, kMeshFiles))
     throw OptionError(files.output + ": weights cannot be written as a mesh; choose from " +
-                      io::extensions_of(kWeightFiles));
-  require_writable(files.output, kWeightFiles);
+                      io::extensions_of({io::Content::kWeights}));
+  require_writable(files.output, {io::Content::kWeights});
 }
 
 void check_mesh_arguments(const WeightConversion& files) {
   if (!io::holds(files.input, kMeshFiles)) {
     throw OptionError(files.input + ": unknown file format; weights end in " +
-                      io::extensions_of(kWeightFiles) + ", meshes in " +
+                      io::extensions_of({io::Content::kWeights}) + ", meshes in " +
                       io::extensions_of(kMeshFiles) + io::conversion_hint(files.input));
   }
   if (is_weight_file(files.output))
@@ -75,10 +75,9 @@ void add_convert_command(CLI::App& app, int&) {
   auto* command =
       app.add_subcommand("convert", "convert weights, a mesh, or a model to another format");
   command->footer(
-      "Weights: .mtx, .dmat, .npy, .csv, .mat, and .txt with \"CONTROL_POINT POINT WEIGHT\" on "
-      "every line,\n"
-      "numbered from 0. Conversions between them are lossless. Also .lbw, for graphics cards:\n"
-      "single precision, at most 8 influences per vertex (flbc sparsify -k 8).\n"
+      "Weights: .mtx, .dmat, .npy, .csv. Conversions between them are lossless. Also .lbw,\n"
+      "for graphics cards: single precision, at most 8 influences per vertex (flbc sparsify -k "
+      "8).\n"
       "Models: .obj, .off, .ply, .stl, .om, .glb; .gltf is only read. Meshes: 2D .obj, .off,\n"
       ".vtu; 3D .mesh, .node, .ele, .msh, .vtu. The program reports attributes that the new "
       "format\n"
@@ -90,8 +89,7 @@ void add_convert_command(CLI::App& app, int&) {
                       "cage of the weights, to check the number of control points");
   command->add_option("--points", a.points,
                       "model or mesh of the weights, to check the number of vertices");
-  command->add_flag("--transpose", a.transpose,
-                    "read control points as rows (in .txt: POINT CONTROL_POINT WEIGHT)");
+  command->add_flag("--transpose", a.transpose, "read control points as rows");
   command->add_flag("-q,--quiet", arguments->quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);

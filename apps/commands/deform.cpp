@@ -419,9 +419,8 @@ void add_deform_command(CLI::App& app, int&) {
       ->add_option("-o,--output", a.file.output,
                    "deformed model or mesh; for several poses, a pattern such as out_%03d.obj")
       ->required();
-  command->add_option(
-      "--displacement", a.displacement,
-      "write displacement lengths, one column per pose: .npy, .dmat, .mtx, .csv, .mat");
+  command->add_option("--displacement", a.displacement,
+                      "write displacement lengths, one column per pose: .npy, .dmat, .mtx, .csv");
   command->add_flag("--show-displacement", a.file.shows_displacement,
                     "write displacement lengths as vertex colors, or as a field in .vtu and .mesh");
   command->add_flag("-q,--quiet", a.quiet, "print only errors");

@@ -13,6 +13,7 @@
 #include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/point_file.h"
+#include "flbc/io/weights_io.h"
 #include "flbc/meshing.h"
 #include "flbc/quality.h"
 #include "report/facts.h"
@@ -39,7 +40,7 @@ bool are_points(const WeightMatrix& rows) {
 }
 
 void print_weights(const std::string& path) {
-  const WeightMatrix weights = read_weight_file(path).dense();
+  const WeightMatrix weights = io::read_weights(path).dense();
   if (weights.size() > 0 && are_points(weights)) {
     std::cout << path << ": " << weights.cols() << " points in " << weights.rows() << "D\n";
     return print_box(weights);

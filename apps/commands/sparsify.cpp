@@ -16,7 +16,6 @@
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
-#include "flbc/io/weights_triplets.h"
 #include "flbc/placement.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
@@ -72,10 +71,6 @@ ConnectedPoints<Dim> load_connected_points(const std::string& path) {
 template <int Dim>
 SparseWeights load_weights(const SparsifyArguments& arguments, const PointList<Dim>& control_points,
                            const PointList<Dim>& points) {
-  if (io::holds(arguments.weights, {io::Content::kTriplets})) {
-    return io::read_weight_triplets(arguments.weights, static_cast<Index>(control_points.cols()),
-                                    static_cast<Index>(points.cols()));
-  }
   auto weights = io::read_weights(arguments.weights);
   check_sizes(weights, control_points.cols(), points.cols(),
               {arguments.weights, arguments.cage, arguments.points});
@@ -162,11 +157,7 @@ void add_sparsify_command(CLI::App& app, int&) {
   command->footer(
       "The result has weights >= 0 that sum to 1 and reproduce the vertices, even if WEIGHTS do "
       "not.");
-  command
-      ->add_option("WEIGHTS", a.weights,
-                   std::string("weights: ") + kWeightFormats +
-                       ", or .txt with \"CONTROL_POINT POINT WEIGHT\" on every line")
-      ->required();
+  command->add_option("WEIGHTS", a.weights, std::string("weights: ") + kWeightFormats)->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
   command->add_option("--points", a.points, "model or mesh whose vertices have these weights")
       ->required();

@@ -4,9 +4,6 @@
 
 #include <string>
 
-#include "flbc/io/formats.h"
-#include "flbc/sparse_weights.h"
-
 namespace flbc::app {
 
 //! A conversion of weights, with the cage and points that belong to them if given.
@@ -18,17 +15,11 @@ struct WeightConversion {
   bool transpose = false;  //!< the input has control points as rows
 };
 
-constexpr std::initializer_list<io::Content> kWeightFiles = {io::Content::kWeights,
-                                                             io::Content::kTriplets};
-
 //! By the extension.
 bool is_weight_file(const std::string& path);
 
-//! Weights in any format. \throws IoError, InputError
-SparseWeights read_weight_file(const std::string& path);
-
-//! Reads weights and writes them in another format; missing or dropped data are reported unless
-//! `quiet`. \throws IoError; InputError, also if the weights do not fit cage or points
+//! Reads weights and writes them in another format, and prints their size unless `quiet`. \throws
+//! IoError; InputError, also if the weights do not fit cage or points
 void convert_weights(const WeightConversion& conversion, bool quiet);
 
 }  // namespace flbc::app

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "files/convert_weights.h"
 #include "files/load.h"
 #include "files/model_facets.h"
 #include "flbc/bounding_box.h"
@@ -19,6 +18,7 @@
 #include "flbc/io/formats.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
+#include "flbc/io/weights_io.h"
 #include "flbc/names.h"
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
@@ -102,7 +102,7 @@ Solution compute_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
   if (settings.phi.empty()) return flbc::solve(cage, domain, options, observer);
   auto problem =
       make_problem(cage, domain, DistanceScheme::kConstant, *resolve(options).smoothness);
-  problem.phi = WeightFunctions(read_weight_file(settings.phi).dense());
+  problem.phi = WeightFunctions(io::read_weights(settings.phi).dense());
   return naming(settings.phi, [&] { return flbc::solve(problem, options, observer); });
 }
 

@@ -13,6 +13,16 @@ CASES = [("armadillo", "armadillo_cage.obj", "armadillo.obj", None, (4, 6, 8)),
 ANIMATION = "arm_cageAnim.txt"  # of the arm's cage
 
 
+def as_mtx(triplets, path):
+    """Lines CONTROL_POINT POINT WEIGHT as a Matrix Market file."""
+    entries = [line.split() for line in triplets.read_text().splitlines()]
+    controls, points = (max(int(entry[k]) for entry in entries) + 1 for k in (0, 1))
+    lines = ["%%MatrixMarket matrix coordinate real general", f"{points} {controls} {len(entries)}"]
+    lines += [f"{int(point) + 1} {int(control) + 1} {weight}" for control, point, weight in entries]
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
 def moved(cage, displacements, path):
     """The cage with its control points displaced."""
     rows = iter(displacements)
@@ -67,8 +77,9 @@ def sparsify(context):
             if context.quick and title == "armadillo":
                 continue
             cage, model = folder_3d / cage, folder_3d / model
-            yield title, functools.partial(reduce, context, title, cage, model, weights and folder_3d / weights,
-                                           counts, folder)
+            yield title, functools.partial(reduce, context, title, cage, model,
+                                           weights and as_mtx(folder_3d / weights, folder / "weights.mtx"), counts,
+                                           folder)
 
 
 def reduce(context, title, cage, model, weights, counts, folder):

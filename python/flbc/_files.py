@@ -201,7 +201,7 @@ def read_weights(path: Path) -> Weights:
     Parameters
     ----------
     path : str or path
-        .npy, .dmat, .txt (dense), or .mtx (sparse).
+        .npy, .dmat, .csv, .lbw (dense), or .mtx (sparse).
 
     Returns
     -------
@@ -220,7 +220,7 @@ def write_weights(path: Path, weights: Weights) -> None:
     Parameters
     ----------
     path : str or path
-        .npy, .dmat, .txt, .mtx, or .lbw, which holds at most 8 influences per vertex.
+        .npy, .dmat, .csv, .mtx, or .lbw, which holds at most 8 influences per vertex.
     weights : array_like or sparse matrix, shape (P, n)
 
     Raises

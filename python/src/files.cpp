@@ -11,7 +11,6 @@
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
-#include "flbc/io/weights_triplets.h"
 #include "flbc/placement.h"
 #include "gltf/skin.h"
 #include "view/page.h"
@@ -104,20 +103,14 @@ void write_mesh(const std::string& path, const Doubles& vertices, const Indices&
 }
 
 py::object read_weights(const std::string& path) {
-  auto weights = without_gil([&] {
-    return holds(path, io::Content::kTriplets) ? io::read_weight_triplets(path)
-                                               : io::read_weights(path);
-  });
+  auto weights = without_gil([&] { return io::read_weights(path); });
   if (io::extension_of(path) == "mtx") return as_python(std::move(weights));
   return as_array(without_gil([&] { return weights.dense(); }));
 }
 
 void write_weights(const std::string& path, const py::object& weights) {
   const auto given = weights_of(weights);
-  without_gil([&] {
-    holds(path, io::Content::kTriplets) ? io::write_weight_triplets(path, given)
-                                        : io::write_weights(path, given);
-  });
+  without_gil([&] { io::write_weights(path, given); });
 }
 
 // ------------------------------------------------------------------------------- engines and pages

@@ -10,7 +10,7 @@ import scipy.sparse
 from conftest import MESHES
 
 
-@pytest.mark.parametrize("ending", ["npy", "dmat", "txt", "mtx"])
+@pytest.mark.parametrize("ending", ["npy", "dmat", "csv", "mtx"])
 def test_weights(tmp_path, flat, ending):
     path = tmp_path / f"weights.{ending}"
     weights = flat.weights

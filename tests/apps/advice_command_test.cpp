@@ -159,9 +159,6 @@ flbc convert x.npy --cage square.obj --points model.obj --transpose -o y.npy
 # : has points as rows; leave out --transpose
 2 flbc convert w.npy --cage square.obj --points model.obj --transpose -o x.npy
 flbc convert w.npy --cage square.obj --points model.obj -o x.npy
-# Check them with --cage and --points
-0 flbc convert w.npy -o x.txt && flbc convert x.txt -o y.npy
-flbc convert x.txt --cage square.obj --points model.obj -o y.npy
 # save the array with astype('<f8')
 2 sed 's/<f8/>f8/' w.npy >x.npy; flbc info x.npy
 flbc info w.npy

@@ -116,9 +116,9 @@ TEST_F(CommandLine, TellsWhatIsInAFile) {
   expect("solve 2d/ring_cage.obj --method harmonic --vertices 500 -o w.npy");
   result = run("info w.npy");
   EXPECT_NE(result.output.find("for 22 control points"), std::string::npos) << result.output;
-  expect("convert -q w.npy -o w.txt");
+  expect("convert -q w.npy -o w.mtx");
   const auto words = [](const std::string& info) { return info.substr(info.find(": ")); };
-  EXPECT_EQ(words(run("info w.txt").output), words(result.output));
+  EXPECT_EQ(words(run("info w.mtx").output), words(result.output));
   for (const std::string mesh : {"d.obj", "d.mesh"}) {
     SCOPED_TRACE(mesh);
     const std::string cage = mesh == "d.obj" ? "2d/ring_cage.obj" : "3d/torus_cage.obj";
@@ -234,7 +234,7 @@ TEST_F(CommandLine, WrongUsageIsStatus1) {
   expect_refused("solve " + cage + o + " --threads -1", 1, "threads must be in");
   expect_refused("solve " + cage + o + " --embed", 1, "--model");
   expect_refused("solve " + cage + o + " --domain a.obj --vertices 100", 1, "--domain");
-  expect_refused("solve " + cage + " -o w.xls", 1, ".mtx, .dmat, .npy, .csv, .mat or .lbw");
+  expect_refused("solve " + cage + " -o w.xls", 1, ".mtx, .dmat, .npy, .csv or .lbw");
   expect_refused("mesh " + cage + " -o d.mesh", 1, ".obj, .off or .vtu");
   expect_refused("solve cage.xyz" + o, 1, "cage.xyz");
   for (const std::string count : {"0", "abc", "1e9", "99999999999"}) {
@@ -335,7 +335,7 @@ TEST_F(CommandLine, PointsAsNumbersAndFunctionsAsFields) {
     EXPECT_EQ(io::read_weights("w.npy").dense(), expected) << list;
     expect("check " + cage + " --model " + list + " --weights w.npy");
     expect("sparsify w.npy --cage " + cage + " --points " + list + " -k 4 -q -o s.mtx");
-    expect("convert w.npy -q --points " + list + " -o w.mat");
+    expect("convert w.npy -q --points " + list + " -o w.dmat");
   }
   expect(solve + "w.npy --model " + file("q.csv", "1,2,3\n"), 2,
          "q.csv: holds 1 rows of 3 numbers; points need 2 coordinates");

@@ -7,7 +7,6 @@
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
-#include "flbc/io/weights_triplets.h"
 #include "support/command_line.h"
 #include "support/io_files.h"
 #include "support/sample_meshes.h"
@@ -25,10 +24,7 @@ class ConvertCommand : public CommandLineTest {
     CommandLineTest::expect_refused("convert " + arguments, status, words);
   }
 
-  WeightMatrix read(const std::string& name) const {
-    const bool are_triplets = name.substr(name.size() - 3) == "txt";
-    return are_triplets ? io::read_weight_triplets(name).dense() : io::read_weights(name).dense();
-  }
+  WeightMatrix read(const std::string& name) const { return io::read_weights(name).dense(); }
 
   // Five points and three control points, without weights of the last of either.
   WeightMatrix write_weights(const std::string& name) const {
@@ -42,7 +38,7 @@ class ConvertCommand : public CommandLineTest {
 };
 
 TEST_F(ConvertCommand, WeightsBetweenAllFormats) {
-  const std::string formats[] = {"npy", "dmat", "mtx", "csv", "mat", "txt"};
+  const std::string formats[] = {"npy", "dmat", "mtx", "csv"};
   const auto weights = write_weights("a.npy");
   for (const auto& from : formats) {
     if (from != "npy") expect_converted("a.npy -o a." + from);
@@ -56,26 +52,16 @@ TEST_F(ConvertCommand, WeightsBetweenAllFormats) {
       EXPECT_EQ(slurp(back), slurp("a." + from)) << from << " " << to;
     }
   }
-  EXPECT_EQ(run("convert -q a.npy -o d.txt").errors, "");
+  EXPECT_EQ(run("convert -q a.npy -o d.csv").errors, "");
 }
 
-TEST_F(ConvertCommand, SizesOfTripletsAreTheLargestNumbersOrThoseOfTheFiles) {
-  const auto weights = file("w.txt", "0 0 1\n1 1 0.5\n0 1 0.5\n1 2 1\n");
-  const auto cage = file("cage.obj", "v 0 0\nv 1 0\n");
-  const auto points = file("points.obj", "v 0 0\nv 0.5 0\nv 1 0\n");
-  const std::string o = " -o o.npy";
-  expect_converted(weights + o, "w.txt does not contain these numbers; they are the largest");
-  expect_converted(weights + o + " --cage " + cage, "does not contain these numbers");
-  const auto fit = weights + o + " --cage " + cage + " --points " + points;
-  EXPECT_EQ(run("convert " + fit).errors, "o.npy: weights of 3 points for 2 control points\n");
-  expect_refused(weights + o + " --cage " + points, 2,
-                 "w.txt: has weights for 2 control points, but " + points + " has 3");
-  expect_refused(weights + o + " --points " + cage, 2,
-                 "w.txt: has weights of 3 points, but " + cage + " has 2 vertices");
-  // The same holds for weights that know their size.
-  expect_refused("o.npy -o p.npy --points " + cage, 2, "o.npy: has weights of 3 points");
-  expect_refused(file("bad.txt", "0 0 1\n0 1\n") + o + "2.npy", 2, "bad.txt:2: ");
-  expect_refused(file("empty.txt", "") + " -o p.npy", 2, "empty.txt: has no weights");
+TEST_F(ConvertCommand, SizesAreThoseOfTheFiles) {
+  write_weights("a.npy");
+  const auto few = file("few.obj", "v 0 0\nv 1 0\n");
+  expect_refused("a.npy -o b.npy --cage " + few, 2,
+                 "a.npy: has weights for 3 control points, but few.obj has 2");
+  expect_refused("a.npy -o b.npy --points " + few, 2,
+                 "a.npy: has weights of 5 points, but few.obj has 2 vertices");
 }
 
 TEST_F(ConvertCommand, Transpose) {
@@ -84,12 +70,6 @@ TEST_F(ConvertCommand, Transpose) {
   io::write_weights("t.npy", weights.transpose());
   expect_converted("t.npy --transpose -o b.npy");
   EXPECT_TRUE(bit_equal(read("b.npy"), weights));
-  // Of triplets the first two numbers change places.
-  expect_converted(file("t.txt", "4 0 0.5\n2 1 0.25\n") + " --transpose -o c.txt");
-  WeightMatrix expected = WeightMatrix::Zero(2, 5);
-  expected(0, 4) = 0.5;
-  expected(1, 2) = 0.25;
-  EXPECT_EQ(read("c.txt"), expected);
 
   const auto points = file("points.obj", "v 0 0\nv 0 0\nv 0 0\nv 0 0\nv 0 0\n");
   const auto files = " --cage " + cage + " --points " + points + " -o d.npy";
@@ -150,8 +130,8 @@ TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
   const auto to = [&](const std::string& name) { return " -o " + name; };
   expect_refused("a.npy" + to("b.obj"), 1, "b.obj: weights cannot be written as a mesh");
   expect_refused(model + to("b.npy"), 1, "b.npy: a mesh cannot be written as weights");
-  expect_refused("a.xls" + to("b.npy"), 1, "a.xls: unknown file format");
-  expect_refused("a.npy" + to("b.xls"), 1, "b.xls: unknown file format");
+  expect_refused("a.txt" + to("b.npy"), 1, "weights end in .mtx, .dmat, .npy, .csv or .lbw");
+  expect_refused("a.npy" + to("b.txt"), 1, "must end in .mtx, .dmat, .npy, .csv or .lbw");
   expect_refused(model + to("b.xls"), 1, "b.xls: unknown file format");
   expect_refused(model + to("b.msh"), 1, "b.msh: " + model + " holds no tetrahedra");
   expect_refused("a.vtu" + to("b.obj"), 1, "b.obj: a.vtu holds tetrahedra");

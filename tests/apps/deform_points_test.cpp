@@ -162,12 +162,12 @@ TEST_F(DeformPoints, RefusesVtuThatItCannotRewrite) {
     EXPECT_FALSE(std::filesystem::exists("q.vtu"));
   };
   refuses("UInt64\"", "UInt64\" compressor=\"vtkZLibDataCompressor\"", "compressed");
-  refuses("LittleEndian", "BigEndian", "byte order \"BigEndian\"");
-  refuses("\"UInt64\"", "\"UInt16\"", "header type \"UInt16\"");
+  refuses("LittleEndian", "BigEndian", "byte_order \"BigEndian\"");
+  refuses("\"UInt64\"", "\"UInt16\"", "header_type \"UInt16\"");
   refuses("\"raw\"", "\"base64\"", "encoding \"base64\"");
   refuses("NumberOfPoints=\"70000\"", "NumberOfPoints=\"70001\"", "1680000 bytes, not 1680024");
   refuses("NumberOfPoints=\"70000\"", "NumberOfPoints=\"-1\"", "NumberOfPoints \"-1\"");
-  refuses("NumberOfComponents=\"3\"", "NumberOfComponents=\"2\"", "3 components");
+  refuses("NumberOfComponents=\"3\"", "NumberOfComponents=\"2\"", "NumberOfComponents \"2\"");
   refuses("offset=\"560008\"", "offset=\"1e9\"", "offset \"1e9\"");
   refuses("offset=\"560008\"", "offset=\"9223372036854775807\"", "too short");
   refuses("</Piece>", "</Piece><Piece/>", "more than one piece");

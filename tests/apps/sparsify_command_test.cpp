@@ -30,10 +30,8 @@ class SparsifyCommand : public CommandLineTest {
   std::string square() const {
     file("cage.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nl 1 2 3 4 1\n");
     file("model.obj", "v 2 2 0\nv 1 2 0\n");
-    file("w.txt",
-         "0 0 0.25\n1 0 0.25\n2 0 0.25\n3 0 0.25\n"
-         "0 1 0.375\n1 1 0.125\n2 1 0.125\n3 1 0.375\n");
-    return "w.txt --cage cage.obj --points model.obj";
+    file("w.csv", "0.25,0.25,0.25,0.25\n0.375,0.125,0.125,0.375\n");
+    return "w.csv --cage cage.obj --points model.obj";
   }
 };
 
@@ -163,7 +161,7 @@ TEST_F(SparsifyCommand, PoissonNeedsNeighbours) {
   EXPECT_EQ(run("sparsify " + arguments + " -k 3 -q --reduction poisson -o s.npy").errors, "");
 }
 
-TEST_F(SparsifyCommand, TripletsAndThresholds) {
+TEST_F(SparsifyCommand, Thresholds) {
   const auto arguments = square();
   expect("sparsify " + arguments + " -k 3 -q -o s.dmat");
   const auto sparse = io::read_weights("s.dmat").dense();
@@ -198,16 +196,6 @@ TEST_F(SparsifyCommand, RefusesWhatCannotBe) {
   expect_refusal(arguments + " -k 3", 2, "model.obj: point 1 at (5, 2) lies outside");
   // No result may replace what is read.
   expect("sparsify s.npy --cage cage.obj --points model.obj -k 3 -o s.npy", 1);
-}
-
-TEST_F(SparsifyCommand, ForeignWeightsOfTheArm) {
-  if (!has_model("3d/arm_other_weights.txt")) GTEST_SKIP() << "the real models are absent";
-  const auto result = expect("sparsify " + model_path("3d/arm_other_weights.txt") + " --cage " +
-                             model_path("3d/arm_cage.obj") + " --points " +
-                             model_path("3d/arm.obj") + " -k 8 -q -o arm.mtx");
-  EXPECT_EQ(result.errors, "");
-  expect("check " + model_path("3d/arm_cage.obj") + " --model " + model_path("3d/arm.obj") +
-         " --weights arm.mtx");
 }
 
 }  // namespace

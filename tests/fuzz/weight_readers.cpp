@@ -6,7 +6,6 @@
 
 #include "flbc/io/keyframes.h"
 #include "flbc/io/weights_io.h"
-#include "flbc/io/weights_triplets.h"
 #include "fuzz/reader.h"
 
 namespace flbc::fuzz {
@@ -26,16 +25,6 @@ void read_weights(const std::string& path) {
   if (std::max(weights.num_control_points(), weights.num_points()) > kSmall) return;
   io::write_weights(path, weights);
   require(io::read_weights(path) == weights, "what is written is read back");
-}
-
-void read_triplets(const std::string& path) {
-  const auto weights = io::read_weight_triplets(path);
-  const Index n = weights.num_control_points(), num_points = weights.num_points();
-  require(are_finite(weights) && n > 0 && num_points > 0, "weights are finite");
-  if (static_cast<Eigen::Index>(n) * num_points > kSmall) return;
-  require(io::read_weight_triplets(path, n, num_points) == weights, "both ways read the same");
-  io::write_weight_triplets(path, weights);
-  require(io::read_weight_triplets(path) == weights, "what is written is read back");
 }
 
 void read_keyframes(const std::string& path) {
@@ -65,7 +54,6 @@ std::string npy(const std::string& dictionary, std::size_t numbers) {
 const char* const kMtxArray =
     "%%MatrixMarket matrix array real general\n% by hand\n2 2\n1\n0\n0.25\n1e-3\n";
 const char* const kDmatText = "2 3\n1 0 0.5\n0 1 0.5\n";
-const char* const kTriplets = "# controls points\n0 0 1\n1 2 0.25\n0 1 -1e-3\n";
 const char* const kKeyframes = "k 0\nk 0.5 # s\nc 0 0 0 0\nc 1 1 0 -1e-3\nc 0 1 2 3\nc 1 0 0 0\n";
 
 }  // namespace
@@ -79,9 +67,7 @@ std::vector<Reader> weight_readers() {
            {file_of_weights("a.npy"),
             npy("{'descr': '<f4', 'fortran_order': True, 'shape': (3L, 2), }", 24)}},
           {"csv", "input.csv", read_weights, {file_of_weights("a.csv")}},
-          {"mat", "input.mat", read_weights, {file_of_weights("a.mat")}},
           {"lbw", "input.lbw", read_weights, {file_of_weights("a.lbw")}},
-          {"triplets", "input.txt", read_triplets, {kTriplets}},
           {"keyframes", "input.txt", read_keyframes, {kKeyframes}}};
 }
 

@@ -133,7 +133,7 @@ TYPED_TEST(DomainFile, OtherExtensionsAreRefused) {
   const DomainMesh<Dim> mesh = awkward_mesh<Dim>();
   const std::string wrong = this->path(Dim == 2 ? "domain.mesh" : "domain.obj");
   const std::string listed = Dim == 2 ? ".obj" : ".mesh";
-  for (const std::string& file : {wrong, this->path("domain.xyz"), this->path("domain")}) {
+  for (const std::string& file : {wrong, this->path("domain.ply"), this->path("domain")}) {
     expect_error<OptionError>([&] { read_domain<Dim>(file); }, {file, listed});
     expect_error<OptionError>([&] { write_domain(file, mesh); }, {file, listed, ".vtu"});
   }

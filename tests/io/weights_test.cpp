@@ -27,7 +27,7 @@ class WeightsFile : public FormatTest {
     FormatTest::expect_malformed(name, read_weights, cases);
   }
   void expect_round_trips(const WeightMatrix& weights) const {
-    for (const std::string extension : {"mtx", "dmat", "npy", "NPY", "mat", "csv"}) {
+    for (const std::string extension : {"mtx", "dmat", "npy", "NPY", "csv"}) {
       if (extension == "csv" && weights.size() == 0) continue;  // has no sizes
       const std::string file = path("weights." + extension);
       write_weights(file, weights);
@@ -96,44 +96,6 @@ TEST_F(WeightsFile, CsvHasALinePerPoint) {
                                    {"1,2\n3\n", ":2: ", "expected 2 numbers"},
                                    {"w_0,w_1\n1,2\n", ":1: ", "w_0"},
                                    {"1,nan\n", ":1: ", "nan"}});
-}
-
-// The bytes that MATLAB and Octave expect.
-TEST_F(WeightsFile, MatIsALevel5Matrix) {
-  write_weights(path("weights.mat"), small_weights());
-  const std::string written = content("weights.mat");
-  EXPECT_EQ(written.substr(0, 19), "MATLAB 5.0 MAT-file");
-  EXPECT_EQ(written.substr(124, 4), std::string("\0\1IM", 4));
-  const auto word = [&](std::size_t at) {
-    std::uint32_t value = 0;
-    std::memcpy(&value, written.data() + at, sizeof value);
-    return value;
-  };
-  EXPECT_EQ(word(128), 14U);
-  EXPECT_EQ(128 + 8 + word(132), written.size());
-  EXPECT_EQ(word(144), 6U);  // doubles
-  EXPECT_EQ(word(160), 3U);  // points
-  EXPECT_EQ(word(164), 2U);  // control points
-  EXPECT_EQ(written.substr(176, 8), std::string("weights\0", 8));
-  EXPECT_EQ(written.substr(192), doubles({1, 2, 3, 4, 5, 6}));
-
-  const auto damaged = [&](std::size_t at, char byte) {
-    auto bytes = written;
-    bytes[at] = byte;
-    make("damaged.mat", bytes);
-    expect_error<InputError>([&] { read_weights(path("damaged.mat")).dense(); },
-                             {"damaged.mat: at byte"});
-  };
-  damaged(126, 'M');
-  damaged(128, 15);  // compressed
-  damaged(144, 1);   // a cell array
-  damaged(145, 8);   // complex
-  damaged(160, 4);   // another size
-  damaged(184, 7);   // single precision
-  for (const std::size_t size : {0, 100, 130, 150, 190, 200}) {
-    make("cut.mat", written.substr(0, size));
-    expect_error<InputError>([&] { read_weights(path("cut.mat")).dense(); }, {"cut.mat: at byte"});
-  }
 }
 
 // What shaders read.
@@ -362,10 +324,7 @@ TEST_F(WeightsFile, MalformedNpy) {
        {with("{'descr': '<f8', 'fortran_order': False}"), ": ", "no 'shape'"},
        {with("{'descr': '<f8', 'shape': (3, 2)}"), ": ", "no 'fortran_order'"},
        {with("{'fortran_order': False, 'shape': (3, 2)}"), ": ", "no 'descr'"},
-       {with("{'color': 1}"), ": at byte 11: ", "unknown key \"color\""},
-       {with("{'descr: "), ": at byte 11: ", "string without end"},
-       {with("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), } x"),
-        ": at byte 70: ", "end of the header"},
+       {with("{'color': 1}"), ": ", "no 'descr'"},
        {npy(head) + data.substr(0, 45), ": at byte 114: ", "after 5 of 6 numbers"},
        {npy(head) + data + "!", ": at byte 117: ", "has 1 more bytes"},
        {npy(head) + doubles({1, 4, 2, infinity, 3, 6}),
@@ -373,12 +332,12 @@ TEST_F(WeightsFile, MalformedNpy) {
 }
 
 TEST_F(WeightsFile, OtherExtensionsAreRefused) {
-  for (const std::string name : {"weights.txt", "weights", "-"}) {
+  for (const std::string name : {"weights.txt", "weights.mat", "weights", "-"}) {
     const std::string file = name == "-" ? name : path(name);
     expect_error<OptionError>([&] { read_weights(file).dense(); },
-                              {file, ".mtx, .dmat, .npy, .csv, .mat or .lbw"});
+                              {file, ".mtx, .dmat, .npy, .csv or .lbw"});
     expect_error<OptionError>([&] { write_weights(file, small_weights()); },
-                              {file, ".mtx, .dmat, .npy, .csv, .mat or .lbw"});
+                              {file, ".mtx, .dmat, .npy, .csv or .lbw"});
   }
   EXPECT_TRUE(names().empty());
 }

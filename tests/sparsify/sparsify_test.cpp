@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/sparsify.h"
 
-#include "flbc/io/weights_triplets.h"
+#include <fstream>
+
 #include "flbc/non_negative.h"
 #include "flbc/poses.h"
 #include "flbc/solver.h"
@@ -208,10 +209,9 @@ TEST(ForeignWeights, OfTheArm) {
   if (!has_model("3d/arm_other_weights.txt")) GTEST_SKIP() << "the real models are absent";
   const auto control_points = load_cage<3>("3d/arm_cage.obj").points;
   const auto points = load_cage<3>("3d/arm.obj").points;
-  const auto given = io::read_weight_triplets(model_path("3d/arm_other_weights.txt"),
-                                              static_cast<Index>(control_points.cols()),
-                                              static_cast<Index>(points.cols()))
-                         .dense();
+  WeightMatrix given = WeightMatrix::Zero(control_points.cols(), points.cols());
+  std::ifstream file(model_path("3d/arm_other_weights.txt"));
+  for (Eigen::Index i = 0, p = 0; file >> i >> p;) file >> given(i, p);
   EXPECT_EQ((given.array() < 0).count(), 23675);
   const auto poses = smooth_poses<3>(control_points, 5);
   for (const Index most : {4, 8}) {

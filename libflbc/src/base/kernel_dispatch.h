@@ -7,10 +7,6 @@
 // FLBC_DEFINE_KERNEL.
 #pragma once
 
-#ifdef __x86_64__
-#include <cpuid.h>
-#endif
-
 namespace flbc {
 
 enum class InstructionSet { baseline, avx2, avx512 };
@@ -26,15 +22,6 @@ struct KernelList {
   int size;
 };
 
-#ifdef __x86_64__
-//! Whether the processor converts from and to half precision. Queried directly, because clang's
-//! __builtin_cpu_supports does not know "f16c".
-inline bool has_f16c() {
-  unsigned eax = 0, ebx = 0, ecx = 0, edx = 0;
-  return __get_cpuid(1, &eax, &ebx, &ecx, &edx) != 0 && (ecx & bit_F16C) != 0;
-}
-#endif
-
 template <class Kernel>
 KernelList<Kernel> supported_kernels() {
   KernelList<Kernel> list{};
@@ -43,7 +30,7 @@ KernelList<Kernel> supported_kernels() {
       __builtin_cpu_supports("avx512dq")) {
     list.kernels[list.size++] = &kernel_for<Kernel, InstructionSet::avx512>();
   }
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && has_f16c()) {
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
     list.kernels[list.size++] = &kernel_for<Kernel, InstructionSet::avx2>();
   }
 #endif

@@ -31,12 +31,9 @@ struct MeshFormat {
   bool keeps_fields = false;
 };
 
-//! Readers and writers of weights: dense for formats that store zeros, otherwise sparse.
 struct WeightFormat {
-  WeightMatrix (*read)(const std::string& path, std::string content) = nullptr;
-  void (*write)(std::ostream& out, const WeightMatrix& weights) = nullptr;
-  SparseWeights (*read_sparse)(const std::string& path, std::string content) = nullptr;
-  void (*write_sparse)(std::ostream& out, const SparseWeights& weights) = nullptr;
+  SparseWeights (*read)(const std::string& path, std::string content) = nullptr;
+  void (*write)(std::ostream& out, const SparseWeights& weights) = nullptr;
 };
 
 //! A null pointer means that the format lacks this content.

@@ -32,13 +32,11 @@ constexpr Format kFormats[] = {
     {"node", {}, {}, kTetGen},
     {"ele", {}, {}, kTetGen},
     {"msh", {}, {}, {read_gmsh, write_gmsh}},
-    {"mtx", {}, {}, {}, {nullptr, nullptr, read_mtx, write_mtx}},
+    {"mtx", {}, {}, {}, {read_mtx, write_mtx}},
     {"dmat", {}, {}, {}, {read_dmat, write_dmat}},
     {"npy", {}, {}, {}, {read_npy, write_npy}},
     {"csv", {}, {}, {}, {read_csv, write_csv}},
-    {"mat", {}, {}, {}, {read_mat, write_mat}},
-    {"lbw", {}, {}, {}, {nullptr, nullptr, read_lbw, write_lbw}},
-    {"txt"},  // flbc/io/weights_triplets.h
+    {"lbw", {}, {}, {}, {read_lbw, write_lbw}},
 };
 
 bool has(const Format& format, Content content) {
@@ -50,9 +48,7 @@ bool has(const Format& format, Content content) {
     case Content::kMesh3D:
       return format.mesh_3d.read;
     case Content::kWeights:
-      return format.weights.read || format.weights.read_sparse;
-    case Content::kTriplets:
-      return format.extension == "txt";
+      return format.weights.read;
     case Content::kColors:
       return format.model.attributes != Attributes::kNone;
     case Content::kFields:

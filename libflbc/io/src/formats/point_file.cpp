@@ -33,89 +33,63 @@ struct VtuPoints {
   bool is_double = false;      // float64, otherwise float32
 };
 
-class VtuHeader {
- public:
-  // \param tag  position of "<AppendedData"
-  VtuHeader(const std::string& path, const std::string& start, std::size_t tag)
-      : path_(path), end_(start.find('>', tag)) {
-    // Bytes after the tag are not XML.
-    const auto xml = start.substr(0, end_) + "></AppendedData></VTKFile>";
-    const auto parsed =
-        document_.load_buffer(xml.data(), xml.size(), pugi::parse_default, pugi::encoding_utf8);
-    if (end_ == std::string::npos || !parsed) {
-      fail(std::string("the XML is malformed: ") + parsed.description());
-    }
-    data_ = start.find_first_not_of(" \t\r\n", end_ + 1);
-    if (data_ == std::string::npos || start[data_] != '_') {
-      fail("the appended data have no \"_\" at their start");
-    }
-    ++data_;
+// \param tag  position of "<AppendedData" \return nothing if the points are not appended
+std::optional<VtuPoints> vtu_points(const std::string& path, const std::string& start,
+                                    std::size_t tag) {
+  const auto fail = [&](const std::string& message) { throw InputError(path + ": " + message); };
+  const auto end = start.find('>', tag);
+  // Bytes after the tag are not XML.
+  const auto xml = start.substr(0, end) + "></AppendedData></VTKFile>";
+  pugi::xml_document document;
+  const auto parsed =
+      document.load_buffer(xml.data(), xml.size(), pugi::parse_default, pugi::encoding_utf8);
+  if (end == std::string::npos || !parsed) {
+    fail(std::string("the XML is malformed: ") + parsed.description());
   }
-
-  // \return nothing if the points are not part of the appended data
-  // \throws InputError if the XML is malformed, or appended points are not raw, not little-endian,
-  // compressed, in several pieces, or not 3 floating-point numbers each
-  std::optional<VtuPoints> read() const {
-    const auto file = document_.document_element();
-    if (file.name() != std::string("VTKFile")) fail("the first tag must be <VTKFile>");
-    const auto piece = file.child("UnstructuredGrid").child("Piece");
-    if (!piece) fail("the file has no unstructured grid");
-    const auto array = piece.child("Points").child("DataArray");
-    if (array.attribute("format").value() != std::string("appended")) return {};
-    if (piece.next_sibling("Piece")) fail("the grid has more than one piece; merge them");
-    if (file.attribute("compressor")) {
-      fail("the data are compressed; save the file without compression");
+  const auto data = start.find_first_not_of(" \t\r\n", end + 1);
+  if (data == std::string::npos || start[data] != '_') {
+    fail("the appended data have no \"_\" at their start");
+  }
+  // Which of the values an attribute has.
+  const auto choice = [&](const pugi::xml_node& node, const std::string& attribute,
+                          const std::vector<std::string>& values) {
+    const std::string value = node.attribute(attribute.c_str()).value();
+    const auto found = std::find(values.begin(), values.end(), value);
+    if (found == values.end()) {
+      fail("the " + attribute + " " + in_quotes(value) + " is not supported; save the file with " +
+           in_quotes(values.back()));
     }
-    require(file.child("AppendedData"), "encoding", "encoding", "raw");
-    require(file, "byte_order", "byte order", "LittleEndian");
-    if (array.attribute("NumberOfComponents").value() != std::string("3")) {
-      fail("points need 3 components");
-    }
-    VtuPoints points;
-    points.count = whole_number(piece, "NumberOfPoints");
-    points.block = data_ + static_cast<std::size_t>(whole_number(array, "offset"));
-    points.size_width = is_larger(file, "header_type", "header type", "UInt32", "UInt64") ? 8 : 4;
-    points.is_double = is_larger(array, "type", "points of type", "Float32", "Float64");
-    return points;
-  }
-
- private:
-  // Whether an attribute has the second of two values; without it, it has the first.
-  bool is_larger(const pugi::xml_node& node, const char* attribute, const std::string& what,
-                 const std::string& smaller, const std::string& larger) const {
-    const std::string value = node.attribute(attribute).as_string(smaller.c_str());
-    if (value == smaller || value == larger) return value == larger;
-    fail("the " + what + " " + in_quotes(value) + " is not supported; only " + smaller + " and " +
-         larger + " are");
-  }
-
-  void require(const pugi::xml_node& node, const char* attribute, const std::string& what,
-               const std::string& expected) const {
-    const std::string value = node.attribute(attribute).value();
-    if (value == expected) return;
-    fail("the appended data have the " + what + " " + in_quotes(value) + "; only " +
-         in_quotes(expected) + " is supported");
-  }
-
-  std::int64_t whole_number(const pugi::xml_node& node, const char* attribute) const {
+    return found - values.begin();
+  };
+  const auto whole_number = [&](const pugi::xml_node& node, const char* attribute) {
     const std::string text = node.attribute(attribute).value();
     std::int64_t number = -1;
-    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() || number < 0) {
+    const auto stop = std::from_chars(text.data(), text.data() + text.size(), number).ptr;
+    if (stop != text.data() + text.size() || number < 0) {
       fail(std::string(attribute) + " " + in_quotes(text) + " is not a number from 0");
     }
     return number;
+  };
+  const auto file = document.document_element();
+  if (file.name() != std::string("VTKFile")) fail("the first tag must be <VTKFile>");
+  const auto piece = file.child("UnstructuredGrid").child("Piece");
+  if (!piece) fail("the file has no unstructured grid");
+  const auto array = piece.child("Points").child("DataArray");
+  if (array.attribute("format").value() != std::string("appended")) return {};
+  if (piece.next_sibling("Piece")) fail("the grid has more than one piece; merge them");
+  if (file.attribute("compressor")) {
+    fail("the data are compressed; save the file without compression");
   }
-
-  [[noreturn]] void fail(const std::string& message) const {
-    throw InputError(path_ + ": " + message);
-  }
-
-  const std::string& path_;
-  std::size_t end_;
-  std::size_t data_ = 0;
-  pugi::xml_document document_;
-};
+  choice(file.child("AppendedData"), "encoding", {"raw"});
+  choice(file, "byte_order", {"LittleEndian"});
+  choice(array, "NumberOfComponents", {"3"});
+  VtuPoints points;
+  points.count = whole_number(piece, "NumberOfPoints");
+  points.block = data + 1 + static_cast<std::size_t>(whole_number(array, "offset"));
+  points.size_width = choice(file, "header_type", {"", "UInt32", "UInt64"}) == 2 ? 8 : 4;
+  points.is_double = choice(array, "type", {"Float32", "Float64"}) == 1;
+  return points;
+}
 
 constexpr std::size_t kMostHeader = 1 << 16;
 constexpr std::int64_t kPointsAtOnce = 1 << 16;
@@ -194,7 +168,7 @@ std::optional<PointLayout> vtu_layout(const std::string& path, const std::string
                                       PointInput& input) {
   const auto tag = start.find("<AppendedData");
   if (tag == std::string::npos) return {};
-  const auto points = VtuHeader(path, start, tag).read();
+  const auto points = vtu_points(path, start, tag);
   if (!points) return {};
   const std::size_t width = points->is_double ? 8 : 4;
   const PointLayout layout{points->block + points->size_width,

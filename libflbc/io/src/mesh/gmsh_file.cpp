@@ -29,19 +29,11 @@ class GmshReader {
       if (name[0] != '$') reader_.fail_expected("the start of a section", name);
       if (name == "$Nodes") {
         if (!index_of_.empty()) reader_.fail("a second section $Nodes");
-        if (is_version_4_) {
-          read_nodes_4();
-        } else {
-          read_nodes_2();
-        }
+        for_blocks("blocks of nodes", [&](std::int64_t) { read_nodes(); });
         expect_end("$EndNodes");
       } else if (name == "$Elements") {
         if (!cells_.empty()) reader_.fail("a second section $Elements");
-        if (is_version_4_) {
-          read_elements_4();
-        } else {
-          read_elements_2();
-        }
+        for_blocks("blocks of elements", [&](std::int64_t kind) { read_elements(kind); });
         expect_end("$EndElements");
       } else if (name == "$ParametricNodes") {
         reader_.fail(
@@ -119,66 +111,47 @@ class GmshReader {
                  " are not supported; cells must be tetrahedra with 4 nodes (type 4)");
   }
 
-  void read_nodes_2() {
+  // Version 4 has "BLOCKS COUNT MINTAG MAXTAG", then blocks, which start with three integers.
+  // \param read  reads a block, after the third of them; version 2 has one block and none of these
+  template <class Read>
+  void for_blocks(const char* blocks, const Read& read) {
     next_section_line();
+    if (!is_version_4_) return read(0);
+    const Index num_blocks = reader_.count("blocks", 8);
+    for (Index b = 0; b < num_blocks; ++b) {
+      reader_.next_line_of(blocks, b, num_blocks);
+      for (int k = 0; k < 2; ++k) reader_.integer();
+      read(reader_.integer());
+    }
+  }
+
+  // A block of version 4 has first the tags of its nodes, then their coordinates.
+  void read_nodes() {
     const Index count = reader_.count("nodes", 8);
+    std::vector<std::int64_t> tags(is_version_4_ ? count : 0);
+    for (std::size_t v = 0; v < tags.size(); ++v) {
+      reader_.next_line_of("tags of nodes", static_cast<Index>(v), count);
+      tags[v] = reader_.integer();
+    }
     for (Index v = 0; v < count; ++v) {
       reader_.next_line_of("nodes", v, count);
-      const std::int64_t tag = reader_.integer();
+      const std::int64_t tag = is_version_4_ ? tags[v] : reader_.integer();
       add_node(tag, reader_.point());
     }
   }
 
-  void read_elements_2() {
-    next_section_line();
-    const Index count = reader_.count("elements", 6);
+  // \param kind  of all elements in version 4
+  void read_elements(std::int64_t kind) {
+    const bool is_used = is_version_4_ && is_tetrahedron(kind);
+    const Index count = reader_.count("elements", is_version_4_ ? 4 : 6);
     for (Index s = 0; s < count; ++s) {
       reader_.next_line_of("elements", s, count);
       reader_.integer();
-      const std::int64_t kind = reader_.integer();
-      const Index num_tags = reader_.count("tags", 2);
-      if (!is_tetrahedron(kind)) continue;
-      for (Index k = 0; k < num_tags; ++k) reader_.integer();
-      add_tetrahedron();
-    }
-  }
-
-  // "BLOCKS COUNT MINTAG MAXTAG", then blocks.
-  Index read_number_of_blocks() {
-    next_section_line();
-    return reader_.count("blocks", 8);
-  }
-
-  // A block has first the tags of its nodes, then their coordinates.
-  void read_nodes_4() {
-    const Index num_blocks = read_number_of_blocks();
-    for (Index b = 0; b < num_blocks; ++b) {
-      reader_.next_line_of("blocks of nodes", b, num_blocks);
-      for (int k = 0; k < 3; ++k) reader_.integer();
-      const Index count = reader_.count("nodes", 8);
-      std::vector<std::int64_t> tags(count);
-      for (Index v = 0; v < count; ++v) {
-        reader_.next_line_of("tags of nodes", v, count);
-        tags[v] = reader_.integer();
-      }
-      for (Index v = 0; v < count; ++v) {
-        reader_.next_line_of("nodes", v, count);
-        add_node(tags[v], reader_.point());
-      }
-    }
-  }
-
-  void read_elements_4() {
-    const Index num_blocks = read_number_of_blocks();
-    for (Index b = 0; b < num_blocks; ++b) {
-      reader_.next_line_of("blocks of elements", b, num_blocks);
-      for (int k = 0; k < 2; ++k) reader_.integer();
-      const bool is_used = is_tetrahedron(reader_.integer());
-      const Index count = reader_.count("elements", 4);
-      for (Index s = 0; s < count; ++s) {
-        reader_.next_line_of("elements", s, count);
-        reader_.integer();
+      if (is_version_4_) {
         if (is_used) add_tetrahedron();
+      } else if (kind = reader_.integer(); is_tetrahedron(kind)) {
+        for (Index k = reader_.count("tags", 2); k > 0; --k) reader_.integer();
+        add_tetrahedron();
       }
     }
   }

@@ -4,6 +4,7 @@
 // of the same form.
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "flbc/io/files.h"
 #include "mesh/mesh_formats.h"
@@ -13,13 +14,6 @@ namespace flbc::io {
 namespace {
 
 constexpr std::string_view kOtherCells[] = {"Hexahedra", "Prisms", "Pyramids", "TetrahedraP2"};
-
-void read_header(TextReader& reader) {
-  if (!reader.next_line() || reader.word() != "MeshVersionFormatted") {
-    reader.fail("not a MEDIT text file: the first word must be MeshVersionFormatted");
-  }
-  reader.word_on_any_line("the version");
-}
 
 // The number of elements of a section may be on the line of the keyword or the next one.
 Index read_count(TextReader& reader, const char* things, std::size_t bytes_each) {
@@ -58,10 +52,25 @@ void skip_section(TextReader& reader) {
   while (reader.next_word_on_any_line() && !is_keyword(reader.peek())) reader.word();
 }
 
-void read_dimension(TextReader& reader) {
-  reader.next_word_on_any_line();
-  const std::int64_t dimension = reader.integer();
-  if (dimension != 3) reader.fail("the dimension is " + std::to_string(dimension) + ", not 3");
+// \param read  reads the section of a keyword, or returns false to skip it
+template <class Read>
+void for_sections(TextReader& reader, const Read& read) {
+  if (!reader.next_line() || reader.word() != "MeshVersionFormatted") {
+    reader.fail("not a MEDIT text file: the first word must be MeshVersionFormatted");
+  }
+  reader.word_on_any_line("the version");
+  while (reader.next_word_on_any_line()) {
+    const std::string_view keyword = reader.word();
+    if (!is_keyword(keyword)) reader.fail_expected("a keyword", keyword);
+    if (keyword == "End") return;
+    if (keyword == "Dimension") {
+      reader.next_word_on_any_line();
+      const std::int64_t dimension = reader.integer();
+      if (dimension != 3) reader.fail("the dimension is " + std::to_string(dimension) + ", not 3");
+    } else if (!read(keyword)) {
+      skip_section(reader);
+    }
+  }
 }
 
 // The format has no names, so they are written as comments, "# field K NAME".
@@ -105,35 +114,28 @@ std::vector<VertexField> read_solution(TextReader& reader, Index num_vertices) {
 
 DomainMesh<3> read_medit_mesh(const std::string& path) {
   TextReader reader(path, read_file(path), {'#', false});
-  read_header(reader);
   DomainMesh<3> mesh;
   bool has_vertices = false;
   bool has_cells = false;
-  while (reader.next_word_on_any_line()) {
-    const std::string_view keyword = reader.word();
-    if (!is_keyword(keyword)) reader.fail_expected("a keyword", keyword);
-    if (keyword == "End") break;
-    if (keyword == "Dimension") {
-      read_dimension(reader);
-    } else if (keyword == "Vertices") {
+  for_sections(reader, [&](std::string_view keyword) {
+    if (keyword == "Vertices") {
       if (has_vertices) reader.fail("a second section Vertices");
       read_vertices(reader, mesh);
-      has_vertices = true;
-    } else if (keyword == "Tetrahedra") {
+      return has_vertices = true;
+    }
+    if (keyword == "Tetrahedra") {
       if (!has_vertices) reader.fail("the section Tetrahedra comes before Vertices");
       if (has_cells) reader.fail("a second section Tetrahedra");
       read_tetrahedra(reader, mesh);
-      has_cells = true;
-    } else {
-      for (const std::string_view other : kOtherCells) {
-        if (keyword == other && reader.next_word_on_any_line() && reader.peek() != "0") {
-          reader.fail("the cells include " + std::string(other) +
-                      "; only tetrahedra are supported");
-        }
-      }
-      skip_section(reader);
+      return has_cells = true;
     }
-  }
+    for (const std::string_view other : kOtherCells) {
+      if (keyword == other && reader.next_word_on_any_line() && reader.peek() != "0") {
+        reader.fail("the cells include " + std::string(other) + "; only tetrahedra are supported");
+      }
+    }
+    return false;
+  });
   if (!has_vertices) reader.fail("the file has no section Vertices");
   if (!has_cells) reader.fail("the file has no section Tetrahedra");
   return mesh;
@@ -142,24 +144,17 @@ DomainMesh<3> read_medit_mesh(const std::string& path) {
 std::vector<VertexField> read_medit_solution(const std::string& path, Index num_vertices) {
   const std::string content = read_file(path);
   TextReader reader(path, content, {'#', false});
-  read_header(reader);
-  while (reader.next_word_on_any_line()) {
-    const std::string_view keyword = reader.word();
-    if (!is_keyword(keyword)) reader.fail_expected("a keyword", keyword);
-    if (keyword == "End") break;
-    if (keyword == "Dimension") {
-      read_dimension(reader);
-    } else if (keyword == "SolAtVertices") {
-      auto fields = read_solution(reader, num_vertices);
-      for (std::size_t k = 0; k < fields.size(); ++k) {
-        fields[k].name = name_of_field(content, static_cast<Index>(k));
-      }
-      return fields;
-    } else {
-      skip_section(reader);
-    }
+  std::optional<std::vector<VertexField>> fields;
+  for_sections(reader, [&](std::string_view keyword) {
+    if (keyword != "SolAtVertices" || fields) return false;
+    fields = read_solution(reader, num_vertices);
+    return true;
+  });
+  if (!fields) reader.fail("the file has no section SolAtVertices");
+  for (std::size_t k = 0; k < fields->size(); ++k) {
+    (*fields)[k].name = name_of_field(content, static_cast<Index>(k));
   }
-  reader.fail("the file has no section SolAtVertices");
+  return std::move(*fields);
 }
 
 void write_medit_mesh(std::ostream& out, const DomainMesh<3>& mesh) {

@@ -3,6 +3,7 @@
 // cell offsets, cell types, and point data.
 #include <algorithm>
 #include <iterator>
+#include <type_traits>
 
 #include <pugixml.hpp>
 
@@ -64,72 +65,58 @@ class VtuReader {
     num_cells_ = read_count(piece, "NumberOfCells");
     const auto points = piece.child("Points").child("DataArray");
     if (!points || num_points_ == 0) fail(piece, "the grid has no points");
-    points_ = read_numbers(points, 3 * num_points_);
+    points_ = read_array<double>(points, 3 * std::int64_t{num_points_});
     const auto cells_array = [&](const char* name) {
       const auto array = piece.child("Cells").find_child_by_attribute("DataArray", "Name", name);
       if (!array) fail(piece, "the cells of the grid have no array " + in_quotes(name));
       return array;
     };
-    connectivity_ = read_integers(cells_array("connectivity"));
-    offsets_ = read_integers(cells_array("offsets"), num_cells_);
-    kinds_ = read_integers(cells_array("types"), num_cells_);
+    connectivity_ = read_array<std::int64_t>(cells_array("connectivity"), -1);
+    offsets_ = read_array<std::int64_t>(cells_array("offsets"), num_cells_);
+    kinds_ = read_array<std::int64_t>(cells_array("types"), num_cells_);
     if (fields_ == nullptr) return;
     for (const auto& array : piece.child("PointData").children("DataArray")) {
       const std::string components = array.attribute("NumberOfComponents").value();
       if (!components.empty() && components != "1") continue;  // skips vectors
-      const auto values = read_numbers(array, num_points_);
+      const auto values = read_array<double>(array, num_points_);
       fields_->push_back({array.attribute("Name").value(),
                           Eigen::Map<const Eigen::VectorXd>(
                               values.data(), static_cast<Eigen::Index>(values.size()))});
     }
   }
 
-  std::size_t read_count(const pugi::xml_node& piece, const char* name) const {
+  Index read_count(const pugi::xml_node& piece, const char* name) const {
     TextReader reader(path_, piece.attribute(name).value(), {}, line_of(piece.offset_debug()));
     if (!reader.next_word_on_any_line()) {
       fail(piece, std::string("the tag <Piece> has no attribute ") + name);
     }
-    return static_cast<std::size_t>(reader.count(name, 0));
+    return reader.count(name, 0);
   }
 
-  TextReader text_of(const pugi::xml_node& array) const {
+  // \param count  how many numbers the array must have; -1: any number
+  template <class Number>
+  std::vector<Number> read_array(const pugi::xml_node& array, std::int64_t count) const {
+    const auto name = in_quotes(array.attribute("Name").value());
     const std::string format = array.attribute("format").value();
     if (!format.empty() && format != "ascii") {
-      fail(array, "the array " + name_of(array) + " has the format " + in_quotes(format) +
+      fail(array, "the array " + name + " has the format " + in_quotes(format) +
                       "; only \"ascii\" is supported: save the file in ASCII mode");
     }
     const auto text = array.text();
-    return TextReader(path_, text.get(), {}, line_of(text.data().offset_debug()));
-  }
-
-  void check_size(const pugi::xml_node& array, std::size_t found, std::size_t expected) const {
-    if (found == expected) return;
-    fail(array, "the array " + name_of(array) + " has " + std::to_string(found) + " numbers, not " +
-                    std::to_string(expected));
-  }
-
-  std::vector<double> read_numbers(const pugi::xml_node& array, std::size_t count) const {
-    TextReader reader = text_of(array);
-    std::vector<double> numbers;
-    while (reader.next_word_on_any_line()) numbers.push_back(reader.number());
-    check_size(array, numbers.size(), count);
+    TextReader reader(path_, text.get(), {}, line_of(text.data().offset_debug()));
+    std::vector<Number> numbers;
+    while (reader.next_word_on_any_line()) {
+      if constexpr (std::is_integral_v<Number>) {
+        numbers.push_back(reader.integer());
+      } else {
+        numbers.push_back(reader.number());
+      }
+    }
+    if (count >= 0 && numbers.size() != static_cast<std::size_t>(count)) {
+      fail(array, "the array " + name + " has " + std::to_string(numbers.size()) +
+                      " numbers, not " + std::to_string(count));
+    }
     return numbers;
-  }
-
-  std::vector<std::int64_t> read_integers(const pugi::xml_node& array) const {
-    TextReader reader = text_of(array);
-    std::vector<std::int64_t> numbers;
-    while (reader.next_word_on_any_line()) numbers.push_back(reader.integer());
-    return numbers;
-  }
-  std::vector<std::int64_t> read_integers(const pugi::xml_node& array, std::size_t count) const {
-    auto numbers = read_integers(array);
-    check_size(array, numbers.size(), count);
-    return numbers;
-  }
-
-  static std::string name_of(const pugi::xml_node& array) {
-    return in_quotes(array.attribute("Name").value());
   }
 
   std::int64_t line_of(std::ptrdiff_t offset) const {
@@ -145,7 +132,7 @@ class VtuReader {
     fail_at(node.offset_debug(), message);
   }
 
-  [[noreturn]] void fail_cell(std::size_t cell, const std::string& defect) const {
+  [[noreturn]] void fail_cell(Index cell, const std::string& defect) const {
     throw InputError(path_ + ": cell " + std::to_string(cell) + ": " + defect);
   }
 
@@ -154,7 +141,7 @@ class VtuReader {
     result.points = points();
     std::vector<Index> corners;
     std::int64_t begin = 0;
-    for (std::size_t s = 0; s < num_cells_; ++s) {
+    for (Index s = 0; s < num_cells_; ++s) {
       const std::int64_t end = offsets_[s];
       if (end < begin || static_cast<std::size_t>(end) > connectivity_.size()) {
         fail_cell(s, "its offset " + std::to_string(end) + " is out of range");
@@ -168,8 +155,7 @@ class VtuReader {
   }
 
   PointList<Dim> points() const {
-    const Eigen::Map<const PointList<3>> all(points_.data(), 3,
-                                             static_cast<Eigen::Index>(num_points_));
+    const Eigen::Map<const PointList<3>> all(points_.data(), 3, num_points_);
     if constexpr (Dim == 2) {
       for (Eigen::Index v = 0; v < all.cols(); ++v) {
         if (all(2, v) == 0) continue;
@@ -181,7 +167,7 @@ class VtuReader {
   }
 
   // Whether a cell is part of the domain, rather than of its boundary.
-  bool is_used(std::size_t cell) const {
+  bool is_used(Index cell) const {
     const std::int64_t kind = kinds_[cell];
     if (kind == (Dim == 2 ? kTriangle : kTetrahedronType)) return true;
     if (Dim == 2 ? contains(kKindsBelow2D, kind) : contains(kKindsBelow3D, kind)) return false;
@@ -190,7 +176,7 @@ class VtuReader {
                                   : "they must be tetrahedra with 4 points (type 10)"));
   }
 
-  void append_corners(std::size_t cell, std::int64_t begin, std::int64_t end,
+  void append_corners(Index cell, std::int64_t begin, std::int64_t end,
                       std::vector<Index>& corners) const {
     if (end - begin != Dim + 1) {
       fail_cell(cell, "it has " + std::to_string(end - begin) + " points, not " +
@@ -198,7 +184,7 @@ class VtuReader {
     }
     for (std::int64_t k = begin; k < end; ++k) {
       const std::int64_t point = connectivity_[static_cast<std::size_t>(k)];
-      if (point < 0 || static_cast<std::size_t>(point) >= num_points_) {
+      if (point < 0 || point >= num_points_) {
         fail_cell(cell, out_of_range_message(point, "points", 0, num_points_));
       }
       corners.push_back(static_cast<Index>(point));
@@ -208,8 +194,8 @@ class VtuReader {
   std::string path_;
   std::string content_;
   std::vector<VertexField>* fields_;
-  std::size_t num_points_ = 0;
-  std::size_t num_cells_ = 0;
+  Index num_points_ = 0;
+  Index num_cells_ = 0;
   std::vector<double> points_;
   std::vector<std::int64_t> connectivity_;
   std::vector<std::int64_t> offsets_;

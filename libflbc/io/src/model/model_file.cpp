@@ -213,62 +213,6 @@ bool are_levels(const PointList<3>& colors) {
   return ((levels - levels.round()).abs() <= kDigits).all();
 }
 
-bool has_larger_polygons(const Model& model) {
-  const auto& polygons = model.soup.polygons;
-  return std::any_of(polygons.begin(), polygons.end(),
-                     [](const auto& polygon) { return polygon.size() > 3; });
-}
-
-class Losses {
- public:
-  Losses(const Model& model, const Format& format)
-      : model_(model), format_(format), phrases_(model.others) {}
-
-  std::vector<std::string> find() {
-    const auto kept = format_.model.attributes;
-    const bool is_gltf = format_.extension == "glb";
-    add_if((kept != Attributes::kCorners || is_gltf) && !model_.soup.polylines.empty(),
-           "polylines");
-    add_if(is_gltf && !are_single(model_.soup.points), "coordinates beyond single precision");
-    if (format_.extension == "stl") add_losses_of_stl();
-    if (kept == Attributes::kNone) add_all_attributes();
-    if (kept == Attributes::kVertices) add_losses_of_vertices();
-    return phrases_;
-  }
-
- private:
-  void add_if(bool is_lost, const char* phrase) {
-    if (is_lost) phrases_.emplace_back(phrase);
-  }
-
-  void add_losses_of_stl() {
-    add_if(true, "the order of the vertices");
-    add_if(!are_single(model_.soup.points), "coordinates beyond single precision");
-    add_if(has_larger_polygons(model_), "polygons (they are cut into triangles)");
-  }
-
-  void add_all_attributes() {
-    const auto& attributes = model_.attributes;
-    add_if(attributes.colors.cols() > 0, "colors");
-    add_if(attributes.normals.cols() > 0, "normals of vertices");
-    add_if(attributes.texture_coordinates.cols() > 0, "texture coordinates");
-  }
-
-  // For formats with vertex attributes.
-  void add_losses_of_vertices() {
-    const auto texture = texture_coordinates_at_vertices(model_);
-    add_if(!normals_at_vertices(model_), "normals (they differ between corners of a vertex)");
-    add_if(!texture, "texture coordinates (they differ between corners of a vertex)");
-    add_if(format_.extension == "om" && texture && !are_single(*texture),
-           "texture coordinates beyond single precision");
-    add_if(!are_levels(model_.attributes.colors), "colors beyond 256 levels");
-  }
-
-  const Model& model_;
-  const Format& format_;
-  std::vector<std::string> phrases_;
-};
-
 }  // namespace
 
 PolygonSoup read_polygons(const std::string& path) {
@@ -375,7 +319,34 @@ template Model ModelFile::moved<3>(const PointList<3>&, const Eigen::MatrixXd&) 
 
 std::vector<std::string> losses(const Model& model, const std::string& path) {
   const auto content = holds(path, {Content::kModel}) ? Content::kModel : Content::kMesh2D;
-  return Losses(model, format_of(path, content, "write a model as")).find();
+  const auto& format = format_of(path, content, "write a model as");
+  const auto kept = format.model.attributes;
+  const bool is_gltf = format.extension == "glb", is_stl = format.extension == "stl";
+  const auto& [points, polygons, polylines] = model.soup;
+  const auto& attributes = model.attributes;
+  auto phrases = model.others;
+  const auto add_if = [&](bool is_lost, const char* phrase) {
+    if (is_lost) phrases.emplace_back(phrase);
+  };
+  add_if((kept != Attributes::kCorners || is_gltf) && !polylines.empty(), "polylines");
+  add_if(is_stl, "the order of the vertices");
+  add_if((is_gltf || is_stl) && !are_single(points), "coordinates beyond single precision");
+  add_if(is_stl && std::any_of(polygons.begin(), polygons.end(),
+                               [](const auto& polygon) { return polygon.size() > 3; }),
+         "polygons (they are cut into triangles)");
+  if (kept == Attributes::kNone) {
+    add_if(attributes.colors.cols() > 0, "colors");
+    add_if(attributes.normals.cols() > 0, "normals of vertices");
+    add_if(attributes.texture_coordinates.cols() > 0, "texture coordinates");
+  } else if (kept == Attributes::kVertices) {
+    const auto texture = texture_coordinates_at_vertices(model);
+    add_if(!normals_at_vertices(model), "normals (they differ between corners of a vertex)");
+    add_if(!texture, "texture coordinates (they differ between corners of a vertex)");
+    add_if(format.extension == "om" && texture && !are_single(*texture),
+           "texture coordinates beyond single precision");
+    add_if(!are_levels(attributes.colors), "colors beyond 256 levels");
+  }
+  return phrases;
 }
 
 void write_model(const std::string& path, const Model& model) {

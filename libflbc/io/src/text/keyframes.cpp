@@ -25,19 +25,6 @@ void require_order(const TextReader& reader, const std::vector<Keyframe>& keyfra
               format_number(keyframes[last - 1].time));
 }
 
-void require_equal_sizes(const TextReader& reader, const std::vector<Keyframe>& keyframes) {
-  const auto expected = keyframes.front().displacements.cols();
-  for (std::size_t k = 0; k < keyframes.size(); ++k) {
-    const auto found = keyframes[k].displacements.cols();
-    if (found == 0) {
-      reader.fail("keyframe " + std::to_string(k) + " has no displacements (\"c\" lines)");
-    }
-    if (found == expected) continue;
-    reader.fail("keyframe " + std::to_string(k) + " has " + std::to_string(found) +
-                " control points, keyframe 0 has " + std::to_string(expected));
-  }
-}
-
 }  // namespace
 
 std::vector<Keyframe> read_keyframes(const std::string& path) {
@@ -59,22 +46,26 @@ std::vector<Keyframe> read_keyframes(const std::string& path) {
   }
   if (keyframes.empty()) reader.fail("the file ends without a keyframe (\"k\" line)");
 
-  std::vector<Index> sizes(keyframes.size(), 0);
+  std::vector<std::vector<Vector<3>>> displacements(keyframes.size());
   for (const Line& line : lines) {
     if (line.keyframe < 0 || line.keyframe >= static_cast<std::int64_t>(keyframes.size())) {
       reader.fail_at(line.number,
                      out_of_range_message(line.keyframe, "keyframes", 0, keyframes.size()));
     }
-    ++sizes[line.keyframe];
+    displacements[line.keyframe].push_back(line.displacement);
   }
   for (std::size_t k = 0; k < keyframes.size(); ++k) {
-    keyframes[k].displacements.resize(3, sizes[k]);
-    sizes[k] = 0;
+    const auto count = displacements[k].size(), expected = displacements[0].size();
+    if (count == 0) {
+      reader.fail("keyframe " + std::to_string(k) + " has no displacements (\"c\" lines)");
+    }
+    if (count != expected) {
+      reader.fail("keyframe " + std::to_string(k) + " has " + std::to_string(count) +
+                  " control points, keyframe 0 has " + std::to_string(expected));
+    }
+    keyframes[k].displacements = Eigen::Map<const PointList<3>>(displacements[k].front().data(), 3,
+                                                                static_cast<Eigen::Index>(count));
   }
-  for (const Line& line : lines) {
-    keyframes[line.keyframe].displacements.col(sizes[line.keyframe]++) = line.displacement;
-  }
-  require_equal_sizes(reader, keyframes);
   return keyframes;
 }
 

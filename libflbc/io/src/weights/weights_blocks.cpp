@@ -38,15 +38,6 @@ WeightMatrix read_columns(TextReader& reader, Index num_points, Index num_contro
   return weights;
 }
 
-void write_columns(std::ostream& out, const WeightMatrix& weights) {
-  Eigen::VectorXd column;
-  for (Eigen::Index i = 0; i < weights.rows(); ++i) {
-    column = weights.row(i);
-    out.write(reinterpret_cast<const char*>(column.data()),
-              static_cast<std::streamsize>(sizeof(double)) * column.size());
-  }
-}
-
 void BinaryBlock::fail(std::size_t byte, const std::string& message) const {
   throw InputError(path + ": at byte " + std::to_string(byte) + ": " + message);
 }

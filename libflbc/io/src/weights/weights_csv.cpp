@@ -10,7 +10,7 @@
 
 namespace flbc::io {
 
-WeightMatrix read_csv(const std::string& path, std::string content) {
+SparseWeights read_csv(const std::string& path, std::string content) {
   std::replace(content.begin(), content.end(), ',', ' ');
   TextReader reader(path, std::move(content), {'#', false});
   std::vector<double> numbers;
@@ -26,11 +26,12 @@ WeightMatrix read_csv(const std::string& path, std::string content) {
     }
   }
   if (rows == 0) reader.fail("the file has no numbers");
-  return Eigen::Map<const WeightMatrix>(numbers.data(), static_cast<Eigen::Index>(columns),
-                                        static_cast<Eigen::Index>(rows));
+  return WeightMatrix(Eigen::Map<const WeightMatrix>(
+      numbers.data(), static_cast<Eigen::Index>(columns), static_cast<Eigen::Index>(rows)));
 }
 
-void write_csv(std::ostream& out, const WeightMatrix& weights) {
+void write_csv(std::ostream& out, const SparseWeights& sparse) {
+  const WeightMatrix weights = sparse.dense();
   TextWriter writer(out);
   for (Eigen::Index p = 0; p < weights.cols(); ++p) {
     for (Eigen::Index i = 0; i < weights.rows(); ++i) {

@@ -24,7 +24,7 @@ std::size_t end_of_lines(const std::string& content, int count) {
 
 }  // namespace
 
-WeightMatrix read_dmat(const std::string& path, std::string content) {
+SparseWeights read_dmat(const std::string& path, std::string content) {
   // The two lines at the start are text in both forms; the rest may be large, so it is not copied.
   const std::size_t header_end = end_of_lines(content, 2);
   TextReader header(path, content.substr(0, header_end), {});
@@ -46,12 +46,13 @@ WeightMatrix read_dmat(const std::string& path, std::string content) {
   return BinaryBlock{path, content, header_end}.read<double>(num_points, num_controls, false);
 }
 
-void write_dmat(std::ostream& out, const WeightMatrix& weights) {
+void write_dmat(std::ostream& out, const SparseWeights& weights) {
   TextWriter header(out);
-  header << "0 0\n" << weights.rows() << " " << weights.cols() << "\n";
+  header << "0 0\n" << weights.num_control_points() << " " << weights.num_points() << "\n";
   header.flush();
-  if (weights.size() == 0) return;
-  write_columns(out, weights);
+  const Eigen::MatrixXd by_control_point = weights.dense().transpose();
+  out.write(reinterpret_cast<const char*>(by_control_point.data()),
+            static_cast<std::streamsize>(sizeof(double)) * by_control_point.size());
 }
 
 }  // namespace flbc::io

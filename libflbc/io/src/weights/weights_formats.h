@@ -21,10 +21,9 @@ class TextReader;
 //! Parse a file's content; `path` is for messages.
 SparseWeights read_lbw(const std::string& path, std::string content);
 SparseWeights read_mtx(const std::string& path, std::string content);
-WeightMatrix read_dmat(const std::string& path, std::string content);
-WeightMatrix read_npy(const std::string& path, std::string content);
-WeightMatrix read_csv(const std::string& path, std::string content);
-WeightMatrix read_mat(const std::string& path, std::string content);
+SparseWeights read_dmat(const std::string& path, std::string content);
+SparseWeights read_npy(const std::string& path, std::string content);
+SparseWeights read_csv(const std::string& path, std::string content);
 
 //! Checks that weights are finite, because readers reject other values. \throws InputError naming
 //! the first one
@@ -32,10 +31,9 @@ void check_finite(const SparseWeights& weights);
 
 void write_lbw(std::ostream& out, const SparseWeights& weights);
 void write_mtx(std::ostream& out, const SparseWeights& weights);
-void write_dmat(std::ostream& out, const WeightMatrix& weights);
-void write_npy(std::ostream& out, const WeightMatrix& weights);
-void write_csv(std::ostream& out, const WeightMatrix& weights);
-void write_mat(std::ostream& out, const WeightMatrix& weights);
+void write_dmat(std::ostream& out, const SparseWeights& weights);
+void write_npy(std::ostream& out, const SparseWeights& weights);
+void write_csv(std::ostream& out, const SparseWeights& weights);
 
 //! Maximum number of matrix elements (8 MiB) that a file may declare without storing. In a larger
 //! matrix, each row and column must have an element, because weights sum to 1.
@@ -47,9 +45,6 @@ bool is_absurd(std::int64_t num_points, std::int64_t num_controls);
 
 //! Reads #points x n numbers, control point by control point, up to the end of the file.
 WeightMatrix read_columns(TextReader& reader, Index num_points, Index num_controls);
-
-//! Writes the numbers as doubles, control point by control point.
-void write_columns(std::ostream& out, const WeightMatrix& weights);
 
 //! A block of numbers that reaches from byte `offset` to the end of a binary file.
 struct BinaryBlock {

@@ -30,16 +30,13 @@ void check_finite(const SparseWeights& weights) {
 
 SparseWeights read_weights(const std::string& path) {
   const auto& format = format_of(path, Content::kWeights, "read weights as").weights;
-  return format.read_sparse ? format.read_sparse(path, read_file(path))
-                            : SparseWeights(format.read(path, read_file(path)));
+  return format.read(path, read_file(path));
 }
 
 void write_weights(const std::string& path, const SparseWeights& weights) {
   const auto& format = format_of(path, Content::kWeights, "write weights as").weights;
   check_finite(weights);
-  write_file(path, [&](std::ostream& out) {
-    format.write_sparse ? format.write_sparse(out, weights) : format.write(out, weights.dense());
-  });
+  write_file(path, [&](std::ostream& out) { format.write(out, weights); });
 }
 
 }  // namespace flbc::io

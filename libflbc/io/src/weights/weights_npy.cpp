@@ -11,7 +11,7 @@
 namespace flbc::io {
 
 // Signature required by the format table. NOLINTNEXTLINE(performance-unnecessary-value-param)
-WeightMatrix read_npy(const std::string& path, std::string content) {
+SparseWeights read_npy(const std::string& path, std::string content) {
   const NpyHeader header = read_npy_header(path, content);
   const BinaryBlock block{path, content, header.size};
   const bool by_point = !header.fortran_order;
@@ -29,7 +29,8 @@ WeightMatrix read_npy(const std::string& path, std::string content) {
                     " is not supported, only \"<f8\" (float64) and \"<f4\" (float32)");
 }
 
-void write_npy(std::ostream& out, const WeightMatrix& weights) {
+void write_npy(std::ostream& out, const SparseWeights& sparse) {
+  const WeightMatrix weights = sparse.dense();
   // In memory the numbers of a point are contiguous, which is C order for #points x n.
   const std::string header = npy_header("<f8", {weights.cols(), weights.rows()});
   out.write(header.data(), static_cast<std::streamsize>(header.size()));

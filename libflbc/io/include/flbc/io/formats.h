@@ -10,13 +10,12 @@ namespace flbc::io {
 
 //! Kinds of file content.
 enum class Content {
-  kModel,     //!< polygons and polylines: models and cages
-  kMesh2D,    //!< triangles in the plane
-  kMesh3D,    //!< tetrahedra
-  kWeights,   //!< weight matrices
-  kTriplets,  //!< weights, one per line, without the matrix size
-  kColors,    //!< vertex colors of a model
-  kFields     //!< scalars at mesh vertices
+  kModel,    //!< polygons and polylines: models and cages
+  kMesh2D,   //!< triangles in the plane
+  kMesh3D,   //!< tetrahedra
+  kWeights,  //!< weight matrices
+  kColors,   //!< vertex colors of a model
+  kFields    //!< scalars at mesh vertices
 };
 
 //! Domain meshes in Dim dimensions.
