@@ -20,9 +20,6 @@ flbc --help
 # ; see
 1 flbc solve
 flbc solve --help
-# '; see flbc --help
-1 flbc man slove
-flbc --help
 # give either a MODEL to enclose, or a cage with --repair
 1 flbc cage -o c.obj
 flbc cage model.obj -o c.obj
