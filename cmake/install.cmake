@@ -31,11 +31,11 @@ if(TARGET flbc_app)
   install(TARGETS flbc_app COMPONENT program)
   set(help ${PROJECT_BINARY_DIR}/help)
   install(DIRECTORY ${help}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program
-    FILES_MATCHING PATTERN "*.1")
+    OPTIONAL FILES_MATCHING PATTERN "*.1")
   install(FILES ${help}/flbc.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
-    RENAME flbc COMPONENT program)
+    RENAME flbc COMPONENT program OPTIONAL)
   install(FILES ${help}/_flbc DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions
-    COMPONENT program)
+    COMPONENT program OPTIONAL)
   install(FILES engines/deform.glsl engines/deform.wgsl engines/webgl.html
     DESTINATION ${CMAKE_INSTALL_DATADIR}/flbc/engines COMPONENT program)
 endif()

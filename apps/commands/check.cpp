@@ -85,8 +85,14 @@ void check_pose(CheckReport<3>& report, const SparseWeights& weights, const std:
 // The table, unless the standard output is wanted for JSON.
 template <int Dim>
 void deliver(const CheckReport<Dim>& report, const std::string& json_file) {
-  if (json_file != "-") print_check(std::cout, report);
-  if (!json_file.empty()) write_text(json_file, to_text(check_json(report)));
+  const auto json = check_json(report);
+  if (json_file != "-") {
+    print_check(std::cout, json);
+    if (!report.defects.empty() && !(report.model_file + report.weights_file).empty()) {
+      std::cout << "The other checks need a sound cage and were skipped.\n";
+    }
+  }
+  if (!json_file.empty()) write_text(json_file, to_text(json));
 }
 
 template <int Dim>

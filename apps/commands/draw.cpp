@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc draw: coordinate functions and deformations as pictures.
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <numeric>
 
 #include "commands/commands.h"
 #include "draw/model_picture.h"
 #include "draw/plane_picture.h"
-#include "draw/slice_picture.h"
 #include "files/load.h"
 #include "files/upright.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
-#include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
 #include "poses/poses.h"
 #include "solve/weights_of_model.h"
@@ -24,18 +21,15 @@ namespace flbc::app {
 namespace {
 
 struct DrawArguments {
-  std::string domain;
-  std::string model;
+  std::string model;  // or a domain mesh
   std::string weights;
   std::string cage;
   std::string pose;
-  std::string shown_model;
   std::string compared;  // other weights of the same vertices
   std::string output;
   std::string color;
   ModelView view;
   Index control_point = 0;
-  int slices = 3;
   bool all = false;
   draw::WeightPictureOptions options;
 };
@@ -48,9 +42,7 @@ void check_arguments(DrawArguments& arguments) {
   draw::validate(arguments.options);
   arguments.options.format = draw::picture_format(arguments.output);
   require_writable(arguments.output, io::extension_of(arguments.output).c_str());
-  if (arguments.domain.empty() == arguments.model.empty()) {
-    throw OptionError("give either DOMAIN or --model");
-  }
+  if (arguments.model.empty()) throw OptionError("give MODEL, a model or a domain mesh");
   if (arguments.color == kDisplacement && arguments.pose.empty()) {
     throw OptionError("--color displacement needs --pose, the deformed cage");
   }
@@ -71,47 +63,12 @@ SparseWeights load_compared(Eigen::Index control_points, Eigen::Index points,
                             const DrawArguments& arguments) {
   auto others = io::read_weights(arguments.compared);
   check_sizes(others, control_points, points,
-              {arguments.compared, arguments.cage,
-               arguments.domain.empty() ? arguments.model : arguments.domain});
+              {arguments.compared, arguments.cage, arguments.model});
   return others;
 }
 
 std::array<std::string, 2> names_of_compared(const DrawArguments& arguments) {
   return {stem_of(arguments.weights), stem_of(arguments.compared)};
-}
-
-std::string picture(const Cage<2>& cage, const DomainMesh<2>& domain, const SparseWeights& weights,
-                    const DrawArguments& arguments) {
-  if (!arguments.shown_model.empty()) throw OptionError("--show-model is for cages in 3D");
-  if (!arguments.compared.empty()) {
-    const auto others = load_compared(cage.size(), domain.num_vertices(), arguments);
-    const Index i = arguments.control_point;
-    return draw::draw_comparison(cage, domain, weights.of_control_point(i),
-                                 others.of_control_point(i), names_of_compared(arguments), i,
-                                 arguments.options);
-  }
-  if (arguments.all) {
-    return draw::draw_all(cage, domain, weights.dense(), all_of(cage.size()), arguments.options);
-  }
-  return draw::draw_weights(cage, domain, weights.of_control_point(arguments.control_point),
-                            arguments.control_point, arguments.options);
-}
-
-std::string picture(const Cage<3>& cage, const DomainMesh<3>& domain, const SparseWeights& weights,
-                    const DrawArguments& arguments) {
-  if (!arguments.compared.empty()) throw OptionError("--compare in 3D needs --model");
-  if (arguments.all) {
-    return draw::draw_slice_sheet(cage, domain, weights.dense(), arguments.slices,
-                                  arguments.options);
-  }
-  Cage<3> model;
-  if (!arguments.shown_model.empty()) {
-    const auto shown = load_shown_model<3>(arguments.shown_model);
-    model = {shown.points, gltf::triangles_of_points(shown.surface)};
-  }
-  return draw::draw_slices(cage, domain, weights.of_control_point(arguments.control_point),
-                           arguments.control_point, arguments.slices, arguments.options,
-                           model.facets.cols() > 0 ? &model : nullptr);
 }
 
 // A model at rest and, with a pose, also there.
@@ -129,28 +86,36 @@ PosedModel<Dim> load_posed(const Cage<Dim>& cage, const DrawArguments& arguments
   PosedModel<Dim> posed{load_shown_model<Dim>(arguments.model),
                         io::read_weights(arguments.weights)};
   check_sizes(posed.weights, cage.size(), posed.model.points.cols(), files);
-  check_reproduction<Dim>(posed.weights, cage, posed.model.points, files);
   if (arguments.pose.empty()) return posed;
+  check_reproduction<Dim>(posed.weights, cage, posed.model.points, files);
   posed.pose = RestCage<Dim>(arguments.cage).load_pose(arguments.pose);
   posed.moved = by_weights<Dim>(posed.weights, cage.points, posed.model.points).at(posed.pose);
   return posed;
 }
 
-std::string picture_of_model(const Cage<2>& cage, const DrawArguments& arguments) {
+std::string picture(const Cage<2>& cage, const DrawArguments& arguments) {
   const bool has_squares = !arguments.pose.empty() && !arguments.all && arguments.color != kWeight;
   if (arguments.color == kDisplacement || (arguments.color == kPlain && !has_squares)) {
     throw OptionError("--color " + arguments.color + " is for models in 3D");
   }
   const auto posed = load_posed(cage, arguments);
   up_axis(arguments.view.up, posed.model.points);
-  const CellList<2> triangles = gltf::triangles_of_points(posed.model.surface);
-  if (arguments.pose.empty() || arguments.all) {
-    return picture(cage, DomainMesh<2>{posed.model.points, triangles}, posed.weights, arguments);
+  const DomainMesh<2> shape{posed.model.points, gltf::triangles_of_points(posed.model.surface)};
+  const auto& weights = posed.weights;
+  const Index i = arguments.control_point;
+  if (arguments.all) {
+    return draw::draw_all(cage, shape, weights.dense(), all_of(cage.size()), arguments.options);
   }
-  return draw::draw_deformation(
-      cage.facets, triangles, {cage.points, posed.model.points}, {posed.pose, posed.moved},
-      has_squares ? Eigen::VectorXd() : posed.weights.of_control_point(arguments.control_point),
-      arguments.control_point, arguments.options);
+  const auto values = weights.of_control_point(i);
+  if (!arguments.compared.empty()) {
+    const auto others = load_compared(cage.size(), shape.num_vertices(), arguments);
+    return draw::draw_comparison(cage, shape, values, others.of_control_point(i),
+                                 names_of_compared(arguments), i, arguments.options);
+  }
+  if (arguments.pose.empty()) return draw::draw_weights(cage, shape, values, i, arguments.options);
+  return draw::draw_deformation(cage.facets, shape.cells, {cage.points, shape.points},
+                                {posed.pose, posed.moved}, has_squares ? Eigen::VectorXd() : values,
+                                i, arguments.options);
 }
 
 draw::ShownValues shown_values(const PosedModel<3>& posed, const DrawArguments& arguments) {
@@ -161,7 +126,7 @@ draw::ShownValues shown_values(const PosedModel<3>& posed, const DrawArguments& 
   return {posed.weights.of_control_point(arguments.control_point), arguments.control_point};
 }
 
-std::string picture_of_model(const Cage<3>& cage, const DrawArguments& arguments) {
+std::string picture(const Cage<3>& cage, const DrawArguments& arguments) {
   const auto posed = load_posed(cage, arguments);
   const auto view = view_of(arguments.view, posed.model.points);
   const draw::DrawnModel model{gltf::triangles_of_points(posed.model.surface),
@@ -182,57 +147,37 @@ std::string picture_of_model(const Cage<3>& cage, const DrawArguments& arguments
 }
 
 template <int Dim>
-std::string picture_of_domain(const Cage<Dim>& cage, const DrawArguments& arguments) {
-  const auto domain = io::read_domain<Dim>(arguments.domain);
-  const auto weights = io::read_weights(arguments.weights);
-  check_sizes(weights, cage.size(), domain.num_vertices(),
-              {arguments.weights, arguments.cage, arguments.domain});
-  return picture(cage, domain, weights, arguments);
-}
-
-template <int Dim>
 void draw_cage(const Cage<Dim>& cage, const DrawArguments& arguments) {
   require_control_point(arguments.control_point, cage.size());
-  write_text(arguments.output, arguments.model.empty() ? picture_of_domain(cage, arguments)
-                                                       : picture_of_model(cage, arguments));
+  write_text(arguments.output, picture(cage, arguments));
 }
 
 void add_options(CLI::App& command, DrawArguments& a) {
-  auto* domain = command.add_option("DOMAIN", a.domain,
-                                    "domain mesh, for example from flbc solve --save-domain");
-  auto* model = command.add_option("--model", a.model,
-                                   "draw this model, or the boundary of this domain mesh");
-  model->excludes(domain);
+  auto* model =
+      command.add_option("MODEL", a.model, "model or domain mesh; in 3D its surface is drawn");
+  command.add_option("--model", a.model)->excludes(model)->group("");  // of earlier versions
   command.add_option("--weights", a.weights, "weights at the vertices")->required();
   command.add_option("--cage", a.cage, "cage of the weights")->required();
   auto* compare = command.add_option("--compare", a.compared,
                                      "other weights of the same vertices: draw both functions and "
-                                     "their difference (3D: with --model)");
+                                     "their difference");
   command.add_option("-o,--output", a.output, std::string("picture: ") + draw::kPictureExtensions)
       ->required();
   auto* point =
       command.add_option("--control-point", a.control_point,
                          "control point whose function is drawn, counted from 0 (default: 0)");
   command.add_option("--pose", a.pose, "deformed cage: draw the model at rest and in this pose")
-      ->needs(model)
       ->excludes(compare);
   add_choice(command, "--color", {kDisplacement, kWeight, kPlain}, a.color,
-             "what the colors of the model show (default: weight, or plain with --pose)")
-      ->needs(model);
-  for (auto* option : add_view_options(command, a.view)) option->needs(model);
-  auto* shown = command
-                    .add_option("--show-model", a.shown_model,
-                                "model whose shape is shown with the slices of DOMAIN in 3D")
-                    ->needs(domain);
+             "what the colors of the model show (default: weight, or plain with --pose)");
+  add_view_options(command, a.view);
   command.add_flag("--all", a.all, "draw all functions on one sheet")
       ->excludes(point)
-      ->excludes(shown)
       ->excludes(compare);
-  command.add_option("--slices", a.slices, "number of slices in 3D (default: 3)");
   command.add_option("--width", a.options.width, "width in pixels (default: 1200)");
   command.add_option("--isolines", a.options.isolines,
-                     "number of isolines between 0 and 1 (default: 10)");
-  command.add_flag("--mesh", a.options.mesh_edges, "draw the edges of the mesh");
+                     "number of isolines between 0 and 1 in 2D (default: 10)");
+  command.add_flag("--mesh", a.options.mesh_edges, "draw the edges of the mesh in 2D");
 }
 
 }  // namespace
@@ -240,6 +185,10 @@ void add_options(CLI::App& command, DrawArguments& a) {
 void add_draw_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<DrawArguments>();
   auto* command = app.add_subcommand("draw", "draw a coordinate function, or a model and its pose");
+  command->footer(
+      "In 2D the colors fill the domain, in 3D they are on the surface of the model. For sections\n"
+      "of the inside, open the mesh of flbc solve --save-domain domain.vtu in ParaView: each\n"
+      "coordinate function is a field.");
   add_options(*command, *arguments);
   command->callback([arguments] {
     check_arguments(*arguments);

@@ -78,7 +78,7 @@ void take_other_steps(Run<Dim>& run, std::future<void> deformed) {
   take(run, "check", check_weights_of_mesh);
   if (draw::can_draw()) take(run, "pictures", draw_function);
   deformed.get();
-  if (draw::can_draw()) take(run, "pictures", draw_shape);
+  if (draw::can_draw()) take(run, "pictures", draw_farthest_pose);
   take(run, "page", write_page);
 }
 

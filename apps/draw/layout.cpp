@@ -32,7 +32,7 @@ Box bounding_box(const PointList<2>& points) {
   return box;
 }
 
-PictureLayout plan_picture(const Box& content, const WeightPictureOptions& options, Strip strip) {
+PictureLayout plan_picture(const Box& content, const WeightPictureOptions& options) {
   const double unit = pixel_unit(options);
   const double margin = 44 * unit;
   const double gap = 44 * unit;
@@ -40,22 +40,15 @@ PictureLayout plan_picture(const Box& content, const WeightPictureOptions& optio
   const double label_width = 60 * unit;
   const double right =
       options.width - margin - (options.color_bar ? gap + bar_width + label_width : 0);
-  const double strip_width = strip == Strip::kBeside ? 0.26 * options.width + gap : 0;
-  const double strip_height = strip == Strip::kBelow ? 0.26 * options.width + gap : 0;
-
-  const double width = right - margin - strip_width;
+  const double width = right - margin;
   const Vector<2> size = content.size();
   const double wanted = size.x() > 0 ? width * size.y() / size.x() : 1e9;
   const double height = std::clamp(wanted, 0.27 * options.width, 1.3 * options.width);
 
   PictureLayout layout;
   layout.width = options.width;
-  layout.height = static_cast<int>(std::lround(height + strip_height + 2 * margin));
+  layout.height = static_cast<int>(std::lround(height + 2 * margin));
   layout.frame = {{margin, margin}, {margin + width, margin + height}};
-  layout.strip =
-      strip == Strip::kBeside
-          ? Box{{margin + width + gap, margin}, {right, margin + height}}
-          : Box{{margin, margin + height + gap}, {right, margin + height + strip_height}};
 
   // Above and below the bar there is room for its title and the colors of defects.
   const double bar_height = std::min(layout.height - 240 * unit, 620 * unit);

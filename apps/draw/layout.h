@@ -41,23 +41,17 @@ inline PoseLayout arrange_poses(const Vector<2>& size) {
   return {size.x() < 1.6 * size.y(), 0.06 * size.maxCoeff()};
 }
 
-//! Where room is kept for something next to the drawing.
-enum class Strip { kNone, kBelow, kBeside };
-
-//! A picture with one drawing and, if wanted, a strip of further ones and a color bar at the
-//! right.
+//! A picture with one drawing and, if wanted, a color bar at the right.
 struct PictureLayout {
   int width;      //!< of the picture in pixels
   int height;     //!< of the picture in pixels
   Box frame;      //!< for the drawing
-  Box strip;      //!< meaningless for Strip::kNone
   Box color_bar;  //!< for the colored part of the bar
 };
 
 //! The width is as demanded. The height of the drawing follows from the content, but is no less
 //! than 0.27 times and no more than 1.3 times the width.
-PictureLayout plan_picture(const Box& content, const WeightPictureOptions& options,
-                           Strip strip = Strip::kNone);
+PictureLayout plan_picture(const Box& content, const WeightPictureOptions& options);
 
 //! A sheet of small pictures in rows, with a label above each.
 struct SheetLayout {

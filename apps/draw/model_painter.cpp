@@ -19,21 +19,31 @@ Vector<2> pixel_of(const ModelScene& scene, const Vector<3>& place) {
   return scene.map(Vector<2>(scene.view.project(place) + scene.shift));
 }
 
-// Sums of the triangles' normals, in the coordinates of the view.
-PointList<3> normals_in_view(const ModelScene& scene) {
+// A normal for each corner of each triangle, in the coordinates of the view: of the triangles at
+// the vertex without those beyond a sharp edge.
+PointList<3> corner_normals(const ModelScene& scene) {
+  constexpr double kSmooth = 0.6;  // cosine between triangles that look curved
   const auto& points = scene.place.points;
-  PointList<3> normals = PointList<3>::Zero(3, points.cols());
-  for (const auto& t : scene.model.triangles.colwise()) {
-    const Vector<3> a = points.col(t[0]);
-    const Vector<3> u = points.col(t[1]) - a;
-    const Vector<3> v = points.col(t[2]) - a;
-    const Vector<3> normal = u.cross(v);
-    for (const Index k : t) normals.col(k) += normal;
-  }
+  const auto& triangles = scene.model.triangles;
   Eigen::Matrix3d to_view;
   to_view << scene.view.right.transpose(), scene.view.up.transpose(), scene.view.toward.transpose();
-  normals = (to_view * normals).eval();
-  for (auto normal : normals.colwise()) normal.stableNormalize();
+  PointList<3> areas(3, triangles.cols());  // normals as long as the areas
+  std::vector<std::vector<Index>> around(points.cols());
+  for (Index f = 0; f < triangles.cols(); ++f) {
+    const auto t = triangles.col(f);
+    const Vector<3> a = points.col(t[0]), u = points.col(t[1]) - a, v = points.col(t[2]) - a;
+    areas.col(f) = to_view * u.cross(v);
+    for (const Index p : t) around[p].push_back(f);
+  }
+  PointList<3> normals = PointList<3>::Zero(3, 3 * triangles.cols());
+  for (Index k = 0; k < normals.cols(); ++k) {
+    const Vector<3> own = areas.col(k / 3);
+    for (const Index f : around[triangles(k % 3, k / 3)]) {
+      const Vector<3> other = areas.col(f);
+      if (own.dot(other) >= kSmooth * own.norm() * other.norm()) normals.col(k) += other;
+    }
+    normals.col(k).stableNormalize();
+  }
   return normals;
 }
 
@@ -47,25 +57,31 @@ double light_on(const Vector<3>& normal) {
   return std::min(1.0, 0.34 + 0.46 * std::max(0.0, front.dot(lamp)) + 0.26 * front.z());
 }
 
+// Whether the surface covers a place that is not on it.
+bool is_hidden(const Raster& surface, const ModelScene& scene, const Vector<3>& place) {
+  const double tolerance = 4 * scene.unit / scene.map.scale();
+  return surface.hides(pixel_of(scene, place), scene.view.toward.dot(place) + tolerance);
+}
+
 Raster painted_surface(const Canvas& canvas, const ModelScene& scene, Color plain) {
   const auto& points = scene.place.points;
-  const PointList<3> normals = normals_in_view(scene);
+  const PointList<3> normals = corner_normals(scene);
   const Eigen::VectorXd nearness = points.transpose() * scene.view.toward;
   PointList<2> pixels(2, points.cols());
   for (Eigen::Index p = 0; p < points.cols(); ++p) pixels.col(p) = pixel_of(scene, points.col(p));
   Raster raster = canvas.raster_for(pixels);
-  for (const auto& t : scene.model.triangles.colwise()) {
+  for (Index f = 0; f < scene.model.triangles.cols(); ++f) {
+    const auto t = scene.model.triangles.col(f);
     const Index a = t[0], b = t[1], c = t[2];
-    raster.fill(
-        {pixels.col(a), pixels.col(b), pixels.col(c)}, {nearness[a], nearness[b], nearness[c]},
-        [&](double b0, double b1, double b2) {
-          const Color color = scene.values.size() == 0
-                                  ? plain
-                                  : weight_color(b0 * scene.values[a] + b1 * scene.values[b] +
-                                                 b2 * scene.values[c]);
-          const Vector<3> normal = b0 * normals.col(a) + b1 * normals.col(b) + b2 * normals.col(c);
-          return mix({0, 0, 0}, color, static_cast<float>(light_on(normal)));
-        });
+    raster.fill({pixels.col(a), pixels.col(b), pixels.col(c)},
+                {nearness[a], nearness[b], nearness[c]}, [&](double b0, double b1, double b2) {
+                  const Color color = scene.values.size() == 0 ? plain
+                                                               : weight_color(b0 * scene.values[a] +
+                                                                              b1 * scene.values[b] +
+                                                                              b2 * scene.values[c]);
+                  const Vector<3> normal = normals.middleCols<3>(3 * f) * Vector<3>(b0, b1, b2);
+                  return mix({0, 0, 0}, color, static_cast<float>(light_on(normal)));
+                });
   }
   return raster;
 }
@@ -82,9 +98,8 @@ void paint_wire(Canvas& canvas, const Raster& surface, const ModelScene& scene) 
     std::vector<Segment>* last = nullptr;  // where the piece before is
     for (int k = 0; k < pieces; ++k) {
       const double t0 = static_cast<double>(k) / pieces, t1 = static_cast<double>(k + 1) / pieces;
-      const double middle = (t0 + t1) / 2;
-      const double nearness = scene.view.toward.dot(from + middle * (to - from));
-      auto& pieces_of = surface.hides(begin + middle * (end - begin), nearness) ? hidden : visible;
+      const Vector<3> middle = from + (t0 + t1) / 2 * (to - from);
+      auto& pieces_of = is_hidden(surface, scene, middle) ? hidden : visible;
       if (&pieces_of != last) pieces_of.push_back({begin + t0 * (end - begin), begin});
       pieces_of.back().b = begin + t1 * (end - begin);
       last = &pieces_of;
@@ -109,18 +124,16 @@ void paint_control_points(Canvas& canvas, const Raster& surface, const ModelScen
   const auto& places = scene.place.control_points;
   std::vector<Vector<2>> visible;
   for (Eigen::Index i = 0; i < places.cols(); ++i) {
-    const Vector<2> pixel = pixel_of(scene, places.col(i));
-    if (!surface.hides(pixel, scene.view.toward.dot(places.col(i)))) visible.push_back(pixel);
+    const Vector<3> place = places.col(i);
+    if (!is_hidden(surface, scene, place)) visible.push_back(pixel_of(scene, place));
   }
   const double radius = dot_radius(scene);
   paint_dots(canvas, visible, radius, kInk);
   if (scene.control_point < 0) return;
   // Last and largest, so that neighbors never hide it; pale behind the model.
   const Vector<3> place = places.col(scene.control_point);
-  const Vector<2> pixel = pixel_of(scene, place);
-  const bool is_hidden = surface.hides(pixel, scene.view.toward.dot(place));
-  paint_dots(canvas, {pixel}, std::max(1.6 * radius, 5 * scene.unit),
-             is_hidden ? kHiddenHighlight : kHighlight);
+  paint_dots(canvas, {pixel_of(scene, place)}, std::max(1.6 * radius, 5 * scene.unit),
+             is_hidden(surface, scene, place) ? kHiddenHighlight : kHighlight);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From where models and slices are looked at.
+// From where models are looked at.
 #pragma once
 
 #include <cmath>
@@ -32,23 +32,6 @@ struct ObliqueView {
 inline ObliqueView before_turn(const ObliqueView& view, const Eigen::Matrix3d& turn) {
   const Eigen::Matrix3d back = turn.transpose();
   return {back * view.right, back * view.up, back * view.toward};
-}
-
-//! A view, with the y axis upwards as usual for models, in which slices perpendicular to an axis
-//! lie side by side or above each other without hiding too much; from the front, the right and
-//! above, as models are.
-//! \param axis  0, 1 or 2, the one that the slices are perpendicular to
-inline ObliqueView view_of_slices(int axis) {
-  // A flat angle with the slices keeps them apart, a steep one shows them undistorted.
-  const double elevation = (axis == 1 ? 34 : 20) * kDegree;
-  const double turn = (axis == 1 ? 62 : 56) * kDegree;
-  const int first = axis == 1 ? 0 : axis;
-  const int second = 2 - first;
-  Vector<3> toward = std::sin(elevation) * Vector<3>::UnitY();
-  toward[first] = std::cos(elevation) * std::cos(turn);
-  toward[second] = std::cos(elevation) * std::sin(turn);
-  const Vector<3> right = Vector<3>::UnitY().cross(toward).normalized();
-  return {right, toward.cross(right), toward};
 }
 
 //! The view that shows most models well: from the front, the right and above.

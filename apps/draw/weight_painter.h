@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of which the pictures of weights consist, for plane domains and slices alike. All
+// The parts of which the pictures of weights consist, for domains in the plane and models. All
 // positions and sizes are in pixels of the canvas.
 #pragma once
 

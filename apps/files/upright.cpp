@@ -6,6 +6,8 @@
 #include <sstream>
 #include <string>
 
+#include <Eigen/Geometry>
+
 #include "flbc/errors.h"
 #include "help/options.h"
 
@@ -45,13 +47,17 @@ CLI::Option* add_up_option(CLI::App& command, UpAxis& up) {
 std::vector<CLI::Option*> add_view_options(CLI::App& command, ModelView& view) {
   auto* direction = command.add_option_function<std::string>(
       "--view", [&view](const std::string& text) { view.direction = parse_view(text); },
-      "view direction of a 3D model, as a name or as angles in degrees (default: three-quarter)");
+      "view direction of a 3D model relative to its front, as a name or as angles in degrees "
+      "(default: three-quarter)");
   direction->type_name("front|side|top|three-quarter|AZIMUTH,ELEVATION");
   return {direction, add_up_option(command, view.up)};
 }
 
 draw::ObliqueView view_of(const ModelView& view, const PointList<3>& points) {
-  return draw::before_turn(view.direction, turn_upright(up_axis(view.up, points)));
+  const int up = up_axis(view.up, points);
+  const double front = front_azimuth(up, points) * draw::kDegree;
+  return draw::before_turn(view.direction,
+                           Eigen::AngleAxisd(-front, Vector<3>::UnitY()) * turn_upright(up));
 }
 
 }  // namespace flbc::app

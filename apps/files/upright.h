@@ -23,7 +23,7 @@ struct ModelView {
 //! --view and --up of the commands that draw models.
 std::vector<CLI::Option*> add_view_options(CLI::App& command, ModelView& view);
 
-//! The view of points as they are in their file, 3 x P.
+//! The view of points as they are in their file, 3 x P: azimuths are relative to their front.
 draw::ObliqueView view_of(const ModelView& view, const PointList<3>& points);
 
 }  // namespace flbc::app

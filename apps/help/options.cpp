@@ -2,15 +2,30 @@
 #include "help/options.h"
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 #include <utility>
-
-#include "help/command_table.h"
 
 namespace flbc::app {
 namespace {
 
 constexpr std::size_t kColumn = 30, kLine = 79;
+
+// The name of a value in the usual form: CLI11 names types.
+std::string value_name(const std::string& type) {
+  std::string name = type.substr(0, type.find(':'));  // ":POSITIVE" names a check
+  if (name.size() > 2 && name.front() == '[' && name.back() == ']') {
+    name = name.substr(1, name.size() - 2);
+  }
+  if (name == "TEXT") return "FILE";
+  return name == "FLOAT" || name == "INT" || name == "UINT" ? "N" : name;
+}
+
+// A phrase with a capital letter and a period.
+std::string as_sentence(std::string phrase) {
+  phrase[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(phrase[0])));
+  return phrase.back() == '.' ? phrase : phrase + ".";
+}
 
 class HelpFormatter : public CLI::Formatter {
  public:
@@ -39,12 +54,12 @@ class HelpFormatter : public CLI::Formatter {
   }
 
   std::string make_option_opts(const CLI::Option* option) const override {
-    const auto entry = read_option(*option);
-    const bool has_value = !entry.names.empty() && !entry.value.empty();
-    std::string text = has_value ? " " + entry.value : "";
-    if (entry.optional_value && has_value) text = " [" + entry.value + "]";
-    if (entry.repeated) text += " ...";
-    return text;
+    std::string text;
+    if (option->nonpositional() && option->get_items_expected_max() > 0) {
+      const auto value = value_name(option->get_type_name());
+      text = option->get_expected_min() == 0 ? " [" + value + "]" : " " + value;
+    }
+    return option->get_expected_max() > 1 ? text + " ..." : text;
   }
 
   std::string make_option_desc(const CLI::Option* option) const override {

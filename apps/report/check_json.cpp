@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The JSON that flbc check writes for programs.
+// What flbc check finds, and its JSON.
 #include <nlohmann/json.hpp>
 
+#include "flbc/meshing.h"
 #include "flbc/version.h"
 #include "report/check_report.h"
 #include "report/properties.h"
@@ -125,6 +126,22 @@ Json weights_json(const CheckReport<Dim>& report) {
 }  // namespace
 
 template <int Dim>
+CheckReport<Dim> check_cage(const Cage<Dim>& cage, const std::string& file) {
+  CheckReport<Dim> report{file, "", "", "", cage, find_defects(cage)};
+#ifdef FLBC_WITH_CGAL
+  if (report.defects.empty()) {
+    report.defects = find_self_intersections(cage, kMostDefects);
+    report.intersections_checked = true;
+  }
+#endif
+  if (report.defects.empty()) {
+    report.facts = measure_cage(cage);
+    report.thinnest = thinnest_place(cage);
+  }
+  return report;
+}
+
+template <int Dim>
 Json check_json(const CheckReport<Dim>& report) {
   Json json{{"fine", report.is_fine()}, {"cage", cage_json(report)}};
   if (report.model) json["model"] = model_json(report);
@@ -141,7 +158,11 @@ Json check_json(const CheckReport<Dim>& report) {
   return json;
 }
 
-template Json check_json(const CheckReport<2>&);
-template Json check_json(const CheckReport<3>&);
+#define FLBC_INSTANTIATE(Dim)                                                 \
+  template CheckReport<Dim> check_cage(const Cage<Dim>&, const std::string&); \
+  template Json check_json(const CheckReport<Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
 
 }  // namespace flbc::app

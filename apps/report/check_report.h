@@ -43,12 +43,11 @@ struct CheckReport {
   bool is_fine() const { return defects.empty() && violations.empty(); }
 };
 
-//! A line a property, with value, verdict and worst place.
-template <int Dim>
-void print_check(std::ostream& out, const CheckReport<Dim>& report);
-
 template <int Dim>
 nlohmann::ordered_json check_json(const CheckReport<Dim>& report);
+
+//! A line a property, with value, verdict and worst place. \param report  of check_json()
+void print_check(std::ostream& out, const nlohmann::ordered_json& report);
 
 //! The beginning of a report: the cage's defects, or facts about a cage without any.
 //! \param file  of the cage

@@ -2,13 +2,9 @@
 #include "report/history.h"
 
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
-
-#include "flbc/errors.h"
-#include "flbc/io/files.h"
 
 namespace flbc::app {
 namespace {
@@ -29,36 +25,6 @@ constexpr Quantity kQuantities[] = {
     {"relative_primal_residual", &HistoryEntry::relative_primal_residual},
     {"relative_dual_residual", &HistoryEntry::relative_dual_residual},
     {"objective", &HistoryEntry::objective}};
-
-double number_or_none(const Json& value) {
-  return value.is_null() ? kNone : value.get<double>();
-}
-
-// Beyond an int, the conversion from JSON would give any number.
-int small_integer(const Json& value) {
-  constexpr std::int64_t kLargest = std::numeric_limits<int>::max();
-  const auto number = value.is_number_integer() ? value.get<std::int64_t>() : -1;
-  if (number < 0 || number > kLargest)
-    throw InputError(value.dump() + " is not a number of iterations");
-  return static_cast<int>(number);
-}
-
-RunHistory parse(const Json& solve) {
-  const auto& history = solve.at("history");
-  RunHistory run;
-  run.lower_bound = solve.contains("lower_bound") ? number_or_none(solve["lower_bound"]) : kNone;
-  const auto count = history.at("iterations").size();
-  run.entries.resize(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    auto& entry = run.entries[k];
-    entry.iteration = small_integer(history["iterations"].at(k));
-    entry.finer_levels = small_integer(history.at("finer_levels").at(k));
-    for (const auto& [name, value] : kQuantities) {
-      entry.*value = number_or_none(history.at(name).at(k));
-    }
-  }
-  return run;
-}
 
 }  // namespace
 
@@ -111,28 +77,6 @@ Json history_json(const std::vector<HistoryEntry>& history) {
     }
   }
   return json;
-}
-
-RunHistory read_history(const std::string& file) {
-  Json report;
-  try {
-    report = Json::parse(io::read_file(file));
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(file + ": not a report: " + error.what());
-  }
-  const auto& solve = report.contains("solve") ? report["solve"] : report;
-  if (!solve.is_object() || !solve.contains("history")) {
-    throw InputError(
-        file +
-        ": has no history; write the report with flbc solve --history or flbc run --history");
-  }
-  try {
-    return parse(solve);
-  } catch (const InputError& error) {
-    throw InputError(file + ": the history is damaged: " + error.what());
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(file + ": the history is damaged: " + error.what());
-  }
 }
 
 }  // namespace flbc::app

@@ -46,13 +46,4 @@ class HistoryRecorder {
 //! A list of numbers for each quantity; null where there is none.
 nlohmann::ordered_json history_json(const std::vector<HistoryEntry>& history);
 
-struct RunHistory {
-  std::vector<HistoryEntry> entries{};
-  double lower_bound = 0;  //!< of the objective; NaN without certificate
-};
-
-//! From a report of flbc solve or flbc run. \param file  where it is
-//! \throws IoError; InputError naming the file if it is no report, has no history, or a damaged one
-RunHistory read_history(const std::string& file);
-
 }  // namespace flbc::app

@@ -105,8 +105,9 @@ std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs) {
     }
   }
   names.insert(names.end(), {kSkin, kFullSkin});
-  for (const char* picture : {kFunction, inputs.poses.empty() ? kModelPicture : kDeformation}) {
-    names.push_back(std::string(picture) + "." + inputs.picture_format);
+  names.push_back(std::string(kFunction) + "." + inputs.picture_format);
+  if (!inputs.poses.empty()) {
+    names.push_back(std::string(kDeformation) + "." + inputs.picture_format);
   }
   names.emplace_back(kPage);
   names.emplace_back(kReport);

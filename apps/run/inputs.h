@@ -31,7 +31,6 @@ constexpr const char* kFullSkin = "model_8.glb";  //!< of up to eight
 constexpr const char* kSplats = ".ply";           //!< extension of moved splats
 // Pictures; the extension depends on the format.
 constexpr const char* kFunction = "function";
-constexpr const char* kModelPicture = "model";
 constexpr const char* kDeformation = "deformation";
 constexpr const char* kPage = "model.html";
 

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <Eigen/Geometry>
-
 #include "draw/model_picture.h"
 #include "draw/plane_picture.h"
-#include "draw/slice_picture.h"
-#include "draw/view.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "report/facts.h"
@@ -38,54 +34,43 @@ draw::WeightPictureOptions options_of(const Run<Dim>& run) {
   return options;
 }
 
+// What pictures show: the shape, or the mesh of the interior in place of one without triangles.
+template <int Dim>
+struct Drawn {
+  const PointList<Dim>& points;
+  CellList<2> triangles;
+  const SparseWeights& weights;
+};
+
+template <int Dim>
+Drawn<Dim> drawn_mesh(const Run<Dim>& run) {
+  const auto& domain = run.solver.domain();
+  return {domain.points, gltf::triangles_of_points(shape_of(domain).surface),
+          run.solver.domain_weights()};
+}
+
+template <int Dim>
+Drawn<Dim> drawn_shape(const Run<Dim>& run) {
+  const auto& shape = run.shape();
+  if (shape.surface.triangles.cols() == 0) return drawn_mesh(run);
+  return {shape.points, gltf::triangles_of_points(shape.surface), run.weights()};
+}
+
 std::string function_image(const Run<2>& run, Index control_point) {
-  return draw::draw_weights(run.cage, run.solver.domain(),
-                            run.solver.domain_weights().of_control_point(control_point),
+  const auto [points, triangles, weights] = drawn_mesh(run);
+  return draw::draw_weights(run.cage, {points, triangles}, weights.of_control_point(control_point),
                             control_point, options_of(run));
 }
 
-// The turn after which the model stands upright and faces the z axis.
-Eigen::Matrix3d turn_to_front(const Run<3>& run) {
-  const auto& points = run.shape().points;
-  const int up = up_axis(run.arguments.up, points);
-  const double front = front_azimuth(up, points) * draw::kDegree;
-  return Eigen::AngleAxisd(-front, Vector<3>::UnitY()) * turn_upright(up);
-}
-
-// A cage or a mesh as slices are seen.
-template <class Mesh>
-Mesh turned(const Eigen::Matrix3d& turn, Mesh mesh) {
-  mesh.points = (turn * mesh.points).eval();
-  return mesh;
+draw::ObliqueView usual_view(const Run<3>& run) {
+  return view_of({ModelView().direction, run.arguments.up}, run.shape().points);
 }
 
 std::string function_image(const Run<3>& run, Index control_point) {
-  const auto turn = turn_to_front(run);
-  const auto model =
-      turned(turn, Cage<3>{run.shape().points, gltf::triangles_of_points(run.shape().surface)});
-  return draw::draw_slices(turned(turn, run.cage), turned(turn, run.solver.domain()),
-                           run.solver.domain_weights().of_control_point(control_point),
-                           control_point, 3, options_of(run),
-                           model.facets.cols() > 0 ? &model : nullptr);
-}
-
-draw::ObliqueView usual_view(const Run<3>& run) {
-  return draw::before_turn(draw::view_by_angles(draw::kUsualAzimuth, draw::kUsualElevation),
-                           turn_to_front(run));
-}
-
-// The shape at rest by the sparse weights.
-std::string draw_rest(const Run<2>& run, Index control_point) {
-  return draw::draw_weights(
-      run.cage, {run.shape().points, gltf::triangles_of_points(run.shape().surface)},
-      run.reduced.of_control_point(control_point), control_point, options_of(run));
-}
-
-std::string draw_rest(const Run<3>& run, Index control_point) {
-  return draw::draw_model({gltf::triangles_of_points(run.shape().surface), shown_cage(run).edges},
-                          {{run.cage.points, run.shape().points}},
-                          {run.reduced.of_control_point(control_point), control_point},
-                          usual_view(run), options_of(run));
+  const auto [points, triangles, weights] = drawn_shape(run);
+  return draw::draw_model({triangles, shown_cage(run).edges}, {{run.cage.points, points}},
+                          {weights.of_control_point(control_point), control_point}, usual_view(run),
+                          options_of(run));
 }
 
 template <int Dim>
@@ -96,48 +81,24 @@ void add_picture(Run<Dim>& run, const char* title, const std::string& facts,
   run.report["pictures"]["files"].push_back(name);
 }
 
-// The shape at rest and in the pose; the mesh of the interior in place of one without triangles.
-std::string deformation_image(const Run<2>& run, const Pose<2>& pose, Index control_point) {
-  const auto& shape = run.shape();
-  const auto& domain = run.solver.domain();
-  const bool is_surface = shape.surface.triangles.cols() > 0;
-  const auto& points = is_surface ? shape.points : domain.points;
-  const PointList<2> posed =
-      is_surface ? run.moved.at(pose.points) : deform<2>(run.solver.domain_weights(), pose.points);
-  return draw::draw_deformation(
-      run.cage.facets, is_surface ? gltf::triangles_of_points(shape.surface) : domain.cells,
-      {run.cage.points, points}, {pose.points, posed}, {}, control_point, options_of(run));
-}
-
-// The shape at rest and in the pose; slices through the mesh of the interior
-// in place of one without triangles.
-std::string deformation_image(const Run<3>& run, const Pose<3>& pose, Index control_point) {
-  const auto& shape = run.shape();
-  if (shape.surface.triangles.cols() == 0) {
-    const auto& weights = run.solver.domain_weights();
-    const DomainMesh<3> moved{deform<3>(weights, pose.points), run.solver.domain().cells};
-    const auto turn = turn_to_front(run);
-    return draw::draw_slices(turned(turn, Cage<3>{pose.points, run.cage.facets}),
-                             turned(turn, moved), weights.of_control_point(control_point),
-                             control_point, 3, options_of(run));
-  }
-  const PointList<3> points = run.moved.at(pose.points);
-  return draw::draw_model({gltf::triangles_of_points(shape.surface), shown_cage(run).edges},
-                          {{run.cage.points, shape.points}, {pose.points, points}}, {},
-                          usual_view(run), options_of(run));
-}
-
+// The points in a pose, as deformed files have them.
 template <int Dim>
-void draw_farthest_pose(Run<Dim>& run, Index control_point) {
-  const auto& pose = run.poses()[run.displacement.pose];
-  Facts facts;
-  facts << "at rest and in " << pose.name;
-  try {
-    add_picture(run, kDeformation, facts.text(), deformation_image(run, pose, control_point));
-  } catch (const InputError& error) {  // in a pose all control points may coincide
-    run.report["pictures"]["left_out"] = error.what();
-    run.folder.print(kDeformation, std::string("left out: ") + error.what());
-  }
+PointList<Dim> posed(const Run<Dim>& run, const Drawn<Dim>& drawn, const Pose<Dim>& pose) {
+  return &drawn.points == &run.shape().points ? run.moved.at(pose.points)
+                                              : deform<Dim>(drawn.weights, pose.points);
+}
+
+std::string deformation_image(const Run<2>& run, const Pose<2>& pose) {
+  const auto drawn = drawn_shape(run);
+  return draw::draw_deformation(run.cage.facets, drawn.triangles, {run.cage.points, drawn.points},
+                                {pose.points, posed(run, drawn, pose)}, {}, -1, options_of(run));
+}
+
+std::string deformation_image(const Run<3>& run, const Pose<3>& pose) {
+  const auto drawn = drawn_shape(run);
+  return draw::draw_model({drawn.triangles, shown_cage(run).edges},
+                          {{run.cage.points, drawn.points}, {pose.points, posed(run, drawn, pose)}},
+                          {}, usual_view(run), options_of(run));
 }
 
 }  // namespace
@@ -152,19 +113,22 @@ void draw_function(Run<Dim>& run) {
 }
 
 template <int Dim>
-void draw_shape(Run<Dim>& run) {
-  const auto control_point = run.report["pictures"]["control_point"].template get<Index>();
-  if (!run.poses().empty()) {
-    draw_farthest_pose(run, control_point);
-  } else if (run.shape().surface.triangles.cols() > 0) {
-    add_picture(run, kModelPicture, "at rest, with its weights for this control point",
-                draw_rest(run, control_point));
+void draw_farthest_pose(Run<Dim>& run) {
+  if (run.poses().empty()) return;
+  const auto& pose = run.poses()[run.displacement.pose];
+  Facts facts;
+  facts << "at rest and in " << pose.name;
+  try {
+    add_picture(run, kDeformation, facts.text(), deformation_image(run, pose));
+  } catch (const InputError& error) {  // in a pose all control points may coincide
+    run.report["pictures"]["left_out"] = error.what();
+    run.folder.print(kDeformation, std::string("left out: ") + error.what());
   }
 }
 
 #define FLBC_INSTANTIATE(Dim)             \
   template void draw_function(Run<Dim>&); \
-  template void draw_shape(Run<Dim>&);
+  template void draw_farthest_pose(Run<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -66,15 +66,13 @@ void deform_shape(Run<Dim>& run);
 template <int Dim>
 void export_shape(Run<Dim>& run);
 
-//! function.png: one coordinate function on the mesh, in 3D on slices.
+//! function.png: one coordinate function, in 2D in the interior, in 3D on the shape.
 template <int Dim>
 void draw_function(Run<Dim>& run);
 
-//! With poses deformation.png: what the cage moves, at rest and in the pose where it moves
-//! farthest. Without them model.png: what it will move, colored by the function that
-//! draw_function() has drawn.
+//! deformation.png, if there are poses: the shape at rest and in the pose where it moves farthest.
 template <int Dim>
-void draw_shape(Run<Dim>& run);
+void draw_farthest_pose(Run<Dim>& run);
 
 //! The cage with the edges and the text of its file, if it was read from one.
 template <int Dim>

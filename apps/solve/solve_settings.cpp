@@ -160,8 +160,7 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
                      "depends on --method)");
   add_mesher_options(command, settings.meshing);
   command.add_flag("--history", settings.history,
-                   "record error, residuals, and objective by iteration in the report, for flbc "
-                   "plot");
+                   "record error, residuals, and objective by iteration in the report");
 }
 
 }  // namespace flbc::app

@@ -51,8 +51,8 @@ def bend_tail(points, u):
     return turn(points, u, ramp(u[:, 0], 0.3, 1.1), 60, 1, (0.35, 0.5, 0.5))
 
 
-# File, title, axes that become right, up and toward the eye, with signs; view; pose.
-CASES = [("horse", "Horse", ("+y", "+z", "+x"), "25,12", lower_head),
+# File, title, axes that become right, up and toward the eye, with signs; view from the front; pose.
+CASES = [("horse", "Horse", ("+y", "+z", "+x"), "-65,12", lower_head),
          ("armadillo", "Armadillo", ("-x", "+y", "-z"), "20,10", raise_arm),
          ("beast", "Beast", ("+x", "+y", "+z"), "15,8", swing_arm),
          ("shark", "Shark", ("+x", "+z", "-y"), "35,25", bend_tail)]
@@ -63,7 +63,7 @@ def turned(points, axes):
 
 
 def draw(model, weights, cage, view, picture):
-    flbc("draw", "--model", model, "--weights", weights, "--cage", cage, "--color", "plain", "--view", view,
+    flbc("draw", model, "--weights", weights, "--cage", cage, "--color", "plain", "--view", view,
          "--width", CELL - 10, "-o", picture)
     return common.Image.open(picture).convert("RGB")
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What MkDocs does not do on its own: command pages, the changelog, and links to files outside docs/.
 
-The command pages come from the folder FLBC_HELP, where the program writes them (`flbc man --folder`).
+The command pages come from the folder FLBC_HELP, where the build writes them (`apps/help/pages.py`).
 """
 import os
 import pathlib

@@ -20,9 +20,6 @@ flbc --help
 # ; see
 1 flbc solve
 flbc solve --help
-# '; see flbc --help
-1 flbc man slove
-flbc --help
 # give either a MODEL to enclose, or a cage with --repair
 1 flbc cage -o c.obj
 flbc cage model.obj -o c.obj
@@ -97,10 +94,6 @@ flbc run square.obj $V -o out
 1 mkdir full && cp w.npy full/weights.npy && flbc run square.obj $V -o full
 flbc run square.obj $V -o another
 flbc run square.obj $V -o full --force
-# write the report with flbc solve --history or flbc run --history
-2 flbc solve square.obj $V -o x.npy --report r.json; flbc plot r.json -o p.svg
-flbc solve square.obj $V -o x.npy --report r.json --history && flbc plot r.json -o p.svg
-flbc run square.obj $V -o out --history && flbc plot out/report.json -o p.svg
 # solve one part alone, or leave out --history
 1 flbc solve two.obj $V -o x.npy --report r.json --history
 flbc solve square.obj $V -o x.npy --report r.json --history
@@ -117,13 +110,13 @@ const char* const kFiles = R"(
 1 flbc transfer w.npy --to model.obj --cage square.obj -o x.npy
 flbc transfer w.npy --to model.obj --cage square.obj --from model.obj -o x.npy
 flbc transfer dw.npy --to model.obj --cage square.obj --domain d.obj -o x.npy
-# give either DOMAIN or --model
+# give MODEL, a model or a domain mesh
 1 flbc draw --weights w.npy --cage square.obj -o p.png
-flbc draw --weights w.npy --cage square.obj --model model.obj --control-point 0 -o p.png
+flbc draw model.obj --weights w.npy --cage square.obj --control-point 0 -o p.png
 flbc draw d.obj --weights dw.npy --cage square.obj --control-point 0 -o p.png
 # --color displacement needs --pose
-1 flbc solve 3d/limb_cage.obj --model 3d/limb_model.obj --method harmonic $V -o v.npy; flbc draw --weights v.npy --cage 3d/limb_cage.obj --model 3d/limb_model.obj --color displacement -o p.png
-flbc draw --weights v.npy --cage 3d/limb_cage.obj --model 3d/limb_model.obj --color displacement --pose 3d/limb_cage_pose.obj -o p.png
+1 flbc solve 3d/limb_cage.obj --model 3d/limb_model.obj --method harmonic $V -o v.npy; flbc draw 3d/limb_model.obj --weights v.npy --cage 3d/limb_cage.obj --color displacement -o p.png
+flbc draw 3d/limb_model.obj --weights v.npy --cage 3d/limb_cage.obj --color displacement --pose 3d/limb_cage_pose.obj -o p.png
 # --weights needs --model or --domain
 1 flbc check square.obj --weights w.npy
 flbc check square.obj --weights w.npy --model model.obj

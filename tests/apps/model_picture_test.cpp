@@ -91,6 +91,35 @@ TEST(ModelPicture, HiddenWireIsPale) {
   EXPECT_GT(visible, 2 * hidden);
 }
 
+TEST(ModelPicture, WireOnTheSurfaceIsNotHidden) {
+  Squares squares;
+  squares.model.cage_edges = {{0, 1}, {1, 2}};
+  const auto with_wire_at = [&](double z) {
+    squares.place.control_points.row(2).setConstant(z);
+    return squares.draw(view_by_angles(0, 0)).pixels;
+  };
+  const auto same = [](Color a, Color b) { return a.r == b.r && a.g == b.g && a.b == b.b; };
+  const auto on_it = with_wire_at(1), before_it = with_wire_at(1.5), behind_it = with_wire_at(0.5);
+  EXPECT_TRUE(std::equal(on_it.begin(), on_it.end(), before_it.begin(), same));
+  EXPECT_FALSE(std::equal(on_it.begin(), on_it.end(), behind_it.begin(), same));
+}
+
+TEST(ModelPicture, SharpEdgesSeparateShades) {
+  // A roof: both sides have one shade each up to the ridge.
+  Squares squares;
+  squares.shown = {};
+  squares.model.cage_edges.clear();
+  squares.model.triangles.resize(3, 2);
+  squares.model.triangles << 0, 0, 1, 2, 2, 3;
+  squares.place.points.leftCols(4) << 0, 1, 0, -1, -1, 0, 1, 0, 1, 0, 1, 0;
+  const auto image = squares.draw(view_by_angles(0, 0));
+  const int y = image.height / 2, middle = image.width / 2;
+  for (const int side : {-1, 1}) {
+    EXPECT_EQ(image.at(middle + 5 * side, y).g, image.at(middle + 20 * side, y).g) << side;
+  }
+  EXPECT_GT(std::abs(image.at(middle - 5, y).g - image.at(middle + 5, y).g), 0.1);
+}
+
 TEST(ModelPicture, NamesWhatDoesNotFit) {
   Squares squares;
   const auto view = view_by_angles(kUsualAzimuth, kUsualElevation);
@@ -141,14 +170,14 @@ TEST_F(DrawModel, BothDimensions) {
     const auto pose = " --pose " + name + "_cage_pose.obj";
     ASSERT_EQ(run("solve " + cage + " --method meanvalue -q --model " + model + " -o w.npy").status,
               0);
-    const auto common = "--model " + model + " --weights w.npy --cage " + cage;
+    const auto common = model + " --weights w.npy --cage " + cage;
     expect_picture(common + " --control-point 3");
     expect_picture(common + pose);
     expect_picture(common + " --all");
     expect_failure(common + " --color displacement", 1, "needs --pose");
     expect_failure(common + pose + " --color red", 1, "displacement|weight|plain");
     expect_failure(common + " --control-point 1000", 1, "--control-point must be in [0, ");
-    expect_failure("--weights w.npy --cage " + cage, 1, "--model");
+    expect_failure("--weights w.npy --cage " + cage, 1, "give MODEL");
     if (name[0] == '2') {
       expect_failure(common + " --color plain", 1, "3D");
     } else {

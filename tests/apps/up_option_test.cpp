@@ -76,7 +76,7 @@ TEST_F(UpOption, FeetPointToTheFront) {
 
 TEST_F(UpOption, PicturesShowTheModelUpright) {
   const auto picture = [&](int axis, const std::string& up) {
-    expect("draw --model " + pyramid(axis) + " -o p.svg --up " + up);
+    expect("draw " + pyramid(axis) + " -o p.svg --up " + up);
     return slurp("p.svg");
   };
   const auto upright = picture(1, "y");
@@ -125,11 +125,11 @@ TEST_F(UpOption, RunsTurnPicturesPageAndSkins) {
     expect("run cage.obj model.obj --vertices 200 -q --force -o out" + options);
   };
   run("");
-  const auto picture = slurp("out/model.png");
+  const auto picture = slurp("out/function.png");
   EXPECT_NE(slurp("out/model.html").find("\"up\":2"), std::string::npos);
   EXPECT_TRUE(GlbFile(slurp("out/model.glb")).root_joint().contains("rotation"));
   run(" --up y");
-  EXPECT_NE(slurp("out/model.png"), picture);
+  EXPECT_NE(slurp("out/function.png"), picture);
   EXPECT_NE(slurp("out/model.html").find("\"up\":1"), std::string::npos);
   EXPECT_FALSE(GlbFile(slurp("out/model.glb")).root_joint().contains("rotation"));
 }
@@ -138,7 +138,7 @@ TEST_F(UpOption, IsForModelsIn3D) {
   const std::string cage = "2d/ring_cage.obj", model = "2d/ring_model.obj";
   expect("solve " + cage + " --vertices 500 -q --method harmonic --model " + model + " -o w.npy");
   const auto shape = model + " --weights w.npy --cage " + cage;
-  expect("draw --model " + shape + " -o p.png --up z", 1, "--up is for models in");
+  expect("draw " + shape + " -o p.png --up z", 1, "--up is for models in");
   expect("view " + shape + " -o p.html --up x", 1, "--up is for models in 3D");
   expect("view " + shape + " -o p.html --up w", 1, "--up");
 }

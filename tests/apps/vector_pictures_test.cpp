@@ -131,7 +131,7 @@ TEST_F(VectorPictures, ShowWhatPngShows) {
     expect(solve + "w.npy --save-domain " + scene.mesh);
     expect(solve + "m.npy --model " + model);
     const auto domain = scene.mesh + " --weights w.npy --cage " + cage;
-    const auto of_model = "--model " + model + " --weights m.npy --cage " + cage;
+    const auto of_model = model + " --weights m.npy --cage " + cage;
     expect_all_formats_agree(domain + " --control-point 3" + (plane ? " --mesh" : ""),
                              scene.control_point);
     expect_all_formats_agree(domain + " --all", scene.all);
@@ -148,9 +148,9 @@ TEST_F(VectorPictures, UnknownFormatsAreNamed) {
 
 TEST_F(VectorPictures, OfARunAsWell) {
   expect(
-      "run 3d/limb_cage.obj 3d/limb_model.obj --method harmonic --vertices 500 "
-      "--reduction quadratic -q --pictures svg -o out");
-  for (const char* name : {"out/function.svg", "out/model.svg"}) {
+      "run 3d/limb_cage.obj 3d/limb_model.obj --pose 3d/limb_cage_pose.obj --method harmonic "
+      "--vertices 500 --reduction quadratic -q --pictures svg -o out");
+  for (const char* name : {"out/function.svg", "out/deformation.svg"}) {
     expect_well_formed(slurp(name));
     EXPECT_GT(slurp(name).size(), 1000U) << name;
   }

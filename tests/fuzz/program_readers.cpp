@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Readers of the program alone: silhouettes and reports.
+// Readers of the program alone: silhouettes.
 #include <png.h>
 
 #include <string>
 
 #include "files/model_facets.h"
 #include "fuzz/reader.h"
-#include "report/history.h"
 
 namespace flbc::fuzz {
 namespace {
@@ -35,18 +34,6 @@ std::string picture(int format, const std::string& pixels) {
   return {bytes, size};
 }
 
-const char* const kReport =
-    "{\"method\": \"value\", \"lower_bound\": 1.5, \"history\": {\"iterations\": [10, 20], "
-    "\"finer_levels\": [1, 0], \"seconds\": [0.1, 0.2], \"estimated_error\": [null, 1e-3], "
-    "\"relative_primal_residual\": [1, 2], \"relative_dual_residual\": [3, 4], \"objective\": "
-    "[null, 2.5]}}";
-const char* const kReportOfRun =
-    "{\"solve\": {\"history\": {\"iterations\": [], \"finer_levels\": []}}}";
-
-void read_report(const std::string& path) {
-  app::read_history(path);
-}
-
 }  // namespace
 
 std::vector<Reader> program_readers() {
@@ -65,8 +52,7 @@ std::vector<Reader> program_readers() {
   return {{"silhouette",
            "input.png",
            read_silhouette,
-           {picture(PNG_FORMAT_RGBA, with_hole), picture(PNG_FORMAT_GA, grey)}},
-          {"report", "input.json", read_report, {kReport, kReportOfRun}}};
+           {picture(PNG_FORMAT_RGBA, with_hole), picture(PNG_FORMAT_GA, grey)}}};
 }
 
 }  // namespace flbc::fuzz

@@ -1,1 +1,0 @@
-flbc completion bash >out/flbc.bash

@@ -1,1 +1,0 @@
-flbc man solve >out/flbc-solve.1

@@ -1,1 +1,0 @@
-flbc plot out/solve.json -o out/solve.svg
