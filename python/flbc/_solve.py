@@ -93,7 +93,7 @@ OPTIONS = """\
         whose optimum does not determine the weights. Default: 0.003, and 0 for "paper" and
         "lbc2014".
     distances : str, default "auto"
-        "exact", or "interpolated" from a coarser mesh.
+        "exact", or "interpolated" from the coarse mesh of a refined one.
     precision : str, default "auto"
         Of the iteration: "single" (the default), "double".
     active_set : str, default "auto"

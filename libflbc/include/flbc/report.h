@@ -37,7 +37,7 @@ struct StageSeconds {
 //! Source of the distances for phi.
 struct DistanceReport {
   Distances source = Distances::kExact;  //!< kExact or kInterpolated
-  Index vertices = 0;                    //!< of the coarser mesh; 0 for kExact
+  Index vertices = 0;                    //!< of the coarse mesh; 0 for kExact
   //! Estimated root mean square error of interpolated phi, relative to its root mean square. The
   //! estimate computes the distances of a few control points on both meshes.
   double phi_error = 0;
