@@ -391,7 +391,7 @@ TEST_F(CommandLine, PhiMayComeFromAFile) {
     const auto points = static_cast<Eigen::Index>(io::read_polygons(cage).points.size());
     WeightMatrix phi = WeightMatrix::Ones(points, cells);
     io::write_weights("ones.npy", phi);
-    const auto solve = "solve " + cage + " --domain " + mesh + " -q --tolerance 1e-5 --phi ";
+    const auto solve = "solve " + cage + " --domain " + mesh + " -q --tolerance 1e-8 --phi ";
     expect(solve + "ones.npy -o a.npy --report a.json");
     expect(solve + "constant -o b.npy");
     const auto ours = io::read_weights("a.npy").dense();
