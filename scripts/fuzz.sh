@@ -28,7 +28,7 @@ has_runtime() {
 }
 if ! command -v clang++ >/dev/null || ! has_runtime fuzzer || ! has_runtime asan; then
   echo "scripts/fuzz.sh needs clang++ with its runtime libraries: " \
-    "scripts/install_dependencies.sh clang libclang-rt-14-dev libomp-14-dev" >&2
+    "scripts/install_dependencies.sh clang" >&2
   exit 1
 fi
 

@@ -1,23 +1,34 @@
 #!/usr/bin/env bash
-# Installs missing Debian packages, and the named ones. Returns immediately if all are installed.
-# "openfoam" also brings MPI and the headers of OpenFOAM. "web", "windows", and "aarch64" bring what
-# scripts/web.sh and these presets need.
+# Installs missing Debian packages; returns immediately if all are installed:
+#   scripts/install_dependencies.sh [GROUP|PACKAGE...]
+# Always those of the program and of the Python module. GROUP: components, tests, browser, clang,
+# release, pictures, or site, which scripts of these names need; openfoam with MPI and the headers of
+# OpenFOAM; web, windows, or aarch64 with sources to compile for these systems.
 set -euo pipefail
 
-packages=(
-  g++ cmake ninja-build pkg-config
-  libeigen3-dev libsuitesparse-dev libopenblas0-serial  # core; OpenBLAS halves factoring
-  libpugixml-dev                          # file formats
-  libopenmesh-dev libcgal-dev libtet1.5-dev libnglib-dev  # optional components
-  libcli11-dev nlohmann-json3-dev libpng-dev libtinygltf-dev libcairo2-dev  # the program flbc
-  pybind11-dev python3-dev                # the Python module
-  libgtest-dev poppler-utils librsvg2-bin python3-numpy  # tests; the last three read results
-  python3-scipy python3-pytest            # tests of the Python module
-  mkdocs mkdocs-material libjs-katex groff-base  # tests of pages
-  clang-format codespell                  # test of sources
+# The Python module is always there, because a build without it cannot be extended by it.
+declare -A groups=(
+  [program]="g++ cmake ninja-build pkg-config
+    libeigen3-dev libsuitesparse-dev libopenblas0-serial libpugixml-dev libcgal-dev libtet1.5-dev
+    libcli11-dev nlohmann-json3-dev libpng-dev libtinygltf-dev libcairo2-dev libgtest-dev
+    pybind11-dev python3-dev python3-numpy"
+  [components]="libopenmesh-dev libnglib-dev"
+  [tests]="poppler-utils librsvg2-bin groff-base clang-format codespell mkdocs mkdocs-material
+    libjs-katex python3-scipy python3-pytest python3-distributed python3-matplotlib mypy"
+  [browser]="chromium fonts-dejavu-core"
+  [clang]="clang libclang-rt-14-dev libomp-14-dev"
+  [release]="dpkg-dev file mmdebstrap patchelf python3-pip python3-setuptools python3-venv
+    python3-wheel"
+  [pictures]="python3-pil python3-matplotlib fonts-lato gifsicle chromium"
+  [site]="doxygen mkdocs mkdocs-material libjs-katex"
+  [openfoam]="openfoam openmpi-bin bzip2"
+  [web]="emscripten nodejs libboost-dev libfast-float-dev"
+  [windows]="g++-mingw-w64-x86-64-posix wine64 libboost-dev googletest"
+  [aarch64]="g++-aarch64-linux-gnu qemu-user libboost-dev googletest"
 )
 headers=/usr/src/openfoam
 needs_headers=
+packages=()
 sources=()  # source packages
 needs_sources() {
   local package
@@ -25,25 +36,13 @@ needs_sources() {
     [ -d "/usr/src/$package" ] || sources+=("$package")
   done
 }
-for package in "$@"; do
-  case $package in
-    openfoam)
-      packages+=(openfoam openmpi-bin bzip2)
-      [ -e $headers/src/dynamicMesh/lnInclude ] || needs_headers=yes
-      ;;
-    web)
-      packages+=(emscripten nodejs libboost-dev libfast-float-dev)
-      needs_sources tetgen pugixml
-      ;;
-    windows)
-      packages+=(g++-mingw-w64-x86-64-posix wine64 libboost-dev googletest)
-      needs_sources tetgen pugixml zlib libpng1.6 openmesh
-      ;;
-    aarch64)
-      packages+=(g++-aarch64-linux-gnu qemu-user libboost-dev googletest)
-      needs_sources tetgen pugixml zlib libpng1.6 openmesh
-      ;;
-    *) packages+=("$package") ;;
+for name in program "$@"; do
+  # shellcheck disable=SC2206
+  packages+=(${groups[$name]:-$name})
+  case $name in
+    openfoam) [ -e $headers/src/dynamicMesh/lnInclude ] || needs_headers=yes ;;
+    web) needs_sources tetgen pugixml ;;
+    windows | aarch64) needs_sources tetgen pugixml zlib libpng1.6 openmesh ;;
   esac
 done
 

@@ -18,7 +18,7 @@ if [ $# -eq 0 ]; then
   ! command -v blender >/dev/null || names+=(blender)
 fi
 
-packages=(python3-pil python3-matplotlib fonts-lato gifsicle chromium)
+packages=(pictures)
 command -v npm >/dev/null || packages+=(nodejs npm)
 scripts/install_dependencies.sh "${packages[@]}"
 [ -f build/release/build.ninja ] || cmake --preset release >/dev/null

@@ -52,8 +52,7 @@ git archive --prefix="$name/" -o "$dist/$name.tar.gz" HEAD
 tar -xf "$dist/$name.tar.gz" -C "$work"
 cd "$work/$name"
 if wants packages || wants wheel || wants addon; then
-  scripts/install_dependencies.sh dpkg-dev file mmdebstrap patchelf python3-pip python3-setuptools \
-    python3-venv python3-wheel
+  scripts/install_dependencies.sh components release
   cmake --preset package >/dev/null
   cmake --build --preset package
   for component in program core meshers; do

@@ -5,7 +5,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 site=${1:-out/site}
-scripts/install_dependencies.sh doxygen mkdocs mkdocs-material libjs-katex
+scripts/install_dependencies.sh site
 [ -f build/release/CMakeCache.txt ] || cmake --preset release >/dev/null
 cmake --build --preset release --target flbc_app
 scripts/site/build.sh build/release/help "$site"

@@ -4,12 +4,13 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/install_dependencies.sh
-cmake --preset release >/dev/null
+scripts/install_dependencies.sh components tests
+# scripts/demo.sh may have configured the build without them.
+cmake --preset release -DFLBC_WITH_NETGEN=ON -DFLBC_WITH_OPENMESH=ON >/dev/null
 cmake --build --preset release
 # Without them, tests of glTF in other programs and of pages in a browser are skipped.
 if command -v npm >/dev/null; then
-  scripts/install_dependencies.sh chromium fonts-dejavu-core ||
+  scripts/install_dependencies.sh browser ||
     echo "chromium cannot be installed" >&2
   for folder in tests/gltf tests/browser; do
     lock=$folder/package-lock.json

@@ -14,7 +14,7 @@ fi
 archer=$(dirname "$(readlink -f "$(command -v clang++ || echo /)")")/../lib/libarcher.so
 if [ ! -e "$archer" ]; then
   echo "scripts/thread_sanitizer.sh needs clang++ with its runtime libraries:" \
-    "scripts/install_dependencies.sh clang libclang-rt-14-dev libomp-14-dev" >&2
+    "scripts/install_dependencies.sh clang" >&2
   exit 1
 fi
 export OMP_TOOL_LIBRARIES=$archer OMP_NUM_THREADS=4 OMP_WAIT_POLICY=passive

@@ -78,9 +78,8 @@ def is_interior(mesh):
 
 
 def rows_of(name, cage, size, options):
-    try:
-        mesh = flbc.mesh(cage, vertices=size)
-    except flbc.TooFewVertices:
+    mesh = flbc.mesh(cage, vertices=size)
+    if len(mesh.points) > 1.1 * size:
         return
     inner = is_interior(mesh)
     stem = f"{name} {size} {options.smoothness}".replace(" ", "_")

@@ -138,7 +138,7 @@ def test_callbacks_follow_stop_and_raise(flat):
     assert np.array_equal(solution.weights, flbc.solve(flat.cage, flat.mesh).weights)
     assert seen[0][0] == 10 and all(objective > 0 for _, _, objective in seen)
 
-    stopped = flbc.solve(flat.cage, flat.mesh, callback=lambda p: p.iteration < 20)
+    stopped = flbc.solve(flat.cage, flat.mesh, callback=lambda p: p.finer_levels > 0 or p.iteration < 20)
     assert stopped.report["status"] == "stopped" and stopped.report["iterations"] == 20
 
     def fail(progress):
@@ -157,7 +157,7 @@ import flbc, time
 cage = flbc.read_cage({cage!r})
 mesh = flbc.mesh(cage, vertices=8000)
 print("ready", flush=True)
-flbc.solve(cage, mesh, tolerance=1e-30, max_iterations=10**6, coarse_to_fine="off")
+flbc.solve(cage, mesh, tolerance=1e-30, max_iterations=10**6)
 """
 
 
