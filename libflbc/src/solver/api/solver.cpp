@@ -150,6 +150,7 @@ SolvePart<Dim> part_solver(const DomainMesh<Dim>& mesh, const SolverOptions& giv
     auto settings = common;
     if (stopped) settings.max_iterations = 1;
     const ThreadScope threads(threads_for(settings.threads, part.size(), domain.num_vertices()));
+    require_connected(domain);
     Stopwatch watch;
     auto ready = set_up(topology != nullptr && &domain == &mesh
                             ? make_geometry(part, domain, *topology)
@@ -259,6 +260,7 @@ struct Solver<Dim>::State {
   // Sets up the problem of a rest cage, as a new Solver does.
   void begin(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& given) {
     require_valid(given, cage.size());
+    require_connected(mesh);
     const ThreadScope threads(threads_for(given.threads, cage.size(), mesh.num_vertices()));
     const Stopwatch watch;
     const auto settings = plan::settings_of(given);
@@ -283,7 +285,7 @@ struct Solver<Dim>::State {
   bool needs_other_phi(const SolverOptions& given) const {
     const auto& [source, vertices, error] = shape->distances;
     return source == Distances::kInterpolated && given.distances == Distances::kAuto &&
-           !plan::accepts_phi_error(error, *resolve(given).tolerance);
+           !plan::interpolates(plan::settings_of(given), error);
   }
 
   // The mesh moved by the control points, not solved yet.

@@ -69,8 +69,7 @@ DistanceMatrix choose_distances(const CoarseProblem<Dim>& coarse, const LbcProbl
   auto distances = interpolated_distances<Dim>(problem.cage.points, problem.mesh.points,
                                                coarse.ends, coarse.problem.phi.distances());
   const double error = check_on_sample(problem, settings.phi, distances);
-  if (settings.distances == Distances::kAuto &&
-      !plan::accepts_phi_error(error, *settings.tolerance)) {
+  if (settings.distances == Distances::kAuto && !plan::interpolates(settings, error)) {
     return distances_for(settings.phi, problem);
   }
   report = {Distances::kInterpolated, coarse.problem.mesh.num_vertices(), error};

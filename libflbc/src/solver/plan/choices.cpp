@@ -46,8 +46,9 @@ double penalty_unit(Method method, int dim, double size) {
   return std::pow(size, dim + 1 - measures * dim);
 }
 
-bool accepts_phi_error(double error, double tolerance) {
-  return kWeightsOfPhi * error * error <= kPartOfTolerance * tolerance;
+bool interpolates(const Settings& settings, double error) {
+  return !proves(settings) &&
+         kWeightsOfPhi * error * error <= kPartOfTolerance * *settings.tolerance;
 }
 
 }  // namespace flbc::plan

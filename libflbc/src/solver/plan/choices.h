@@ -60,7 +60,8 @@ double published_scale(const DomainMesh<Dim>& mesh) {
   return kRadius / (mesh.points.colwise() - center).colwise().norm().maxCoeff();
 }
 
-//! Whether interpolated distances are accurate enough. \param error  DistanceReport::phi_error
-bool accepts_phi_error(double error, double tolerance);
+//! Whether automatic distances are interpolated: not for a certificate, which proves the gap for its
+//! phi. \param error  DistanceReport::phi_error
+bool interpolates(const Settings& settings, double error);
 
 }  // namespace flbc::plan
