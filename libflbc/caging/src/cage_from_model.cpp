@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -57,19 +58,18 @@ double asymmetry(const Enclosure<Dim>& model, const PointList<Dim>& points,
 // The requested plane through the center of the model. For kAuto, the plane of best symmetry if the
 // model is symmetric.
 template <int Dim>
-MirrorPlane find_symmetry(const Cage<Dim>& model, const Vector<Dim>& center, double size,
-                          CageSymmetry wanted) {
+MirrorPlane find_symmetry(const Enclosure<Dim>& model, const PointList<Dim>& points,
+                          const Vector<Dim>& center, double size, CageSymmetry wanted) {
   if (wanted == CageSymmetry::kNone) return {};
   if (wanted != CageSymmetry::kAuto) {
     const int axis = static_cast<int>(wanted) - static_cast<int>(CageSymmetry::kX);
     return {axis, center(axis)};
   }
-  const Enclosure<Dim> enclosure(model.points, model.facets);
   MirrorPlane best;
   double least = kSymmetryTolerance * size;
   for (int axis = 0; axis < Dim; ++axis) {
     const MirrorPlane plane{axis, center(axis)};
-    const double own = asymmetry(enclosure, model.points, plane, least);
+    const double own = asymmetry(model, points, plane, least);
     if (own < least) {
       least = own;
       best = plane;
@@ -170,13 +170,16 @@ class Caging {
     report(CagingStage::kWrap);
     const Eigen::AlignedBox<double, Dim> box(points.rowwise().minCoeff(),
                                              points.rowwise().maxCoeff());
-    plane_ = find_symmetry<Dim>(model, box.center(), size_, options.symmetry);
+    model_.emplace(model.points, model.facets);
+    plane_ = find_symmetry<Dim>(*model_, model.points, box.center(), size_, options.symmetry);
     if constexpr (Dim == 3) {
-      volume_ = solid_volume({points, facets});
       is_closed_ = is_closed({points, facets});
+      volume_ = solid_volume({points, facets}, is_closed_);
     }
+    whole_ = model;
+    if (!plane_.is_there()) return;
     // Adding the mirror image makes the model symmetric.
-    whole_ = plane_.is_there() ? with_mirror_image(model, plane_) : model;
+    whole_ = with_mirror_image(model, plane_);
     model_.emplace(whole_.points, whole_.facets);
   }
 
@@ -248,10 +251,14 @@ class Caging {
       constexpr double kUnlimited = std::numeric_limits<double>::infinity();
       const double most = 0.97 * kMaxCageVolume * volume_;
       options_.control_points = kMostByShape;
+      std::map<Index, Cage<3>> wraps;
       for (const auto& [fineness, limit, edge] :
            {std::tuple(kUsualNumber<3>, most, 1.0), std::tuple(kUsualNumber<3>, most, 1.4),
             std::tuple(kMostByShape, most, 1.4), std::tuple(kUsualNumber<3>, kUnlimited, 1.4)}) {
-        if (auto made = make_close(size_at(fineness), limit, edge)) return made;
+        const auto size = size_at(fineness);
+        const auto [surface, is_new] = wraps.try_emplace(fineness);
+        if (is_new) surface->second = wrap_of(size);
+        if (auto made = make_close(surface->second, size.offset, limit, edge)) return made;
       }
       options_.control_points = kUsualNumber<3>;
     }
@@ -261,11 +268,10 @@ class Caging {
   // As few control points as possible in a volume that is not much larger than that of the wrap. A
   // nearly convex model may have few; others need some to bend limbs.
   // \param edge  maximum length of edges, relative to thickness
-  std::optional<ModelCage<3>> make_close(const WrapSize& size, double most_volume,
+  std::optional<ModelCage<3>> make_close(const Cage<3>& surface, double offset, double most_volume,
                                          double edge) const {
     constexpr double kGrowth = 1.3, kFreeVolume = 2, kConvex = 0.65;
     constexpr Index kLeast = 40, kLeastOfConvex = 8;
-    const auto surface = wrap_of(size);
     const double volume = (plane_.is_there() ? 2 : 1) * volume_of(surface);
     if (!(volume > 0 && volume <= most_volume)) return {};
     auto limits = limits_;
@@ -273,9 +279,9 @@ class Caging {
         std::min(std::max(kGrowth * volume, kFreeVolume * volume_), most_volume) / volume;
     limits.lengths = edge_lengths(surface, edge);
     const bool is_convex = volume > kConvex * hull_volume(surface);
-    const auto cage = reduced(surface, size.offset, is_convex ? kLeastOfConvex : kLeast, limits);
+    const auto cage = reduced(surface, offset, is_convex ? kLeastOfConvex : kLeast, limits);
     if (!cage) return {};
-    return describe(*cage, size.offset);
+    return describe(*cage, offset);
   }
 
   // At every vertex; they leave control points along limbs, at which these bend.

@@ -19,10 +19,10 @@ double hull_volume(const PointList<3>& points);
 
 //! Volume of the solid that triangles bound, within about a percent. They may be open or intersect.
 //! Points count as inside if the signed crossings of a line with the triangles before them do not
-//! add up to zero. Lines that pass through an opening do not count. The result is the median of
-//! lines along x, y, and z.
+//! add up to zero. Lines that pass through an opening do not count. The result of an open model is
+//! the median of lines along x, y, and z.
 //! \return 0 if the triangles bound nothing, or are oriented at random
-double solid_volume(const Cage<3>& model);
+double solid_volume(const Cage<3>& model, bool is_closed);
 
 //! The model with added points inside it, so that a wrap does not enter it through an opening. Most
 //! lines along x, y, and z that pass through no opening must say that a point is inside.

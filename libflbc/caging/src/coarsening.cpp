@@ -89,14 +89,18 @@ Vector<Dim> Coarsening<Dim>::outer_position(const Vector<Dim>& start,
                                             const Replacement<Dim>& change) const {
   constexpr int kSweeps = 20;
   Vector<Dim> p = start;
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  bool has_moved = true;
+  for (int sweep = 0; sweep < kSweeps && has_moved; ++sweep) {
+    has_moved = false;
     for (const Index f : change.old_facets) {
       const auto corners = surface_.facet(f).corners;
       Vector<Dim> normal = facet_normal<Dim>(corners).normalized();
       const double depth = normal.dot(corners.col(0) - p);
       if (change.is_in_plane) normal(surface_.plane().axis) = 0;
       const double steepness = normal.squaredNorm();
-      if (depth > 0 && steepness > 1e-2) p += 1.01 * depth / steepness * normal;
+      if (!(depth > 0 && steepness > 1e-2)) continue;
+      p += 1.01 * depth / steepness * normal;
+      has_moved = true;
     }
   }
   return p;
@@ -154,9 +158,10 @@ bool Coarsening<Dim>::allows(const Replacement<Dim>& change, const Vector<Dim>& 
 
 template <int Dim>
 std::optional<Vector<Dim>> Coarsening<Dim>::first_allowed(const Quadric<Dim>& quadric,
-                                                          const Replacement<Dim>& change) const {
+                                                          const Replacement<Dim>& change,
+                                                          const Vector<Dim>& refused) const {
   for (const auto& position : positions(quadric, change)) {
-    if (allows(change, position)) return position;
+    if (position != refused && allows(change, position)) return position;
   }
   return {};
 }
@@ -171,7 +176,7 @@ void Coarsening<Dim>::add_edge(Index a, Index b) {
   const auto sum = quadric(a, b);
   const bool is_in_plane = surface_.is_in_plane(a) || surface_.is_in_plane(b);
   const Vector<Dim> best = best_position(sum, is_in_plane);
-  candidates_.push({sum(best - origin_), a, b, versions_[a], versions_[b], false, best});
+  candidates_.push({sum(best - origin_), a, b, versions_[a], versions_[b], best});
 }
 
 template <int Dim>
@@ -188,12 +193,11 @@ bool Coarsening<Dim>::take(Candidate candidate) {
   if (!plan) return false;
   const auto change = replacement_of(*plan);
   const auto sum = quadric(candidate.a, candidate.b);
-  if (!candidate.is_tried || !allows(change, candidate.position)) {
-    const auto position = first_allowed(sum, change);
+  if (!allows(change, candidate.position)) {
+    const auto position = first_allowed(sum, change, candidate.position);
     if (!position) return false;
     candidate.position = *position;
     candidate.cost = sum(*position - origin_);
-    candidate.is_tried = true;
     if (!candidates_.empty() && candidates_.top().cost < candidate.cost) {
       candidates_.push(candidate);
       return false;

@@ -90,12 +90,11 @@ class Coarsening {
   Cage<Dim> surface() const { return surface_.surface(); }
 
  private:
-  // A collapse of an edge with its cost, which is a lower bound until the collapse has been tried.
+  // A collapse of an edge with its cost, which is a lower bound until this position is allowed.
   struct Candidate {
     double cost;
     Index a, b;
     Index version_a, version_b;
-    bool is_tried;
     Vector<Dim> position;
     bool operator<(const Candidate& other) const {  // smallest first
       if (cost != other.cost) return cost > other.cost;
@@ -112,7 +111,8 @@ class Coarsening {
   bool keeps_lengths(const Replacement<Dim>& change, const Vector<Dim>& position) const;
   bool allows(const Replacement<Dim>& change, const Vector<Dim>& position) const;
   std::optional<Vector<Dim>> first_allowed(const Quadric<Dim>& quadric,
-                                           const Replacement<Dim>& change) const;
+                                           const Replacement<Dim>& change,
+                                           const Vector<Dim>& refused) const;
   bool is_current(const Candidate& candidate) const;
   void add_edge(Index a, Index b);
   void add_edges_at(Index vertex);

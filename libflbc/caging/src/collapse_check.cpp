@@ -2,7 +2,6 @@
 #include "caging/collapse_check.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "caging/surface_tools.h"
 
@@ -63,8 +62,7 @@ bool CollapseCheck<Dim>::keeps_limits(const Replacement<Dim>& change,
   // A vertex in the plane has as many facets again on the other side.
   const std::size_t valence = (change.is_in_plane ? 2 : 1) * change.new_facets.size();
   if (Dim == 3 && valence > static_cast<std::size_t>(limits_.valence)) return false;
-  return !std::isfinite(limits_.reach) ||
-         enclosure_.distance(position, limits_.reach) < limits_.reach;
+  return enclosure_.is_within(position, limits_.reach);
 }
 
 template <int Dim>
@@ -109,7 +107,7 @@ bool CollapseCheck<Dim>::meets_surface(const Replacement<Dim>& change,
     }
   }
   for (Index other = 0; other < static_cast<Index>(surface_.facets().size()); ++other) {
-    if (!surface_.has_facet(other) || !surface_.box(other).intersects(all)) continue;
+    if (!surface_.box(other).intersects(all)) continue;
     const auto& old = change.old_facets;
     if (std::find(old.begin(), old.end(), other) != old.end()) continue;
     for (const auto& corners : facets) {

@@ -34,10 +34,7 @@ bool has_repeated(const std::vector<FacetCorners<Dim>>& facets) {
 
 template <int Dim>
 EditableSurface<Dim>::EditableSurface(const Cage<Dim>& surface, const MirrorPlane& plane)
-    : points_(surface.points),
-      is_alive_(static_cast<std::size_t>(surface.facets.cols()), true),
-      facets_at_(static_cast<std::size_t>(surface.size())),
-      plane_(plane) {
+    : points_(surface.points), facets_at_(static_cast<std::size_t>(surface.size())), plane_(plane) {
   for (Index f = 0; f < surface.facets.cols(); ++f) {
     facets_.push_back(surface.facets.col(f));
     for (int k = 0; k < Dim; ++k) facets_at_[surface.facets(k, f)].push_back(f);
@@ -121,7 +118,7 @@ void EditableSurface<Dim>::collapse(const Collapse<Dim>& plan, const Vector<Dim>
   const auto weight = [&](bool in_plane) { return plane_.is_there() && !in_plane ? 2 : 1; };
   num_control_points_ += weight(plan.is_in_plane) - weight(is_in_plane(a)) - weight(is_in_plane(b));
   for (const Index f : plan.dying) {
-    is_alive_[f] = false;
+    boxes_[f].setEmpty();
     for (int k = 0; k < Dim; ++k) {
       auto& facets = facets_at_[facets_[f](k)];
       facets.erase(std::find(facets.begin(), facets.end(), f));
@@ -160,7 +157,7 @@ template <int Dim>
 Cage<Dim> EditableSurface<Dim>::surface() const {
   std::vector<FacetCorners<Dim>> alive;
   for (std::size_t f = 0; f < facets_.size(); ++f) {
-    if (is_alive_[f]) alive.push_back(facets_[f]);
+    if (!boxes_[f].isEmpty()) alive.push_back(facets_[f]);
   }
   return compact<Dim>(points_, alive);
 }

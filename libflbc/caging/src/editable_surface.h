@@ -33,7 +33,6 @@ class EditableSurface {
 
   const PointList<Dim>& points() const { return points_; }
   const std::vector<FacetCorners<Dim>>& facets() const { return facets_; }
-  bool has_facet(Index facet) const { return is_alive_[facet]; }
   bool has_vertex(Index vertex) const { return !facets_at_[vertex].empty(); }
   const std::vector<Index>& facets_at(Index vertex) const { return facets_at_[vertex]; }
   const MirrorPlane& plane() const { return plane_; }
@@ -54,7 +53,7 @@ class EditableSurface {
   Simplex<Dim> facet_with(const FacetCorners<Dim>& corners, Index vertex,
                           const Vector<Dim>& position) const;
   Simplex<Dim> facet(Index number) const;
-  const Box& box(Index facet) const { return boxes_[facet]; }
+  const Box& box(Index facet) const { return boxes_[facet]; }  //!< empty: the facet is gone
 
   Cage<Dim> surface() const;
 
@@ -64,7 +63,6 @@ class EditableSurface {
 
   PointList<Dim> points_;
   std::vector<FacetCorners<Dim>> facets_;
-  std::vector<bool> is_alive_;
   std::vector<std::vector<Index>> facets_at_;
   std::vector<Box> boxes_;
   MirrorPlane plane_;

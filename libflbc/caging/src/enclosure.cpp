@@ -2,9 +2,7 @@
 #include "caging/enclosure.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 
 #include "base/union_find.h"
 #include "caging/surface_tools.h"
@@ -53,12 +51,8 @@ std::vector<Simplex<Dim>> collect_simplices(const PointList<Dim>& points,
 template <int Dim>
 PointList<Dim> collect_representatives(const PointList<Dim>& points, const FacetList<Dim>& facets) {
   UnionFind parts(static_cast<Index>(points.cols()));
-  std::map<std::array<double, Dim>, Index> first_at;
-  for (Index v = 0; v < points.cols(); ++v) {
-    std::array<double, Dim> place;
-    for (int k = 0; k < Dim; ++k) place[k] = points(k, v);
-    parts.unite(v, first_at.emplace(place, v).first->second);
-  }
+  const auto first = first_in_place<Dim>(points);
+  for (Index v = 0; v < points.cols(); ++v) parts.unite(v, first[v]);
   for (Index f = 0; f < facets.cols(); ++f) {
     for (int k = 1; k < Dim; ++k) parts.unite(facets(0, f), facets(k, f));
   }
@@ -72,7 +66,7 @@ PointList<Dim> collect_representatives(const PointList<Dim>& points, const Facet
 }
 
 template <int Dim>
-double distance_from(const Simplex<Dim>& simplex, const Vector<Dim>& p) {
+Vector<Dim> nearest_on(const Simplex<Dim>& simplex, const Vector<Dim>& p) {
   if (simplex.count == 3) {
     const Vector<Dim> a = simplex.corners.col(0);
     Eigen::Matrix<double, Dim, 2> sides;
@@ -83,49 +77,30 @@ double distance_from(const Simplex<Dim>& simplex, const Vector<Dim>& p) {
     const double s = metric(1, 1) * right(0) - metric(0, 1) * right(1);
     const double t = metric(0, 0) * right(1) - metric(1, 0) * right(0);
     if (determinant > 0 && s >= 0 && t >= 0 && s + t <= determinant) {
-      return (p - a - sides * Eigen::Vector2d(s, t) / determinant).norm();
+      return a + sides * Eigen::Vector2d(s, t) / determinant;
     }
   }
-  double least = (p - simplex.corners.col(0)).norm();
+  Vector<Dim> nearest = simplex.corners.col(0);
   for (int k = 0; k < simplex.count; ++k) {
     for (int l = 0; l < k; ++l) {
       const Vector<Dim> a = simplex.corners.col(k), along = simplex.corners.col(l) - a;
       const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-      least = std::min(least, (p - a - t * along).norm());
+      const Vector<Dim> candidate = a + t * along;
+      if ((p - candidate).squaredNorm() < (p - nearest).squaredNorm()) nearest = candidate;
     }
   }
-  return least;
+  return nearest;
 }
 
-// Finds boxes on one side of a facet without exact arithmetic. Few boxes near a cage meet the
-// planes of its facets, but many are within the boxes around the facets.
 template <int Dim>
-class PlaneOfFacet {
- public:
-  // \param all  contains the boxes and the facet
-  PlaneOfFacet(const Simplex<Dim>& facet, const Box<Dim>& all)
-      : origin_(facet.corners.col(0)), normal_(facet_normal<Dim>(facet.corners)) {
-    double lengths = 1;  // their product bounds the rounding errors of the normal
-    for (int k = 1; k < Dim; ++k) lengths *= (facet.corners.col(k) - origin_).norm();
-    const double reach = all.min().cwiseAbs().cwiseMax(all.max().cwiseAbs()).sum();
-    margin_ = 1e-13 * lengths * (reach + all.diagonal().norm());
-  }
-
-  // Whether a box is certainly on one side. False for a facet without a plane.
-  bool misses(const Box<Dim>& box) const {
-    const double extent = normal_.cwiseAbs().dot(box.sizes()) / 2;
-    return std::abs(normal_.dot(box.center() - origin_)) > extent + margin_;
-  }
-
- private:
-  Vector<Dim> origin_, normal_;
-  double margin_;
-};
+double distance_from(const Simplex<Dim>& simplex, const Vector<Dim>& p) {
+  return (p - nearest_on(simplex, p)).norm();
+}
 
 // Barycentric coordinates of the centers of equal pieces of a facet.
 template <int Dim>
 std::vector<Vector<Dim>> spread_coordinates() {
-  constexpr int kPieces = 8;
+  constexpr int kPieces = 5;
   std::vector<Vector<Dim>> all;
   for (int i = 0; i < kPieces; ++i) {
     if constexpr (Dim == 2) {
@@ -185,9 +160,10 @@ Enclosure<Dim>::Enclosure(const PointList<Dim>& points, const FacetList<Dim>& fa
 template <int Dim>
 bool Enclosure<Dim>::meets(const Simplex<Dim>& facet) const {
   const Box box = box_of(facet);
-  const PlaneOfFacet<Dim> plane(facet, box.merged(box_));
-  return tree_.any_of([&](const Box& any) { return any.intersects(box) && !plane.misses(any); },
-                      [&](Index number) { return intersect(simplices_[number], facet); });
+  const PlaneOfFacet<Dim> plane(facet.corners, box.merged(box_));
+  return tree_.any_of(
+      [&](const Box& any) { return any.intersects(box) && plane.side_of(any) == 0; },
+      [&](Index number) { return intersect(simplices_[number], facet); });
 }
 
 template <int Dim>
@@ -204,17 +180,28 @@ bool Enclosure<Dim>::is_strictly_inside(const Cage<Dim>& cage) const {
 }
 
 template <int Dim>
-double Enclosure<Dim>::distance(const Vector<Dim>& point, double limit) const {
-  const auto distance_to = [&](Index number) {
-    return distance_from<Dim>(simplices_[number], point);
-  };
-  const Index nearest = tree_.nearest(point, distance_to);
-  return nearest < 0 ? limit : std::min(limit, distance_to(nearest));
+Index Enclosure<Dim>::nearest(const Vector<Dim>& point, double limit) const {
+  return tree_.nearest(
+      point, [&](Index number) { return distance_from<Dim>(simplices_[number], point); }, limit);
 }
 
 template <int Dim>
-double Enclosure<Dim>::distance(const Vector<Dim>& point) const {
-  return distance(point, 8 * box_.diagonal().norm());
+Vector<Dim> Enclosure<Dim>::nearest_point(const Vector<Dim>& point) const {
+  return nearest_on(simplices_[nearest(point, kFar)], point);
+}
+
+template <int Dim>
+double Enclosure<Dim>::distance(const Vector<Dim>& point, double limit) const {
+  const Index number = nearest(point, limit);
+  return number < 0 ? limit : std::min(limit, distance_from<Dim>(simplices_[number], point));
+}
+
+template <int Dim>
+bool Enclosure<Dim>::is_within(const Vector<Dim>& point, double distance) const {
+  const double squared = distance * distance;
+  return tree_.any_of(
+      [&](const Box& box) { return box.squaredExteriorDistance(point) <= squared; },
+      [&](Index number) { return distance_from<Dim>(simplices_[number], point) <= distance; });
 }
 
 template <int Dim>

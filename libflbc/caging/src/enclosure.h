@@ -2,6 +2,7 @@
 // Tests whether facets intersect a model, and whether a cage encloses it.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "cage/box_tree.h"
@@ -30,14 +31,20 @@ class Enclosure {
   const PointList<Dim>& representatives() const { return representatives_; }
 
   const std::vector<Simplex<Dim>>& simplices() const { return simplices_; }
+  const BoxTree<Dim>& tree() const { return tree_; }  //!< of the simplices
   const Box& box() const { return box_; }
 
+  Vector<Dim> nearest_point(const Vector<Dim>& point) const;
   //! Distance from the model. \param limit  upper bound of the result
-  double distance(const Vector<Dim>& point, double limit) const;
-  //! With 8 times the model size as the limit.
-  double distance(const Vector<Dim>& point) const;
+  double distance(const Vector<Dim>& point, double limit = kFar) const;
+  //! Whether the distance from the model is at most this one.
+  bool is_within(const Vector<Dim>& point, double distance) const;
 
  private:
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
+
+  Index nearest(const Vector<Dim>& point, double limit) const;
+
   std::vector<Simplex<Dim>> simplices_;
   BoxTree<Dim> tree_;
   PointList<Dim> representatives_;

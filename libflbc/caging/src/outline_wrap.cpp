@@ -137,8 +137,7 @@ Cage<2> wrap(const Enclosure<2>& model, const WrapSize& size) {
   Grid grid(box, std::max(size.offset / kCellsPerOffset, box.sizes().maxCoeff() / kMostCells));
   const double half_diagonal = grid.cell() / std::sqrt(2.0);
   for_each_cell(grid, [&](Index i, Index j) {
-    const double limit = reach + half_diagonal;
-    if (model.distance(grid.centre(i, j), 2 * limit) <= limit) grid.mark(i, j);
+    if (model.is_within(grid.centre(i, j), reach + half_diagonal)) grid.mark(i, j);
   });
   fill_holes(grid);
   erode(grid, (reach - size.offset) / grid.cell());

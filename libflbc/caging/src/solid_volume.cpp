@@ -5,9 +5,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 #include <vector>
+
+#include "caging/surface_tools.h"
 
 namespace flbc {
 
@@ -23,8 +24,12 @@ struct LineGrid {
     step = (points.rowwise().maxCoeff() - low).array() / counts.cast<double>();
   }
 
+  static double shift(int axis) { return 0.5 + 0.0618 * (axis + 1); }
   double coordinate(int axis, int number) const {
-    return low(axis) + (number + 0.5 + 0.0618 * (axis + 1)) * step(axis);
+    return low(axis) + (number + shift(axis)) * step(axis);
+  }
+  double place(int axis, double coordinate) const {
+    return (coordinate - low(axis)) / step(axis) - shift(axis);
   }
 
   Index number_of(const Eigen::Array3i& cell) const {
@@ -116,10 +121,8 @@ class Lines {
   std::pair<int, int> range(int axis, const std::array<double, 3>& places) const {
     const auto [least, most] = std::minmax_element(places.begin(), places.end());
     if (!(grid_.step(axis) > 0)) return {0, 0};
-    const double begin = (*least - grid_.low(axis)) / grid_.step(axis) - 1;
-    const double end = (*most - grid_.low(axis)) / grid_.step(axis) + 1;
-    return {std::max(0, static_cast<int>(begin)),
-            std::min(grid_.counts(axis), static_cast<int>(end))};
+    return {static_cast<int>(std::ceil(grid_.place(axis, *least))),
+            std::min(grid_.counts(axis), static_cast<int>(std::ceil(grid_.place(axis, *most))))};
   }
 
   const PointList<3>& points_;
@@ -135,10 +138,11 @@ bool is_majority(int count) {
 
 }  // namespace
 
-double solid_volume(const Cage<3>& model) {
+double solid_volume(const Cage<3>& model, bool is_closed) {
   constexpr int kLines = 200;
   const LineGrid grid(model.points, Eigen::Array3i::Constant(kLines));
   std::array<double, 3> volumes{};
+  if (is_closed) return Lines(model, 0, grid).volume();
   for (int axis = 0; axis < 3; ++axis) volumes[axis] = Lines(model, axis, grid).volume();
   std::sort(volumes.begin(), volumes.end());
   return volumes[1];
@@ -169,21 +173,20 @@ Cage<3> filled(const Cage<3>& model, double spacing) {
 }
 
 bool is_closed(const Cage<3>& model) {
-  const auto& [points, facets] = model;
-  std::map<std::array<double, 3>, Index> first_at;
-  std::vector<Index> place;
-  for (Index v = 0; v < points.cols(); ++v) {
-    place.push_back(
-        first_at.emplace(std::array{points(0, v), points(1, v), points(2, v)}, v).first->second);
-  }
-  std::map<std::pair<Index, Index>, bool> is_odd;
-  for (Index f = 0; f < facets.cols(); ++f) {
+  const auto place = first_in_place<3>(model.points);
+  std::vector<std::pair<Index, Index>> edges;
+  edges.reserve(static_cast<std::size_t>(model.facets.size()));
+  for (const auto& facet : model.facets.colwise()) {
     for (int k = 0; k < 3; ++k) {
-      const Index a = place[facets(k, f)], b = place[facets((k + 1) % 3, f)];
-      if (a != b) is_odd[std::minmax(a, b)] ^= true;
+      const Index a = place[facet(k)], b = place[facet((k + 1) % 3)];
+      if (a != b) edges.emplace_back(std::minmax(a, b));
     }
   }
-  return std::none_of(is_odd.begin(), is_odd.end(), [](const auto& edge) { return edge.second; });
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t k = 0; k < edges.size(); k += 2) {
+    if (k + 1 == edges.size() || edges[k] != edges[k + 1]) return false;
+  }
+  return true;
 }
 
 }  // namespace flbc

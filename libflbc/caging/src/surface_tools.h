@@ -2,7 +2,9 @@
 // Helper functions for surfaces.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -31,6 +33,24 @@ Cage<Dim> compact(const PointList<Dim>& points, const std::vector<FacetCorners<D
   return cage;
 }
 
+//! Per point the first one in the same place.
+template <int Dim>
+std::vector<Index> first_in_place(const PointList<Dim>& points) {
+  std::vector<Index> order(static_cast<std::size_t>(points.cols())), first(order.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+    for (int k = 0; k < Dim; ++k) {
+      if (points(k, a) != points(k, b)) return points(k, a) < points(k, b);
+    }
+    return a < b;
+  });
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool is_new = k == 0 || points.col(order[k]) != points.col(order[k - 1]);
+    first[order[k]] = is_new ? order[k] : first[order[k - 1]];
+  }
+  return first;
+}
+
 //! Normal of a facet, with length equal to its measure (3D: twice that). It points to the right of
 //! an edge, or to the side from which a triangle is counterclockwise.
 template <int Dim>
@@ -42,6 +62,36 @@ Vector<Dim> facet_normal(const Eigen::Matrix<double, Dim, Dim>& corners) {
     return (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
   }
 }
+
+//! Finds boxes on one side of a facet without exact arithmetic. Few boxes near a cage meet the
+//! planes of its facets, but many are within the boxes around the facets.
+template <int Dim>
+class PlaneOfFacet {
+ public:
+  using Box = Eigen::AlignedBox<double, Dim>;
+
+  //! \param all  contains the boxes and the facet
+  PlaneOfFacet(const Eigen::Matrix<double, Dim, Dim>& corners, const Box& all)
+      : origin_(corners.col(0)), normal_(facet_normal<Dim>(corners)) {
+    double lengths = 1;  // their product bounds the rounding errors of the normal
+    for (int k = 1; k < Dim; ++k) lengths *= (corners.col(k) - origin_).norm();
+    const double reach = all.min().cwiseAbs().cwiseMax(all.max().cwiseAbs()).sum();
+    margin_ = 1e-13 * lengths * (reach + all.diagonal().norm());
+  }
+
+  //! 1 or -1 for a box that is certainly on one side, 1 for that of the normal. 0 for a facet
+  //! without a plane.
+  int side_of(const Box& box) const {
+    const double height = normal_.dot(box.center() - origin_);
+    const double extent = normal_.cwiseAbs().dot(box.sizes()) / 2;
+    if (!(std::abs(height) > extent + margin_)) return 0;
+    return height > 0 ? 1 : -1;
+  }
+
+ private:
+  Vector<Dim> origin_, normal_;
+  double margin_;
+};
 
 //! The sum of the normals of the facets at every vertex.
 template <int Dim>

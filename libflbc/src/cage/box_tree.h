@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -21,10 +20,11 @@ class BoxTree {
  public:
   using Box = Eigen::AlignedBox<double, Dim>;
 
-  explicit BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
-    std::iota(order_.begin(), order_.end(), 0);
-    nodes_.reserve(boxes_.size());
-    if (!boxes_.empty()) build(0, static_cast<Index>(boxes_.size()));
+  explicit BoxTree(const std::vector<Box>& boxes) {
+    entries_.reserve(boxes.size());
+    nodes_.reserve(boxes.size());
+    for (const Box& box : boxes) entries_.push_back({box, static_cast<Index>(entries_.size())});
+    if (!boxes.empty()) build(0, static_cast<Index>(boxes.size()));
   }
 
   //! Calls `visit` with the indices of boxes that intersect `query`, until it returns true.
@@ -42,16 +42,24 @@ class BoxTree {
   }
 
   //! \param distance_to  of an element from the point: distance_to(element) -> double
+  //! \param limit  elements farther away are not found
   //! \return the nearest element; ties go to the smallest index; -1 if there is none
   template <class DistanceTo>
-  Index nearest(const Vector<Dim>& point, const DistanceTo& distance_to) const {
-    Nearest<DistanceTo> search{*this, point, distance_to};
+  Index nearest(const Vector<Dim>& point, const DistanceTo& distance_to,
+                double limit = std::numeric_limits<double>::infinity()) const {
+    Nearest<DistanceTo> search{*this, point, distance_to, limit};
     if (!nodes_.empty()) search.visit(0);
     return search.element;
   }
 
  private:
   static constexpr Index kLeafSize = 4;
+
+  // In the order of the leaves.
+  struct Entry {
+    Box box;
+    Index element;
+  };
 
   // The first child is the next node, the second child is given by index; leaves have none.
   struct Node {
@@ -64,22 +72,22 @@ class BoxTree {
     const BoxTree& tree;
     const Vector<Dim>& point;
     const DistanceTo& distance_to;
+    double distance;
     Index element = -1;
-    double distance = std::numeric_limits<double>::infinity();
 
-    double distance_to_box(Index number) const {
-      const Box& box = tree.nodes_[number].box;
+    double distance_to_box(const Box& box) const {
       return (point.cwiseMax(box.min()).cwiseMin(box.max()) - point).norm();
     }
 
     void visit(Index number) {
       const Node& node = tree.nodes_[number];
       if (node.second < 0) {
-        for (Index k = node.begin; k < node.end; ++k) consider(tree.order_[k]);
+        for (Index k = node.begin; k < node.end; ++k) consider(tree.entries_[k]);
         return;
       }
       Index near = number + 1, far = node.second;
-      double to_near = distance_to_box(near), to_far = distance_to_box(far);
+      double to_near = distance_to_box(tree.nodes_[near].box);
+      double to_far = distance_to_box(tree.nodes_[far].box);
       if (to_far < to_near) {
         std::swap(near, far);
         std::swap(to_near, to_far);
@@ -88,29 +96,30 @@ class BoxTree {
       if (to_far <= distance) visit(far);
     }
 
-    void consider(Index candidate) {
-      const double found = distance_to(candidate);
-      const bool is_nearer = found < distance || (found == distance && candidate < element);
+    void consider(const Entry& candidate) {
+      if (distance_to_box(candidate.box) > distance) return;
+      const double found = distance_to(candidate.element);
       // A distance that overflows is infinite.
-      if (element >= 0 && !is_nearer) return;
+      const bool is_first = element < 0 || candidate.element < element;
+      if (!(found < distance || (found == distance && is_first))) return;
       distance = found;
-      element = candidate;
+      element = candidate.element;
     }
   };
 
   Index build(Index begin, Index end) {
     const auto self = static_cast<Index>(nodes_.size());
     Box box;
-    for (Index k = begin; k < end; ++k) box.extend(boxes_[order_[k]]);
+    for (Index k = begin; k < end; ++k) box.extend(entries_[k].box);
     nodes_.push_back({box, begin, end, -1});
     if (end - begin <= kLeafSize) return self;
     int axis = 0;
     box.sizes().maxCoeff(&axis);
     const Index middle = (begin + end) / 2;
-    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                     [&](Index a, Index b) {
-                       const double p = boxes_[a].center()(axis), q = boxes_[b].center()(axis);
-                       return p != q ? p < q : a < b;
+    std::nth_element(entries_.begin() + begin, entries_.begin() + middle, entries_.begin() + end,
+                     [&](const Entry& a, const Entry& b) {
+                       const double p = a.box.center()(axis), q = b.box.center()(axis);
+                       return p != q ? p < q : a.element < b.element;
                      });
     build(begin, middle);
     const Index second = build(middle, end);
@@ -126,13 +135,12 @@ class BoxTree {
       return search(number + 1, meets, visit) || search(node.second, meets, visit);
     }
     for (Index k = node.begin; k < node.end; ++k) {
-      if (meets(boxes_[order_[k]]) && visit(order_[k])) return true;
+      if (meets(entries_[k].box) && visit(entries_[k].element)) return true;
     }
     return false;
   }
 
-  std::vector<Box> boxes_;
-  std::vector<Index> order_;
+  std::vector<Entry> entries_;
   std::vector<Node> nodes_;
 };
 

@@ -1,32 +1,104 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <array>
-#include <vector>
+#include <cmath>
+#include <limits>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/alpha_wrap_3.h>
 
 #include "caging/cage_steps.h"
+#include "caging/surface_tools.h"
 
 namespace flbc {
 
 namespace {
 
+namespace wraps = CGAL::Alpha_wraps_3::internal;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+using Point = Kernel::Point_3;
+using Surface = CGAL::Surface_mesh<Point>;
 
-// Points and segments become triangles that are thin relative to the offset.
-std::array<Vector<3>, 3> widened(const Simplex<3>& simplex, double width) {
-  std::array<Vector<3>, 3> corners;
-  for (int k = 0; k < 3; ++k) corners[k] = simplex.corners.col(k);
-  if (simplex.count == 3) return corners;
-  const Vector<3> along = corners[1] - corners[0];
-  int thin = 0;
-  along.cwiseAbs().minCoeff(&thin);
-  corners[2] = corners[1] + width * Vector<3>::Unit(thin);
-  if (simplex.count == 1) corners[1] += width * Vector<3>::Unit((thin + 1) % 3);
-  return corners;
+Vector<3> vector(const Point& p) {
+  return {p.x(), p.y(), p.z()};
 }
+
+Point point(const Vector<3>& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+// Answers what the wrapping asks about a model. An oracle of CGAL would build a search tree of its
+// own, and its distances are slower: cages took twice the time. CGAL has no public name for this
+// concept.
+class Oracle {
+ public:
+  using Geom_traits = wraps::Alpha_wrap_AABB_traits<Kernel>;
+  using Box = Enclosure<3>::Box;
+
+  explicit Oracle(const Enclosure<3>& model) : model_(model) {}
+
+  Geom_traits geom_traits() const { return {}; }
+  CGAL::Bbox_3 bbox() const {
+    return point(model_.box().min()).bbox() + point(model_.box().max()).bbox();
+  }
+
+  bool do_intersect(const Geom_traits::Ball_3& ball) const {
+    const auto& sphere = ball.boundary();
+    return model_.is_within(vector(sphere.center()), std::sqrt(sphere.squared_radius()));
+  }
+
+  template <class Tetrahedron>
+  bool do_intersect(const Tetrahedron& cell) const {
+    const Geom_traits traits;
+    const auto test = traits.do_intersect_3_object();
+    std::array<Box, 4> corners;
+    Box around;
+    for (int k = 0; k < 4; ++k) around.extend(corners[k] = Box(vector(cell.m_tet[k])));
+    const auto plane = [&](int opposite) {
+      Eigen::Matrix3d side;
+      for (int k = 0; k < 3; ++k) side.col(k) = corners[(opposite + k + 1) % 4].min();
+      return PlaneOfFacet<3>(side, around.merged(model_.box()));
+    };
+    const std::array planes{plane(0), plane(1), plane(2), plane(3)};
+    return model_.tree().any_of(
+        [&](const Box& box) {
+          if (!box.intersects(around)) return false;
+          for (int k = 0; k < 4; ++k) {
+            if (planes[k].side_of(box) * planes[k].side_of(corners[k]) < 0) return false;
+          }
+          return true;
+        },
+        [&](Index number) {
+          const auto& simplex = model_.simplices()[number];
+          const Point a = point(simplex.corners.col(0)), b = point(simplex.corners.col(1));
+          if (simplex.count == 1) return test(cell, a);
+          if (simplex.count == 2) return test(cell, Kernel::Segment_3(a, b));
+          return test(cell, Kernel::Triangle_3(a, b, point(simplex.corners.col(2))));
+        });
+  }
+
+  Point closest_point(const Point& p) const { return point(model_.nearest_point(vector(p))); }
+
+  // The first point of a segment that has the offset as its distance from the model. No step is
+  // longer than what remains to it, because distances change by no more than the length of the way.
+  bool first_intersection(const Point& from, const Point& to, Point& found, double offset) const {
+    const double precision = 1e-2 * offset;
+    const Vector<3> start = vector(from), way = vector(to) - start;
+    double limit = std::numeric_limits<double>::infinity();
+    for (double length = 0; length <= way.norm();) {
+      const Vector<3> p = start + length * way.normalized();
+      const double step = model_.distance(p, limit) - offset;
+      found = point(p);
+      if (step <= precision) return true;
+      length += step;
+      limit = offset + 2 * step;
+    }
+    return false;
+  }
+
+ private:
+  const Enclosure<3>& model_;
+};
 
 Cage<3> to_cage(const Surface& surface) {
   Cage<3> cage{PointList<3>(3, surface.number_of_vertices()),
@@ -47,17 +119,10 @@ Cage<3> to_cage(const Surface& surface) {
 }  // namespace
 
 Cage<3> wrap(const Enclosure<3>& model, const WrapSize& size) {
-  constexpr double kRelativeWidth = 1e-3;
-  std::vector<Kernel::Point_3> points;
-  std::vector<std::array<std::size_t, 3>> triangles;
-  for (const auto& simplex : model.simplices()) {
-    triangles.push_back({points.size(), points.size() + 1, points.size() + 2});
-    for (const auto& p : widened(simplex, kRelativeWidth * size.offset)) {
-      points.emplace_back(p.x(), p.y(), p.z());
-    }
-  }
+  const Oracle oracle(model);
   Surface surface;
-  CGAL::alpha_wrap_3(points, triangles, size.alpha, size.offset, surface);
+  wraps::Alpha_wrap_3<Oracle> wrapping(oracle);
+  wrapping(size.alpha, size.offset, surface, CGAL::parameters::default_values());
   surface.collect_garbage();
   return to_cage(surface);
 }
