@@ -56,7 +56,7 @@ struct Comparison {
   Shape<Dim> shape{};     //!< a model, or the mesh
   PointList<Dim> pose{};  //!< of the control points; empty without one
   DomainMesh<Dim> domain{};
-  Placement<Dim> placement{};       //!< of the model's points; empty without one
+  Placement<Dim> placement{};  //!< of the model's points; empty without one
   std::vector<Column<Dim>> columns{};
   Index control_point = 0;  //!< that is drawn
 

@@ -53,8 +53,8 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
   const auto name = std::string("the method ") + name_of_method(settings, method);
   if (settings.coordinates) {
     for (const char* option :
-         {"--phi", "--smoothness", "--distances", "--precision", "--active",
-          "--tolerance", "--gap", "--max-iterations", "--penalty", "--certify"}) {
+         {"--phi", "--smoothness", "--distances", "--precision", "--active", "--tolerance", "--gap",
+          "--max-iterations", "--penalty", "--certify"}) {
       refuse(option, name + " does not use it");
     }
   }

@@ -194,8 +194,7 @@ Row sample_row(const Setting<Dim>& setting) {
   const auto& mesh = setting.problem.mesh;
   SolverOptions options;
   options.threads = setting.context.threads;
-  const auto report =
-      fastest(kRaceRuns, [&] { return solve(cage, mesh, options); }).report;
+  const auto report = fastest(kRaceRuns, [&] { return solve(cage, mesh, options); }).report;
   const auto harmonic = fastest(kRaceRuns, [&] {
                           return compute_coordinates(cage, mesh, Coordinates::kHarmonic,
                                                      {NonNegative::kAuto, options.threads});

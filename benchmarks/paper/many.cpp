@@ -49,8 +49,7 @@ Row measure(const Context& context, const Case& chosen, ActiveSet active,
   options.threads = context.threads;
   options.tolerance = chosen.tolerance;
   options.active_set = active;
-  const auto solution =
-      fastest(chosen.repetitions, [&] { return solve(cage, mesh, options); });
+  const auto solution = fastest(chosen.repetitions, [&] { return solve(cage, mesh, options); });
   const auto& report = solution.report;
   const bool all = active == ActiveSet::kOff;
   const std::string prefix = all ? "all_" : "";

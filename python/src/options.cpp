@@ -99,9 +99,9 @@ py::list levels_of(const SolveReport& report) {
   using namespace py::literals;
   py::list levels;
   for (const auto& level : report.coarse_levels) {
-    levels.append(py::dict(
-        "vertices"_a = level.vertices, "cells"_a = level.cells, "iterations"_a = level.iterations,
-        "seconds"_a = py::dict("solve"_a = level.solve_seconds)));
+    levels.append(py::dict("vertices"_a = level.vertices, "cells"_a = level.cells,
+                           "iterations"_a = level.iterations,
+                           "seconds"_a = py::dict("solve"_a = level.solve_seconds)));
   }
   return levels;
 }
@@ -177,8 +177,7 @@ py::dict as_dict(const SolveReport& report, const std::optional<Coordinates>& co
       "active_set"_a = py::dict("density"_a = report.active_set.density,
                                 "growths"_a = report.active_set.growths),
       "coarse_levels"_a = levels_of(report), "mesh_error"_a = report.mesh_error,
-      "min_weight"_a = quality.min_weight,
-      "max_partition_error"_a = quality.max_partition_error,
+      "min_weight"_a = quality.min_weight, "max_partition_error"_a = quality.max_partition_error,
       "max_reproduction_error"_a = quality.max_reproduction_error,
       "mean_influences"_a = quality.mean_influences, "penalty"_a = report.published_penalty);
   if (report.certificate.objective > 0) {

@@ -119,8 +119,7 @@ py::tuple solve(const Doubles& points, const Indices& facets, const Doubles& ver
         return flbc::solve(problem, options, observer);
       }));
     }
-    return solved(without_gil(
-        [&] { return flbc::solve<kDim>(cage, domain, options, observer); }));
+    return solved(without_gil([&] { return flbc::solve<kDim>(cage, domain, options, observer); }));
   });
 }
 

@@ -260,8 +260,7 @@ TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
   for (const std::string method : {"harmonic", "meanvalue"}) {
     for (const std::string option :
          {"--tolerance 1e-5", "--penalty 10", "--phi linear", "--precision single",
-          "--max-iterations 9", "--distances exact", "--active off",
-          "--gap 1e-3", "--certify"}) {
+          "--max-iterations 9", "--distances exact", "--active off", "--gap 1e-3", "--certify"}) {
       const auto name = option.substr(0, option.find(' '));
       expect_refused(solve + "--method " + method + ' ' + option, 1,
                      name + ": the method " + method + " does not use it");

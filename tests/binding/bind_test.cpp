@@ -101,8 +101,8 @@ TEST_IN_2D_AND_3D(BindTest, RefusesWhatItCannotBind) {
   const auto sample = box<Dim>();
   const auto refused = [&](const char* words, const PointList<Dim>& points, const EdgeList& edges,
                            const BindOptions& options) {
-    expect_refused<Error>(
-        words, [&] { bind<Dim>(sample.cage, sample.mesh, points, edges, options); });
+    expect_refused<Error>(words,
+                          [&] { bind<Dim>(sample.cage, sample.mesh, points, edges, options); });
   };
   refused("no vertices", PointList<Dim>(Dim, 0), {}, {});
   PointList<Dim> infinite = model<Dim>(false);

@@ -152,8 +152,7 @@ TEST_IN_2D_AND_3D(CoarseStartTest, ReportsTheCoarseMeshAndCountsItsSeconds) {
     if (seen.empty() || seen.back() != progress.finer_levels) seen.push_back(progress.finer_levels);
     return true;
   };
-  const auto report =
-      solve(sample.cage, sample.mesh, with_tolerance(1e-7), observer).report;
+  const auto report = solve(sample.cage, sample.mesh, with_tolerance(1e-7), observer).report;
   EXPECT_EQ(seen, (std::vector{1, 0}));
   ASSERT_EQ(report.coarse_levels.size(), 1U);
   const auto coarse = coarse_mesh(sample.mesh)->mesh;
@@ -194,8 +193,8 @@ TEST_IN_2D_AND_3D(CoarseStartTest, ACoarseMeshWithoutAllControlPointsIsNotUsed) 
     if (!topology.is_boundary(f)) continue;
     for (const Index v : topology.facets.col(f)) facets.push_back(number[v]);
   }
-  cage.facets = Eigen::Map<FacetList<Dim>>(facets.data(), Dim,
-                                           static_cast<Index>(facets.size()) / Dim);
+  cage.facets =
+      Eigen::Map<FacetList<Dim>>(facets.data(), Dim, static_cast<Index>(facets.size()) / Dim);
   EXPECT_TRUE(solve(cage, mesh).report.coarse_levels.empty());
 }
 

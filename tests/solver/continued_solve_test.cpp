@@ -116,21 +116,20 @@ struct Change {
   bool resumes = false;  // whether a run that has begun resumes
 };
 
-const Change kChanges[] = {
-    {"nothing", [](auto&) {}, true},
-    {"tolerance", [](auto& o) { o.tolerance = 1e-7; }, true},
-    {"gap", [](auto& o) { o.gap = 1e-2; }, true},
-    {"max_iterations", [](auto& o) { o.max_iterations = 40; }, true},
-    {"certify", [](auto& o) { o.certify = true; }, true},
-    {"threads", [](auto& o) { o.threads = 2; }, true},
-    {"method", [](auto& o) { o.method = Method::kGradient; }},
-    {"phi", [](auto& o) { o.phi = DistanceScheme::kLinear; }},
-    {"smoothness", [](auto& o) { o.smoothness = 0.01; }},
-    {"distances", [](auto& o) { o.distances = Distances::kInterpolated; }},
-    {"precision", [](auto& o) { o.precision = Precision::kDouble; }},
-    {"non_negative", [](auto& o) { o.non_negative = NonNegative::kOff; }},
-    {"active_set", [](auto& o) { o.active_set = ActiveSet::kOn; }},
-    {"penalty", [](auto& o) { o.penalty = 0.02; }}};
+const Change kChanges[] = {{"nothing", [](auto&) {}, true},
+                           {"tolerance", [](auto& o) { o.tolerance = 1e-7; }, true},
+                           {"gap", [](auto& o) { o.gap = 1e-2; }, true},
+                           {"max_iterations", [](auto& o) { o.max_iterations = 40; }, true},
+                           {"certify", [](auto& o) { o.certify = true; }, true},
+                           {"threads", [](auto& o) { o.threads = 2; }, true},
+                           {"method", [](auto& o) { o.method = Method::kGradient; }},
+                           {"phi", [](auto& o) { o.phi = DistanceScheme::kLinear; }},
+                           {"smoothness", [](auto& o) { o.smoothness = 0.01; }},
+                           {"distances", [](auto& o) { o.distances = Distances::kInterpolated; }},
+                           {"precision", [](auto& o) { o.precision = Precision::kDouble; }},
+                           {"non_negative", [](auto& o) { o.non_negative = NonNegative::kOff; }},
+                           {"active_set", [](auto& o) { o.active_set = ActiveSet::kOn; }},
+                           {"penalty", [](auto& o) { o.penalty = 0.02; }}};
 
 TEST_IN_2D_AND_3D(ContinuedSolveTest, ChangedOptionsAreThoseOfANewSolver) {
   const auto sample = sample_of_cases<Dim>();

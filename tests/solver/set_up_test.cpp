@@ -31,8 +31,7 @@ TEST_IN_2D_AND_3D(SetUpTest, InterpolatedDistancesChangeWeightsLittleAndAreRepor
   EXPECT_EQ(exact.report.distances.vertices, 0);
   const auto other = solve_with(sample, Distances::kInterpolated, 1e-8);
   EXPECT_EQ(other.report.distances.source, Distances::kInterpolated);
-  EXPECT_EQ(other.report.distances.vertices,
-            coarse_mesh(sample.mesh)->mesh.num_vertices());
+  EXPECT_EQ(other.report.distances.vertices, coarse_mesh(sample.mesh)->mesh.num_vertices());
   EXPECT_GT(other.report.distances.phi_error, 0);
   EXPECT_LT(other.report.distances.phi_error, 0.02);
   const double change =

@@ -3,8 +3,8 @@
 // themselves are compared.
 #include "flbc/certificate.h"
 #include "flbc/harmonic.h"
-#include "support/refined_sample.h"
 #include "support/newton_optimum.h"
+#include "support/refined_sample.h"
 #include "support/solver_options.h"
 #include "support/test.h"
 

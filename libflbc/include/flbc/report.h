@@ -87,8 +87,8 @@ struct SolveReport {
   //! Estimated mean squared difference of a weight from that on a much finer mesh, by the weights
   //! on the coarse mesh; 0 without one. Four times the vertices make it about a tenth.
   double mesh_error = 0;
-  std::vector<SolveReport> parts{};          //!< if the cage has several parts, ordered by first
-                                             //!< control point
+  std::vector<SolveReport> parts{};  //!< if the cage has several parts, ordered by first
+                                     //!< control point
 };
 
 }  // namespace flbc

@@ -22,9 +22,9 @@ struct Solution {
 
 //! Computes the coordinates of a cage.
 //!
-//! If the mesh was made by refine() (nested_mesh.h), as those of the meshers, method kWeights starts
-//! from weights and duals of its coarse mesh, which is solved first. Distances may also come from
-//! there (SolverOptions::distances). The result is the same up to the tolerance. The report
+//! If the mesh was made by refine() (nested_mesh.h), as those of the meshers, method kWeights
+//! starts from weights and duals of its coarse mesh, which is solved first. Distances may also come
+//! from there (SolverOptions::distances). The result is the same up to the tolerance. The report
 //! describes the given mesh and names the coarse one.
 //!
 //! If the cage has several parts, each is solved independently, and the result is bit-identical to

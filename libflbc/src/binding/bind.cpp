@@ -151,8 +151,7 @@ Binding<Dim> bind(const Cage<Dim>& cage, const PointList<Dim>& points, const Edg
 
 template <int Dim>
 Binding<Dim> bind(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
-                  const PointList<Dim>& points, const EdgeList& edges,
-                  const BindOptions& options) {
+                  const PointList<Dim>& points, const EdgeList& edges, const BindOptions& options) {
   return bind_with<Dim>({cage, points, edges}, options, [&](BindReport&) {
     auto mesh = domain;
     normalize_and_validate(mesh);
@@ -160,12 +159,12 @@ Binding<Dim> bind(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
   });
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                           \
-  template struct Binding<Dim>;                                                         \
-  template Binding<Dim> bind(const Cage<Dim>&, const PointList<Dim>&, const EdgeList&,  \
-                             const BindOptions&, const Meshers<Dim>&);                  \
-  template Binding<Dim> bind(const Cage<Dim>&, const DomainMesh<Dim>&,                  \
-                             const PointList<Dim>&, const EdgeList&, const BindOptions&);
+#define FLBC_INSTANTIATE(Dim)                                                                 \
+  template struct Binding<Dim>;                                                               \
+  template Binding<Dim> bind(const Cage<Dim>&, const PointList<Dim>&, const EdgeList&,        \
+                             const BindOptions&, const Meshers<Dim>&);                        \
+  template Binding<Dim> bind(const Cage<Dim>&, const DomainMesh<Dim>&, const PointList<Dim>&, \
+                             const EdgeList&, const BindOptions&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

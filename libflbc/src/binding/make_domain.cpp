@@ -68,10 +68,10 @@ MadeDomain<Dim> make_domain(const Cage<Dim>& cage, const MeshingOptions<Dim>& op
   }
   if (meshers.check) meshers.check(cage);
   MadeDomain<Dim> made;
-  made.mesh = mesh_in_parts<Dim>(
-      cage, options, [&](const Cage<Dim>& part, const MeshingOptions<Dim>& of_part) {
-        return fill_by_first(part, of_part, meshers, poll, made);
-      });
+  made.mesh = mesh_in_parts<Dim>(cage, options,
+                                 [&](const Cage<Dim>& part, const MeshingOptions<Dim>& of_part) {
+                                   return fill_by_first(part, of_part, meshers, poll, made);
+                                 });
   const auto on_count = note_on_count(options.vertices, made.mesh.num_vertices());
   if (!on_count.empty()) add_sentence(made.note, on_count);
   return made;

@@ -222,9 +222,8 @@ double ample_time(const Task& task, double time_limit) {
 DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& options) {
   validate(cage);
   const PointList<3> points = collect_input_points(cage, options);
-  const Task task{cage,
-                  {points, cage.facets, find_cavities(cage, options.time_limit)},
-                  options.vertices};
+  const Task task{
+      cage, {points, cage.facets, find_cavities(cage, options.time_limit)}, options.vertices};
 
   DomainMesh<3> mesh;
   try {

@@ -152,10 +152,10 @@ SolvePart<Dim> part_solver(const DomainMesh<Dim>& mesh, const SolverOptions& giv
     const ThreadScope threads(threads_for(settings.threads, part.size(), domain.num_vertices()));
     require_connected(domain);
     Stopwatch watch;
-    auto ready = set_up(topology != nullptr && &domain == &mesh
-                            ? make_geometry(part, domain, *topology)
-                            : make_geometry(part, domain),
-                        settings, reporter);
+    auto ready =
+        set_up(topology != nullptr && &domain == &mesh ? make_geometry(part, domain, *topology)
+                                                       : make_geometry(part, domain),
+               settings, reporter);
     require_distances(ready, settings);
     const double setup_seconds = watch.lap();
     MethodRun<Dim> run(ready.problem);

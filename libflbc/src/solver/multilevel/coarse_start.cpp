@@ -48,7 +48,8 @@ double mesh_error(const LbcProblem<Dim>& problem, const Weights& weights,
     for (Index k = begin; k < end; ++k) {
       const Index v = interior[k];
       const auto [a, b] = ends[v];
-      const Eigen::VectorXd here = weights.is_sparse() ? weights.sparse.at(v) : weights.dense.col(v);
+      const Eigen::VectorXd here =
+          weights.is_sparse() ? weights.sparse.at(v) : weights.dense.col(v);
       part += (here - (coarse.at(a) + coarse.at(b)) / 2).squaredNorm();
     }
     return part;
@@ -92,8 +93,8 @@ Weights solve_from_coarse(const LbcProblem<Dim>& problem, MethodRun<Dim>& run,
     duals = {};
     coarse.reset();
   };
-  auto weights = solve_within<Dim>(budget, spent, run, settings, reporter, report,
-                                   {&transfer, forget});
+  auto weights =
+      solve_within<Dim>(budget, spent, run, settings, reporter, report, {&transfer, forget});
   if (stopped) report.status = SolveStatus::kStopped;
   report.seconds.solve += spent;
   report.coarse_levels = {level};

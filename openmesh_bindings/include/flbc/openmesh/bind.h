@@ -24,8 +24,8 @@
 namespace flbc::openmesh {
 
 //! Treatment of the model's vertices outside the cage (flbc/placement.h).
-using flbc::OutsidePoints;
 using flbc::BindReport;
+using flbc::OutsidePoints;
 
 //! Options of bind().
 struct BindOptions : flbc::BindOptions {
