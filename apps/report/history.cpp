@@ -38,11 +38,8 @@ HistoryRecorder::HistoryRecorder(const SolverOptions& options)
 
 void HistoryRecorder::note(const Progress& progress) {
   const auto now = std::chrono::steady_clock::now();
-  if (!entries_.empty() && entries_.back().finer_levels != progress.finer_levels) {
-    earlier_ = entries_.back().iteration;
-  }
   const bool has_objective = progress.objective && progress.finer_levels == 0;
-  entries_.push_back({earlier_ + progress.iteration, progress.finer_levels, seconds_until(now),
+  entries_.push_back({progress.iteration, progress.finer_levels, seconds_until(now),
                       tolerance_ > 0 ? progress.relative_primal_residual * tolerance_ : kNone,
                       progress.relative_primal_residual, progress.relative_dual_residual,
                       has_objective ? progress.objective() : kNone});
@@ -55,14 +52,16 @@ double HistoryRecorder::seconds_until(std::chrono::steady_clock::time_point now)
 
 std::vector<HistoryEntry> HistoryRecorder::finished(const SolveReport& report) {
   if (report.iterations == 0) return {};
-  if (!entries_.empty() && entries_.back().finer_levels > 0) earlier_ = entries_.back().iteration;
   // Recovery and certificate come after the iteration.
   const double seconds = seconds_until(std::chrono::steady_clock::now()) - report.seconds.recover -
                          report.seconds.certify;
-  entries_.push_back({earlier_ + report.iterations, 0, seconds,
+  entries_.push_back({report.iterations, 0, seconds,
                       tolerance_ > 0 ? report.relative_primal_residual * tolerance_ : kNone,
                       report.relative_primal_residual, report.relative_dual_residual,
                       report.objective});
+  int coarse = 0;
+  for (const auto& level : report.coarse_levels) coarse += level.iterations;
+  for (auto& entry : entries_) entry.iteration += entry.finer_levels == 0 ? coarse : 0;
   return std::move(entries_);
 }
 

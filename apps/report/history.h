@@ -14,7 +14,7 @@ namespace flbc::app {
 
 //! An evaluation of the residuals. NaN where a method does not know a quantity.
 struct HistoryEntry {
-  int iteration = 0;     //!< so far, on all meshes
+  int iteration = 0;     //!< so far, on both meshes
   int finer_levels = 0;  //!< meshes still to come
   double seconds = 0;    //!< since the start, set-up included
   double estimated_error = 0;
@@ -39,7 +39,6 @@ class HistoryRecorder {
 
   std::chrono::steady_clock::time_point start_;
   double tolerance_ = 0;  // of the estimated error; 0 for methods without an estimate
-  int earlier_ = 0;       // iterations on coarser meshes
   std::vector<HistoryEntry> entries_;
 };
 

@@ -48,10 +48,10 @@ flbc solve square.obj --model model.obj $V -o x.npy
 2 flbc mesh thin.obj -o x.mesh
 sed s/1e-9/0.1/ thin.obj >c.obj && flbc mesh c.obj $V -o x.mesh
 # out of memory; try fewer --vertices
-5 (ulimit -v 100000; OMP_NUM_THREADS=1 flbc mesh 3d/limb_cage.obj --vertices 30000 --mesher tetgen -o x.mesh)
+5 (ulimit -v 100000; OMP_NUM_THREADS=1 flbc mesh 3d/limb_cage.obj --vertices 200000 --mesher tetgen -o x.mesh)
 (ulimit -v 100000; OMP_NUM_THREADS=1 flbc mesh 3d/limb_cage.obj --vertices 400 --mesher tetgen -o x.mesh)
 # raise the limit, ask for fewer vertices
-2 flbc mesh 3d/limb_cage.obj --vertices 300000 --mesh-timeout 1 --mesher tetgen -o x.mesh
+2 flbc mesh 3d/limb_cage.obj --vertices 1000000 --mesh-timeout 1 --mesher tetgen -o x.mesh
 flbc mesh 3d/limb_cage.obj --vertices 300 --mesh-timeout 1 --mesher tetgen -o x.mesh
 flbc mesh 3d/limb_cage.obj --vertices 3000 --mesh-timeout 100 --mesher tetgen -o x.mesh
 )";

@@ -126,7 +126,7 @@ TEST_F(History, EndsAsTheReportSays) {
       }
       // Looking on changes nothing.
       const auto weights = flbc::testing::slurp("w.npy");
-      EXPECT_FALSE(solved(cage, "--method " + method).contains("history"));
+      EXPECT_FALSE(solved(cage, "--certify --method " + method).contains("history"));
       EXPECT_EQ(flbc::testing::slurp("w.npy"), weights);
     }
   }
