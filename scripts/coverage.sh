@@ -11,7 +11,7 @@ if [[ ${1:-} == -h || ${1:-} == --help ]]; then
   sed -n '2,6s/^# //p' scripts/coverage.sh
   exit
 fi
-scripts/install_dependencies.sh components tests gcovr
+scripts/install_dependencies.sh netgen tests gcovr
 cmake --preset coverage >/dev/null
 # shellcheck disable=SC2086
 cmake --build --preset coverage ${TARGETS:+--target $TARGETS}

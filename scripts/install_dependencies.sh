@@ -1,18 +1,19 @@
 #!/usr/bin/env bash
 # Installs missing Debian packages; returns immediately if all are installed:
 #   scripts/install_dependencies.sh [GROUP|PACKAGE...]
-# Always those of the program and of the Python module. GROUP: components, tests, browser, clang,
-# release, pictures, or site, which scripts of these names need; openfoam with MPI and the headers of
-# OpenFOAM; web, windows, or aarch64 with sources to compile for these systems.
+# Always those of the program and of the Python module. GROUP: netgen for the second 3D mesher; tests,
+# browser, clang, release, pictures, or site, which scripts of these names need; openfoam with MPI
+# and the headers of OpenFOAM; web, windows, or aarch64 with sources to compile for these systems.
 set -euo pipefail
 
 # The Python module is always there, because a build without it cannot be extended by it.
 declare -A groups=(
   [program]="g++ cmake ninja-build pkg-config
-    libeigen3-dev libsuitesparse-dev libopenblas0-serial libpugixml-dev libcgal-dev libtet1.5-dev
+    libeigen3-dev libsuitesparse-dev libopenblas0-serial libpugixml-dev
+    libopenmesh-dev libcgal-dev libtet1.5-dev
     libcli11-dev nlohmann-json3-dev libpng-dev libtinygltf-dev libcairo2-dev libgtest-dev
     pybind11-dev python3-dev python3-numpy"
-  [components]="libopenmesh-dev libnglib-dev"
+  [netgen]="libnglib-dev"
   [tests]="poppler-utils librsvg2-bin groff-base clang-format codespell mkdocs mkdocs-material
     libjs-katex python3-scipy python3-pytest python3-distributed python3-matplotlib mypy"
   [browser]="chromium fonts-dejavu-core"

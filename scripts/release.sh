@@ -52,7 +52,7 @@ git archive --prefix="$name/" -o "$dist/$name.tar.gz" HEAD
 tar -xf "$dist/$name.tar.gz" -C "$work"
 cd "$work/$name"
 if wants packages || wants wheel || wants addon; then
-  scripts/install_dependencies.sh components release
+  scripts/install_dependencies.sh netgen release
   cmake --preset package >/dev/null
   cmake --build --preset package
   for component in program core meshers; do

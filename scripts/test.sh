@@ -4,9 +4,9 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/install_dependencies.sh components tests
-# scripts/demo.sh may have configured the build without them.
-cmake --preset release -DFLBC_WITH_NETGEN=ON -DFLBC_WITH_OPENMESH=ON >/dev/null
+scripts/install_dependencies.sh netgen tests
+# scripts/demo.sh may have configured the build without it.
+cmake --preset release -DFLBC_WITH_NETGEN=ON >/dev/null
 cmake --build --preset release
 # Without them, tests of glTF in other programs and of pages in a browser are skipped.
 if command -v npm >/dev/null; then

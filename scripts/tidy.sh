@@ -9,7 +9,7 @@ if [[ ${1:-} == -h || ${1:-} == --help ]]; then
   sed -n '2,4s/^# //p' scripts/tidy.sh
   exit
 fi
-scripts/install_dependencies.sh components clang clang-tidy
+scripts/install_dependencies.sh netgen clang clang-tidy
 # Without unity builds, and with clang++, because clang-tidy cannot read GCC precompiled headers.
 cmake --preset clang -B build/tidy -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DFLBC_UNITY_BUILD=OFF \
   -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null

@@ -89,7 +89,7 @@ Index vertices_of_solve(const Cage<Dim>& cage, Index wanted) {
 template <int Dim>
 void print_cage(const Cage<Dim>& cage, const InfoArguments& arguments) {
   auto defects = find_defects(cage);
-#ifdef FLBC_WITH_CGAL
+#ifdef FLBC_LINKS_CGAL
   if (defects.empty()) defects = find_self_intersections(cage);
 #endif
   if (defects.empty()) {

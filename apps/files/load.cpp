@@ -27,7 +27,7 @@ bool is_mendable(const Cage<Dim>& cage, const Defect& defect) {
 template <int Dim>
 void check_cage(const Cage<Dim>& cage, const io::PolygonSoup& soup, const std::string& path) {
   auto defects = find_defects(cage, 1);
-#ifdef FLBC_WITH_CGAL
+#ifdef FLBC_LINKS_CGAL
   if (defects.empty()) defects = find_self_intersections(cage, 1);
 #endif
   if (!defects.empty()) {

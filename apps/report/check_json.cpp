@@ -128,7 +128,7 @@ Json weights_json(const CheckReport<Dim>& report) {
 template <int Dim>
 CheckReport<Dim> check_cage(const Cage<Dim>& cage, const std::string& file) {
   CheckReport<Dim> report{file, "", "", "", cage, find_defects(cage)};
-#ifdef FLBC_WITH_CGAL
+#ifdef FLBC_LINKS_CGAL
   if (report.defects.empty()) {
     report.defects = find_self_intersections(cage, kMostDefects);
     report.intersections_checked = true;

@@ -21,7 +21,7 @@ const std::map<std::string, CageSymmetry> kSymmetries{{"none", CageSymmetry::kNo
                                                       {"z", CageSymmetry::kZ},
                                                       {"auto", CageSymmetry::kAuto}};
 
-#ifdef FLBC_WITH_CGAL
+#ifdef FLBC_LINKS_CGAL
 const char* name_of(CagingStage stage) {
   switch (stage) {
     case CagingStage::kSimplify:
@@ -70,7 +70,7 @@ template <int Dim>
 ModelCage<Dim> make_cage([[maybe_unused]] const std::string& file,
                          [[maybe_unused]] const ModelFacets<Dim>& model,
                          [[maybe_unused]] CagingOptions options, [[maybe_unused]] bool quiet) {
-#ifdef FLBC_WITH_CGAL
+#ifdef FLBC_LINKS_CGAL
   ModelCage<Dim> made;
   {
     ProgressBar bar(quiet, "making a cage");
@@ -100,7 +100,7 @@ ModelCage<Dim> make_cage([[maybe_unused]] const std::string& file,
 template <int Dim>
 RepairedCage<Dim> repair_defects([[maybe_unused]] const std::string& file,
                                  [[maybe_unused]] const Cage<Dim>& cage) {
-#ifdef FLBC_WITH_CGAL
+#ifdef FLBC_LINKS_CGAL
   return naming(file, [&] { return repair_cage<Dim>(cage); });
 #else
   throw OptionError("this flbc was built without CGAL and cannot repair cages");

@@ -20,7 +20,7 @@
 #include "flbc/transfer_weights.h"
 #include "flbc/version.h"
 #include "options.h"
-#ifdef FLBC_WITH_CAGING
+#ifdef FLBC_LINKS_CAGING
 #include "flbc/cage_from_model.h"
 #include "flbc/repair_cage.h"
 #endif
@@ -98,7 +98,7 @@ py::list check_cage(const Doubles& points, const Indices& facets) {
     const auto cage = cage_of<kDim>(points, facets);
     const auto defects = without_gil([&] {
       auto found = find_defects(cage);
-#ifdef FLBC_WITH_CGAL
+#ifdef FLBC_LINKS_CGAL
       if (found.empty()) found = find_self_intersections(cage);
 #endif
       return found;
@@ -130,7 +130,7 @@ py::tuple outside(const Doubles& points, const Indices& facets, const Doubles& p
   });
 }
 
-#ifdef FLBC_WITH_CAGING
+#ifdef FLBC_LINKS_CAGING
 CageSymmetry symmetry_named(const std::string& name) {
   const std::pair<const char*, CageSymmetry> known[] = {{"auto", CageSymmetry::kAuto},
                                                         {"none", CageSymmetry::kNone},
@@ -147,7 +147,7 @@ CageSymmetry symmetry_named(const std::string& name) {
 py::tuple make_cage([[maybe_unused]] const Doubles& points, [[maybe_unused]] const Indices& facets,
                     [[maybe_unused]] Index control_points, [[maybe_unused]] double offset,
                     [[maybe_unused]] const std::string& symmetry) {
-#ifdef FLBC_WITH_CAGING
+#ifdef FLBC_LINKS_CAGING
   const CagingOptions options{control_points, offset, symmetry_named(symmetry)};
   return by_dimension(points, [&](auto dim) {
     constexpr int kDim = decltype(dim)::value;
@@ -161,7 +161,7 @@ py::tuple make_cage([[maybe_unused]] const Doubles& points, [[maybe_unused]] con
 }
 
 py::tuple repair([[maybe_unused]] const Doubles& points, [[maybe_unused]] const Indices& facets) {
-#ifdef FLBC_WITH_CAGING
+#ifdef FLBC_LINKS_CAGING
   return by_dimension(points, [&](auto dim) {
     constexpr int kDim = decltype(dim)::value;
     const auto cage = cage_of<kDim>(points, facets);

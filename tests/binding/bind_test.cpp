@@ -11,7 +11,7 @@
 namespace flbc::testing {
 namespace {
 
-// Points inside a box of half size 1, and one beside it.
+// Points inside a box of half size 1, and one outside.
 template <int Dim>
 PointList<Dim> model(bool with_outside) {
   PointList<Dim> points(Dim, 40);

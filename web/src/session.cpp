@@ -33,7 +33,7 @@
 #include "solve/estimate.h"
 #include "solve/make_domain.h"
 #include "view/model_page.h"
-#ifdef FLBC_WITH_CGAL
+#ifdef FLBC_LINKS_CGAL
 #include "flbc/cage_from_model.h"
 #include "flbc/repair_cage.h"
 #endif
@@ -142,7 +142,7 @@ SolverOptions solver_options(const Json& options) {
   return result;
 }
 
-#ifdef FLBC_WITH_CGAL
+#ifdef FLBC_LINKS_CGAL
 const char* name_of(CagingStage stage) {
   constexpr const char* kNames[] = {"simplifying the model", "wrapping the model",
                                     "reducing control points", "checking the cage"};
@@ -269,7 +269,7 @@ class Work {
     shown_ = app::load_shown_cage<Dim>(file);
   }
 
-#ifdef FLBC_WITH_CGAL
+#ifdef FLBC_LINKS_CGAL
   val make_cage(const Json& options, const Report& report) {
     const double size = bounding_box_diagonal<Dim>(facets_.points);
     CagingOptions caging;
@@ -312,7 +312,7 @@ class Work {
     }
     show_cage(*cage, file);
     auto defects = find_defects(cage_);
-#ifdef FLBC_WITH_CGAL
+#ifdef FLBC_LINKS_CGAL
     if (defects.empty()) defects = find_self_intersections(cage_);
 #endif
     if (defects.empty()) return from_json(cage_facts());

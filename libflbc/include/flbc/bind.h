@@ -13,21 +13,15 @@
 #include "flbc/quality.h"
 #include "flbc/report.h"
 #include "flbc/solver.h"
+#include "flbc/sparsify.h"
 
 namespace flbc {
-
-//! How influences are reduced.
-enum class Reduction {
-  kPoisson,   //!< jointly for all points, without seams: reduce_by_poisson()
-  kQuadratic  //!< each point independently, faster: sparsify()
-};
 
 //! Options of bind().
 struct BindOptions {
   //! Number of vertices of the domain mesh; 0: the minimum that element quality allows. It is
   //! increased if a cage needs more.
   Index vertices = kDefaultVertices;
-  double mesh_time_limit = 60;  //!< seconds of one run of a 3D mesher
   //! Method, tolerance, threads.
   SolverOptions solver{};
   //! Of the solve; poll() also during the reduction. What it throws leaves bind().

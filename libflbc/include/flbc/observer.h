@@ -40,8 +40,8 @@ struct Observer {
 };
 
 //! Limits the cost of one solve, for example to get one result per frame while a user drags a
-//! control point. A solve makes at least one iteration. The first one also takes coarse meshes of
-//! a multilevel start to their end.
+//! control point. A solve makes at least one iteration. The first one also solves the coarse
+//! mesh of a refined one to the end.
 struct Budget {
   int iterations = 0;  //!< maximum number, >= 1; 0 = as in the options
   double seconds = 0;  //!< no iteration starts after this time, setup included; checked every ten

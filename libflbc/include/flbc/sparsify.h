@@ -25,6 +25,12 @@ struct SparsifyOptions {
   std::function<void(double done)> progress{};
 };
 
+//! How reduce_influences() reduces.
+enum class Reduction {
+  kPoisson,   //!< jointly for all points, without seams: reduce_by_poisson()
+  kQuadratic  //!< each point independently, faster: sparsify()
+};
+
 //! Checks options.
 //! \param options  any
 //! \throws OptionError naming the invalid option
@@ -86,7 +92,7 @@ SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const Poin
                                 const SparsifyOptions& options);
 
 //! Reduces influences by reduce_by_poisson() if there are edges, otherwise by sparsify(). Weights
-//! within the limits only pass sparsify().
+//! within the limits only pass sparsify(), as all do for Reduction::kQuadratic.
 //! \param control_points  Dim x n, finite
 //! \param points  Dim x P, inside the convex hull of the control points, in the same units
 //! \param edges  between the points, may be empty
@@ -99,7 +105,8 @@ template <int Dim>
 SparseWeights reduce_influences(const PointList<Dim>& control_points, const PointList<Dim>& points,
                                 const EdgeList& edges, const SparseWeights& weights,
                                 const std::vector<PointList<Dim>>& poses,
-                                const SparsifyOptions& options);
+                                const SparsifyOptions& options,
+                                Reduction reduction = Reduction::kPoisson);
 
 //! The energy that reduce_by_poisson() minimizes, for any weights. The unit of displacements is a
 //! tenth of cage size.

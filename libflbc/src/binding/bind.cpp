@@ -9,7 +9,6 @@
 #include "base/stopwatch.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
-#include "flbc/sparsify.h"
 
 namespace flbc {
 namespace {
@@ -43,10 +42,9 @@ template <int Dim>
 PointList<Dim> offsets_of(const Model<Dim>& model, const Placement<Dim>& placement) {
   if (placement.outside.empty() || placement.policy == OutsidePoints::kExtend) return {};
   PointList<Dim> offsets = PointList<Dim>::Zero(Dim, model.points.cols());
-  for (const auto& beside : placement.outside) {
-    offsets.col(beside.point) = placement.policy == OutsidePoints::kKeep
-                                    ? Vector<Dim>(model.points.col(beside.point))
-                                    : beside.offset;
+  for (const auto& [point, facet, coordinates, offset] : placement.outside) {
+    offsets.col(point) =
+        placement.policy == OutsidePoints::kKeep ? Vector<Dim>(model.points.col(point)) : offset;
   }
   return offsets;
 }
@@ -58,9 +56,8 @@ SparseWeights reduced(const Model<Dim>& model, const Evaluation<Dim>& evaluation
   if (options.observer.poll) few.progress = [&](double) { options.observer.poll(); };
   const auto& [cage, points, edges] = model;
   const auto& places = evaluation.placement.points;
-  return options.reduction == Reduction::kQuadratic
-             ? sparsify<Dim>(cage.points, places, evaluation.weights, few)
-             : reduce_influences<Dim>(cage.points, places, edges, evaluation.weights, {}, few);
+  return reduce_influences<Dim>(cage.points, places, edges, evaluation.weights, {}, few,
+                                options.reduction);
 }
 
 // Points outside keep the weights of an extension: negative weights cannot be reduced.
@@ -109,7 +106,7 @@ Binding<Dim> bind_with(const Model<Dim>& model, const BindOptions& options,
   report.solve_seconds = watch.lap();
   auto evaluation = evaluate(model, domain, solution.weights, options.outside);
   const auto& placement = evaluation.placement;
-  for (const auto& beside : placement.outside) binding.outside.push_back(beside.point);
+  for (const auto& vertex : placement.outside) binding.outside.push_back(vertex.point);
   report.outside = static_cast<Index>(binding.outside.size());
   binding.offsets = offsets_of(model, placement);
   report.evaluate_seconds = watch.lap();
@@ -141,7 +138,6 @@ Binding<Dim> bind(const Cage<Dim>& cage, const PointList<Dim>& points, const Edg
   return bind_with<Dim>({cage, points, edges}, options, [&](BindReport& report) {
     MeshingOptions<Dim> meshing;
     meshing.vertices = options.vertices;
-    meshing.time_limit = options.mesh_time_limit;
     auto made = make_domain(cage, meshing, meshers, options.observer.poll);
     report.mesher = std::move(made.mesher);
     report.note = std::move(made.note);

@@ -32,13 +32,18 @@ DomainMesh<Dim> search_vertex_count(const VertexCountGoal<Dim>& goal, DomainMesh
   double too_coarse = std::numeric_limits<double>::infinity();
   double slope = -exponent;
   Sample last{0, 0};
+  double least_error = goal.error(goal.count(best));
 
   double log_bound = std::log(first_bound);
   for (int run = 0; run < max_runs; ++run) {
-    if (goal.is_met(best)) break;
+    if (least_error <= goal.good_enough) break;
     DomainMesh<Dim> mesh = make_mesh(std::exp(log_bound));
-    const Sample sample{log_bound, std::log(goal.count(mesh))};
-    if (goal.error(mesh) < goal.error(best)) best = std::move(mesh);
+    const double count = goal.count(mesh);  // of edges, too: it takes a while
+    const Sample sample{log_bound, std::log(count)};
+    if (goal.error(count) < least_error) {
+      least_error = goal.error(count);
+      best = std::move(mesh);
+    }
 
     (sample.log_count > wanted ? too_fine : too_coarse) = log_bound;
     if (run > 0 && sample.log_bound != last.log_bound) {

@@ -284,7 +284,7 @@ struct Solver<Dim>::State {
   // Whether phi of the present problem is not what a new Solver would use, or is too inaccurate.
   bool needs_other_phi(const SolverOptions& given) const {
     const auto& [source, vertices, error] = shape->distances;
-    return source == Distances::kInterpolated && given.distances == Distances::kAuto &&
+    return source == Distances::kInterpolated &&
            !plan::interpolates(plan::settings_of(given), error);
   }
 

@@ -69,26 +69,26 @@ DistanceMatrix choose_distances(const CoarseProblem<Dim>& coarse, const LbcProbl
   auto distances = interpolated_distances<Dim>(problem.cage.points, problem.mesh.points,
                                                coarse.ends, coarse.problem.phi.distances());
   const double error = check_on_sample(problem, settings.phi, distances);
-  if (settings.distances == Distances::kAuto && !plan::interpolates(settings, error)) {
-    return distances_for(settings.phi, problem);
-  }
+  if (!plan::interpolates(settings, error)) return distances_for(settings.phi, problem);
   report = {Distances::kInterpolated, coarse.problem.mesh.num_vertices(), error};
   return distances;
 }
 
-// The coarse problem without phi.
+// For any method.
 template <int Dim>
-std::optional<CoarseProblem<Dim>> coarse_geometry(const LbcProblem<Dim>& problem) {
+std::optional<CoarseProblem<Dim>> make_coarse(const LbcProblem<Dim>& problem, DistanceScheme phi) {
   auto coarse = coarse_mesh(problem.mesh);
   if (!coarse) return {};
+  std::optional<CoarseProblem<Dim>> made;
   try {
-    CoarseProblem<Dim> made{make_geometry(problem.cage, std::move(coarse->mesh)),
-                            std::move(coarse->ends)};
-    made.problem.smoothness = problem.smoothness;
-    return made;
+    made.emplace(CoarseProblem<Dim>{make_geometry(problem.cage, std::move(coarse->mesh)),
+                                    std::move(coarse->ends)});
   } catch (const InputError&) {  // the coarse mesh may lack control points
     return {};
   }
+  made->problem.smoothness = problem.smoothness;
+  set_phi(made->problem, phi);
+  return made;
 }
 
 }  // namespace
@@ -97,9 +97,7 @@ template <int Dim>
 std::optional<CoarseProblem<Dim>> coarse_problem(const LbcProblem<Dim>& problem,
                                                  const plan::Settings& settings) {
   if (!plan::inherits(settings.method) || problem.phi.is_given()) return {};
-  auto coarse = coarse_geometry(problem);
-  if (coarse) set_phi(coarse->problem, settings.phi);
-  return coarse;
+  return make_coarse(problem, settings.phi);
 }
 
 template <int Dim>
@@ -110,14 +108,12 @@ NestedProblem<Dim> set_up(LbcProblem<Dim> geometry, const plan::Settings& settin
   auto& [problem, coarse, report] = nested;
   problem.smoothness = *settings.smoothness;
   if (plan::inherits(settings.method) || settings.distances == Distances::kInterpolated) {
-    coarse = coarse_geometry(problem);
+    coarse = make_coarse(problem, settings.phi);
   }
-  if (coarse) set_phi(coarse->problem, settings.phi);
-  const bool interpolates = coarse && settings.phi != DistanceScheme::kConstant &&
-                            settings.distances != Distances::kExact;
   set_phi(problem, settings.phi,
-          interpolates ? choose_distances(*coarse, problem, settings, report)
-                       : distances_for(settings.phi, problem));
+          coarse && plan::interpolates(settings, 0)
+              ? choose_distances(*coarse, problem, settings, report)
+              : distances_for(settings.phi, problem));
   if (!plan::inherits(settings.method)) coarse.reset();
   return nested;
 }

@@ -47,6 +47,8 @@ double penalty_unit(Method method, int dim, double size) {
 }
 
 bool interpolates(const Settings& settings, double error) {
+  if (settings.phi == DistanceScheme::kConstant) return false;
+  if (settings.distances != Distances::kAuto) return settings.distances == Distances::kInterpolated;
   return !proves(settings) &&
          kWeightsOfPhi * error * error <= kPartOfTolerance * *settings.tolerance;
 }

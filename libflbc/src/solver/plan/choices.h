@@ -60,8 +60,8 @@ double published_scale(const DomainMesh<Dim>& mesh) {
   return kRadius / (mesh.points.colwise() - center).colwise().norm().maxCoeff();
 }
 
-//! Whether automatic distances are interpolated: not for a certificate, which proves the gap for
-//! its phi. \param error  DistanceReport::phi_error
+//! Whether distances of a refined mesh are interpolated. Automatic ones are not for a certificate,
+//! which proves the gap for its phi. \param error  DistanceReport::phi_error; 0 if not known yet
 bool interpolates(const Settings& settings, double error);
 
 }  // namespace flbc::plan

@@ -446,12 +446,12 @@ template <int Dim>
 SparseWeights reduce_influences(const PointList<Dim>& control_points, const PointList<Dim>& points,
                                 const EdgeList& edges, const SparseWeights& weights,
                                 const std::vector<PointList<Dim>>& poses,
-                                const SparsifyOptions& options) {
+                                const SparsifyOptions& options, Reduction reduction) {
   bool has_few = options.threshold == 0;
   for (Index p = 0; p < weights.num_points(); ++p) {
     has_few = has_few && weights.count(p) <= options.max_influences;
   }
-  if (has_few || edges.ends.empty()) {
+  if (reduction == Reduction::kQuadratic || has_few || edges.ends.empty()) {
     return sparsify(control_points, points, weights, options);
   }
   return reduce_by_poisson(control_points, points, edges, weights, poses, options);

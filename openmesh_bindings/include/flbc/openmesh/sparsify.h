@@ -7,7 +7,6 @@
 #include <string>
 #include <type_traits>
 
-#include "flbc/bind.h"
 #include "flbc/deform.h"
 #include "flbc/openmesh/convert.h"
 #include "flbc/openmesh/weights.h"
@@ -29,11 +28,6 @@ struct ReductionOptions {
 
 namespace internal {
 
-template <int Dim>
-SparseWeights reduce(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                     const EdgeList& edges, const SparseWeights& weights, Reduction reduction,
-                     const SparsifyOptions& options);
-
 void require_rest_cage(const Eigen::MatrixXd& cage, const std::string& weights);
 
 }  // namespace internal
@@ -52,8 +46,8 @@ Quality sparsify(Mesh& mesh, const PointList<Dim>& cage, Index most,
   const PointList<Dim> rest = cage * weights;
   // Edge lengths are those of the rest mesh.
   const auto edges = internal::edge_list_at<Dim>(mesh, rest);
-  const auto reduced = internal::reduce(cage, rest, edges, SparseWeights(weights),
-                                        options.reduction, {most, options.threshold});
+  const auto reduced = reduce_influences<Dim>(cage, rest, edges, SparseWeights(weights), {},
+                                              {most, options.threshold}, options.reduction);
   const std::string& into = options.into.empty() ? options.weights : options.into;
   const auto offset = internal::offsets_of(mesh, options.weights);
   set_influences(mesh, reduced, static_cast<std::size_t>(std::min<Eigen::Index>(most, cage.cols())),
