@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program as its users and their scripts see it: files, messages, exit status.
-#include <filesystem>
-#include <nlohmann/json.hpp>
-
-#include <gtest/gtest.h>
-
-#include "flbc/cage.h"
-#include "flbc/io/cage_io.h"
-#include "flbc/io/mesh_io.h"
-#include "flbc/io/model_file.h"
-#include "flbc/io/weights_io.h"
-#include "flbc/quality.h"
 #include "support/command_line.h"
+#include "flbc/io/mesh_io.h"
 
 namespace flbc::testing {
 namespace {
@@ -65,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(CommandLine, SolveSamples,
 TEST_F(CommandLine, ScriptsMayUseTheFormerNameOfTheMethod) {
   expect("solve 2d/letter_cage.obj --vertices 300 -q --method value -o w.npy --report r.json");
   EXPECT_EQ(json_in("r.json")["method"], "weights");
-  EXPECT_EQ(run("solve --help").output.find("|value"), std::string::npos);
+  expect_no_piece(run("solve --help").output, "|value");
 }
 
 TEST_F(CommandLine, DrawsOnlyWhatFits) {
@@ -110,21 +100,19 @@ TEST_F(CommandLine, DrawsTheSameModelByEitherName) {
 TEST_F(CommandLine, MessagesThatNobodyReadsDoNotEndASolve) {
   const std::string solve =
       FLBC_PROGRAM " solve 2d/ring_cage.obj --method harmonic --vertices 500 -o ";
-  EXPECT_EQ(std::system(("bash -c 'set -o pipefail; " + solve + "w.npy 2>&1 | true'").c_str()), 0);
+  EXPECT_EQ(status_of("bash -c 'set -o pipefail; " + solve + "w.npy 2>&1 | true'"), 0);
   expect("solve 2d/ring_cage.obj --method harmonic --vertices 500 -o plain.npy");
   EXPECT_EQ(slurp("w.npy"), slurp("plain.npy"));
 }
 
 TEST_F(CommandLine, TellsWhatIsInAFile) {
   auto result = expect("info 3d/torus_cage.obj");
-  EXPECT_NE(result.output.find("a sound 3D cage of 48 control points and 96 triangles"),
-            std::string::npos)
-      << result.output;
+  expect_piece(result.output, "a sound 3D cage of 48 control points and 96 triangles");
   result = run("info 2d/ring_cage.obj");
-  EXPECT_NE(result.output.find("a sound 2D cage of 22 control points"), std::string::npos);
+  expect_piece(result.output, "a sound 2D cage of 22 control points");
   expect("solve 2d/ring_cage.obj --method harmonic --vertices 500 -o w.npy");
   result = run("info w.npy");
-  EXPECT_NE(result.output.find("for 22 control points"), std::string::npos) << result.output;
+  expect_piece(result.output, "for 22 control points");
   expect("convert -q w.npy -o w.mtx");
   const auto words = [](const std::string& info) { return info.substr(info.find(": ")); };
   EXPECT_EQ(words(run("info w.mtx").output), words(result.output));
@@ -134,9 +122,7 @@ TEST_F(CommandLine, TellsWhatIsInAFile) {
     expect("mesh " + cage + " --vertices 800 -q -o " + mesh);
     expect("convert -q " + mesh + " -o d.vtu");
     const auto info = expect("info d.vtu");
-    EXPECT_NE(info.output.find(mesh == "d.obj" ? " triangles, area " : " tetrahedra, volume "),
-              std::string::npos)
-        << info.output;
+    expect_piece(info.output, mesh == "d.obj" ? " triangles, area " : " tetrahedra, volume ");
     if (mesh == "d.mesh") {
       EXPECT_EQ(words(info.output), words(run("info " + mesh).output));
     }
@@ -144,8 +130,8 @@ TEST_F(CommandLine, TellsWhatIsInAFile) {
   io::write_weights("p.npy", SparseWeights(Eigen::MatrixXd{{0.0, 2.0}, {1.0, 5.0}, {-1.0, 3.0}}));
   EXPECT_EQ(expect("info p.npy").output, "p.npy: 2 points in 3D\n  from (0, 1, -1) to (2, 5, 3)\n");
   result = expect("info " + file("scan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"));
-  EXPECT_NE(result.output.find("4 vertices"), std::string::npos) << result.output;
-  EXPECT_NE(result.output.find("no facets and no polylines"), std::string::npos) << result.output;
+  expect_piece(result.output, "4 vertices");
+  expect_piece(result.output, "no facets and no polylines");
   expect("info missing.obj", 4);
 }
 
@@ -153,22 +139,20 @@ TEST_F(CommandLine, TellsWhatIsInAFile) {
 TEST_F(CommandLine, TooFewVerticesBecomeMore) {
   expect("mesh 2d/letter_cage.obj --vertices 3 -o d.obj", 0, "instead of 3 (--vertices)");
   EXPECT_GT(io::read_domain<2>("d.obj").num_vertices(), 3);
-  expect_refused("mesh 2d/letter_cage.obj --vertices 2000000000 -o e.obj", 1, "too many");
+  expect_refused("mesh 2d/letter_cage.obj --vertices 2000000000 -o e.obj", 1, "too many; at most");
 }
 
 TEST_F(CommandLine, ALostOutputIsAFailure) {
   for (const std::string arguments :
        {"info 3d/limb_cage.obj", "--help", "--version", "solve --help"}) {
-    const std::string command =
-        std::string(FLBC_PROGRAM) + " " + arguments + " >/dev/full 2>errors.txt";
-    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4) << arguments;
-    EXPECT_NE(slurp("errors.txt").find("standard output"), std::string::npos) << arguments;
+    EXPECT_EQ(status_of(FLBC_PROGRAM " " + arguments + " >/dev/full 2>errors.txt"), 4) << arguments;
+    expect_piece(slurp("errors.txt"), "standard output");
   }
 }
 
 TEST_F(CommandLine, LongSolvesAreAnnounced) {
   const std::string cage = "3d/limb_cage.obj";
-  EXPECT_EQ(expect("info " + cage).output.find("takes about"), std::string::npos);
+  expect_no_piece(expect("info " + cage).output, "takes about");
   const auto seconds = [&](const std::string& vertices) {
     const auto text = expect("info " + cage + " --estimate" + vertices).output;
     const auto at = text.find("takes about ");
@@ -177,11 +161,10 @@ TEST_F(CommandLine, LongSolvesAreAnnounced) {
   };
   EXPECT_NEAR(seconds(""), 1, 0.7);
   EXPECT_GT(seconds(" --vertices 50000"), 4 * seconds(""));
-  EXPECT_NE(expect("info " + cage + " --estimate --vertices 10000000").output.find(" min and "),
-            std::string::npos);
+  expect_piece(expect("info " + cage + " --estimate --vertices 10000000").output, " min and ");
   expect("info " + cage + " --vertices 500", 1, "requires --estimate");
   const auto quick = expect("solve " + cage + " --vertices 500 -o w.npy");
-  EXPECT_EQ(quick.errors.find("this may take"), std::string::npos) << quick.errors;
+  expect_no_piece(quick.errors, "this may take");
 }
 
 // Job systems close them.
@@ -189,40 +172,40 @@ TEST_F(CommandLine, ClosedStreamsAreNoObstacle) {
   const auto mesh = std::string(FLBC_PROGRAM) + " mesh 3d/limb_cage.obj --vertices 500 -o m.mesh";
   for (const std::string streams : {" <&- >&-", " <&- 2>&-", " >&- 2>&-", " <&- >&- 2>&-"}) {
     fs::remove("m.mesh");
-    EXPECT_EQ(WEXITSTATUS(std::system((mesh + streams).c_str())), 0) << streams;
+    EXPECT_EQ(status_of(mesh + streams), 0) << streams;
     EXPECT_GE(io::read_domain<3>("m.mesh").num_vertices(), 400) << streams;
   }
   const auto info = std::string(FLBC_PROGRAM) + " info 3d/limb_cage.obj";
-  EXPECT_EQ(WEXITSTATUS(std::system((info + " >&- 2>&-").c_str())), 4);
+  EXPECT_EQ(status_of(info + " >&- 2>&-"), 4);
 }
 
 TEST_F(CommandLine, LimitsOfTheSystemEndInMessages) {
-  const auto status_of = [&](const std::string& limit, const std::string& arguments) {
-    const auto command = "bash -c '" + limit + " " FLBC_PROGRAM " " + arguments + "' 2>errors.txt";
-    return WEXITSTATUS(std::system(command.c_str()));
+  const auto status_within = [&](const std::string& limit, const std::string& arguments) {
+    return status_of("bash -c '" + limit + " " FLBC_PROGRAM " " + arguments + "' 2>errors.txt");
   };
   const std::string mesh = "mesh 3d/limb_cage.obj --vertices 3000 -o m.mesh";
-  EXPECT_EQ(status_of("ulimit -f 10;", mesh), 4);
+  EXPECT_EQ(status_within("ulimit -f 10;", mesh), 4);
   EXPECT_FALSE(fs::exists("m.mesh"));
 #ifndef __SANITIZE_ADDRESS__  // which takes terabytes of addresses
   // OpenBLAS would try for ever to get its buffer.
   const std::string solve = "solve 2d/letter_cage.obj --vertices 2000 -o w.npy";
-  EXPECT_EQ(status_of("ulimit -v 200000; export OMP_NUM_THREADS=1; timeout 60", solve), 5);
+  EXPECT_EQ(status_within("ulimit -v 200000; export OMP_NUM_THREADS=1; timeout 60", solve), 5);
 #endif
-  EXPECT_EQ(status_of("ulimit -s 128;", mesh), 0) << slurp("errors.txt");
+  EXPECT_EQ(status_within("ulimit -s 128;", mesh), 0) << slurp("errors.txt");
   EXPECT_EQ(
-      status_of("OMP_NUM_THREADS=100000", "solve 2d/letter_cage.obj --vertices 2000 -o w.npy"), 0)
+      status_within("OMP_NUM_THREADS=100000", "solve 2d/letter_cage.obj --vertices 2000 -o w.npy"),
+      0)
       << slurp("errors.txt");
 }
 
 #ifndef __SANITIZE_ADDRESS__  // which takes terabytes of addresses
 TEST_F(CommandLine, OutOfMemoryIsStatus5) {
-  const auto command =
-      "ulimit -v 120000; OMP_NUM_THREADS=1 " + std::string(FLBC_PROGRAM) +
-      " run 3d/limb_cage.obj -o out --vertices 8000 --mesher tetgen -q >/dev/null 2>errors.txt";
-  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 5);
-  EXPECT_NE(slurp("errors.txt").find("out of memory"), std::string::npos);
-  EXPECT_NE(slurp("out/report.json").find("\"failed\": \"out of memory\""), std::string::npos);
+  EXPECT_EQ(status_of("ulimit -v 120000; OMP_NUM_THREADS=1 " FLBC_PROGRAM
+                      " run 3d/limb_cage.obj -o out --vertices 8000 --mesher tetgen -q "
+                      ">/dev/null 2>errors.txt"),
+            5);
+  expect_piece(slurp("errors.txt"), "out of memory");
+  expect_piece(slurp("out/report.json"), "\"failed\": \"out of memory\"");
 }
 #endif
 
@@ -233,7 +216,6 @@ TEST_F(CommandLine, WrongUsageIsStatus1) {
   expect_refused("solve", 1, "CAGE");
   expect_refused("solve " + cage, 1, "--output");
   expect_refused("fly " + cage, 1, "fly");
-  expect_refused("slove " + cage, 1, "did you mean solve?");
   expect_refused("solve " + cage, 1, "flbc solve: --output is required");
   expect_refused("solve " + cage + o + " --vertices -5", 1, "--vertices");
   expect_refused("solve " + cage + o + " --method magic", 1,
@@ -249,7 +231,6 @@ TEST_F(CommandLine, WrongUsageIsStatus1) {
   for (const std::string count : {"0", "abc", "1e9", "99999999999"}) {
     expect_refused("solve " + cage + o + " --vertices " + count, 1, "not '" + count + "'");
   }
-  expect_refused("mesh " + cage + " -o d.obj --vertices 2000000000", 1, "too many; at most");
   expect_refused("solve " + cage + o + " --domain ''", 1, "--domain: the value is empty");
   expect_refused("mesh '' -o d.obj", 1, "CAGE: the value is empty");
 }
@@ -320,8 +301,6 @@ TEST_F(CommandLine, BadCagesAreStatus2AndNamed) {
   refused("v 0 0 0\nv 1 nan 0\nv 0 1 0\n", "bad.obj:2");
   refused("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nl 1 2 3 4\n", "open");
   refused("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nl 1 2 3 4 1\n", "(0.5, 0.5)");
-  // A tetrahedron without one side.
-  refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n", "3 triangles");
   // A cube of quadrilaterals without lid.
   refused(
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
@@ -395,7 +374,7 @@ TEST_F(CommandLine, PhiMayComeFromAFile) {
     expect(solve + "constant -o b.npy");
     const auto ours = io::read_weights("a.npy").dense();
     EXPECT_LT((ours - io::read_weights("b.npy").dense()).cwiseAbs().maxCoeff(), 1e-2);
-    EXPECT_NE(slurp("a.json").find("ones.npy"), std::string::npos);
+    expect_piece(slurp("a.json"), "ones.npy");
 
     phi(1, 2) = -1;
     io::write_weights("negative.npy", phi);
@@ -415,9 +394,8 @@ TEST_F(CommandLine, ConvergedFarFromTheOptimumIsTold) {
   const auto report = json_in("r.json");
   EXPECT_EQ(report["status"], "converged");
   EXPECT_GT(report["relative_gap"], 5e-3);
-  EXPECT_NE(paper.errors.find("above the optimum; lower --tolerance"), std::string::npos)
-      << paper.errors;
-  EXPECT_EQ(expect(solve + "weights").errors.find("above the optimum"), std::string::npos);
+  expect_piece(paper.errors, "above the optimum; lower --tolerance");
+  expect_no_piece(expect(solve + "weights").errors, "above the optimum");
 }
 
 // The weights are then not unique, so that small changes of them bound nothing.

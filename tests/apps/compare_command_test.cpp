@@ -1,40 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc compare, and other commands with kinds of coordinates for comparison.
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
-
-#include <gtest/gtest.h>
-
-#include "flbc/io/weights_io.h"
 #include "support/command_line.h"
 
 namespace flbc::testing {
 namespace {
 
 using CompareCommand = CommandLineTest;
-
-// Writes the cage, moved by a 3 x 3 matrix, to posed.obj.
-void pose_by(const std::string& cage, const std::string& matrix) {
-  Eigen::Matrix3d map;
-  std::istringstream entries(matrix);
-  for (int k = 0; k < 9; ++k) entries >> map(k / 3, k % 3);
-  std::istringstream lines(slurp(cage));
-  std::ofstream posed("posed.obj");
-  posed.precision(17);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.compare(0, 2, "v ") == 0) {
-      Eigen::Vector3d point = Eigen::Vector3d::Zero();
-      std::istringstream words(line.substr(2));
-      words >> point[0] >> point[1] >> point[2];
-      posed << "v " << (map * point).transpose() << '\n';
-    } else {
-      posed << line << '\n';
-    }
-  }
-}
 
 TEST_F(CompareCommand, ListsAllCoordinatesWithFilesThatExist) {
   for (const std::string dim : {"2d", "3d"}) {
@@ -60,7 +31,7 @@ TEST_F(CompareCommand, ListsAllCoordinatesWithFilesThatExist) {
     for (const auto& file : report["files"]) {
       EXPECT_TRUE(std::filesystem::exists(folder + "/" + file.get<std::string>())) << file;
     }
-    EXPECT_NE(slurp(folder + "/index.html").find("maxlikelihood"), std::string::npos);
+    expect_piece(slurp(folder + "/index.html"), "maxlikelihood");
   }
 }
 
@@ -97,25 +68,25 @@ TEST_F(CompareCommand, ThePageShowsOnlyPicturesThatExist) {
 TEST_F(CompareCommand, DistortionOfAffinePosesIsThatOfTheMap) {
   for (const std::string dim : {"2d", "3d"}) {
     const std::string cage = dim == "2d" ? "2d/figure_cage.obj" : "3d/limb_cage.obj";
-    const auto measure = [&](const std::string& matrix) {
-      pose_by(cage, matrix);
+    const auto measure = [&](const Eigen::Matrix3d& map) {
+      moved(cage, "posed.obj", [&](const auto& point) { return map * point; });
       expect("compare " + cage + " -q --vertices 500 --methods local,meanvalue --force --pose " +
              "posed.obj -o compared");
       return json_in("compared/table.json")["columns"];
     };
-    const auto turned = measure("0 -1 0 1 0 0 0 0 1");
+    const auto turned = measure(Eigen::Matrix3d{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}});
     for (const auto& [name, facts] : turned.items()) {
       EXPECT_NEAR(facts["distortion"].get<double>(), 0, 1e-9) << name;
       EXPECT_NEAR(facts["volume_change"].get<double>(), 0, 1e-9) << name;
       EXPECT_EQ(facts["flipped"], 0) << name;
     }
-    const auto stretched = measure("1.5 0 0 0 2 0 0 0 1");
+    const auto stretched = measure(Vector<3>(1.5, 2, 1).asDiagonal());
     for (const auto& [name, facts] : stretched.items()) {
       EXPECT_NEAR(facts["distortion"].get<double>(), 0.25 + 1, 1e-9) << name;
       EXPECT_NEAR(facts["volume_change"].get<double>(), 2, 1e-9) << name;
       EXPECT_EQ(facts["flipped"], 0) << name;
     }
-    const auto mirrored = measure("-1 0 0 0 1 0 0 0 1");
+    const auto mirrored = measure(Vector<3>(-1, 1, 1).asDiagonal());
     for (const auto& [name, facts] : mirrored.items()) {
       EXPECT_NEAR(facts["distortion"].get<double>(), 0, 1e-9) << name;
       EXPECT_NEAR(facts["volume_change"].get<double>(), 2, 1e-9) << name;
@@ -138,7 +109,7 @@ TEST_F(CompareCommand, CountsOfWeightsAreThoseOfTheFiles) {
   EXPECT_LT(columns["local"]["reach"], columns["harmonic"]["reach"]);
   EXPECT_GT(columns["local"]["distortion"], 0) << "of the generated poses";
   const auto table = slurp("compared/table.txt");
-  EXPECT_NE(table.find("share of the model vertices"), std::string::npos);
+  expect_piece(table, "share of the model vertices");
 }
 
 TEST_F(CompareCommand, ReplacesOnlyItsOwnFilesWithoutForce) {
@@ -169,14 +140,14 @@ TEST_F(CompareCommand, AMethodThatFailsSaysWhyAndTheOthersContinue) {
   expect("compare 3d/limb_cage.obj -q --vertices 500 --methods blended,meanvalue -o compared");
   const auto report = json_in("compared/table.json");
   EXPECT_EQ(report["columns"].size(), 1U);
-  EXPECT_NE(report["failures"]["blended"].get<std::string>().find("in 2D"), std::string::npos);
-  EXPECT_NE(slurp("compared/table.txt").find("blended failed: "), std::string::npos);
+  expect_piece(report["failures"]["blended"].get<std::string>(), "in 2D");
+  expect_piece(slurp("compared/table.txt"), "blended failed: ");
 }
 
 TEST_F(CompareCommand, ReportsTheThreadsThatItUsed) {
   const auto command = "OMP_NUM_THREADS=1 " + std::string(FLBC_PROGRAM) +
                        " compare 2d/letter_cage.obj -q --methods meanvalue -o compared";
-  ASSERT_EQ(std::system(command.c_str()), 0);
+  ASSERT_EQ(status_of(command), 0);
   EXPECT_EQ(json_in("compared/table.json")["threads"], 1);
 }
 

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc deform with files of points, which are moved in batches.
-#include <gtest/gtest.h>
-
-#include <cstring>
-#include <random>
-
 #include "flbc/io/mesh_io.h"
-#include "flbc/io/weights_io.h"
 #include "support/command_line.h"
 
 namespace flbc::testing {

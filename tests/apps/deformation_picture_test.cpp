@@ -2,15 +2,8 @@
 // Before and after in one picture, measured on its pixels.
 #include "draw/plane_picture.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include "flbc/errors.h"
 #include "support/png_image.h"
+#include "support/test.h"
 
 namespace flbc::draw {
 namespace {

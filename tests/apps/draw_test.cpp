@@ -1,24 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <random>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "draw/canvas.h"
 #include "draw/colormap.h"
 #include "draw/isolines.h"
 #include "draw/layout.h"
 #include "draw/plane_picture.h"
-#include "flbc/errors.h"
-#include "support/errors.h"
 #include "support/png_image.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::draw {
 namespace {

@@ -2,9 +2,6 @@
 // Manual pages and completion: they have all that --help has, man takes the pages without a
 // warning, and a shell completes.
 #include <regex>
-#include <set>
-#include <sstream>
-#include <vector>
 
 #include "support/command_line.h"
 
@@ -12,10 +9,6 @@ namespace flbc::testing {
 namespace {
 
 using Words = std::set<std::string>;
-
-bool is_there(const std::string& program) {
-  return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
-}
 
 // All of a text that match.
 Words found_in(const std::string& text, const std::string& pattern) {
@@ -58,7 +51,7 @@ class HelpCommands : public CommandLineTest {
                                    << "COMP_WORDS=(" << line << ")\nCOMP_CWORD=" << words.size() - 1
                                    << "\n_flbc\nprintf '%s\\n' \"${COMPREPLY[@]}\" >"
                                    << "offered";
-    EXPECT_EQ(std::system("bash -u completion.sh"), 0);
+    EXPECT_EQ(status_of("bash -u completion.sh"), 0);
     std::istringstream lines(slurp("offered"));
     Words offers;
     for (std::string word; std::getline(lines, word);) {
@@ -80,13 +73,12 @@ class HelpPages : public HelpCommands {
 TEST_F(HelpPages, EveryOptionIsOnItsPage) {
   const auto program = page("flbc.1");
   for (const auto& command : commands()) {
-    EXPECT_NE(program.find(".TP\n\\fB" + command + "\\fR\n"), std::string::npos) << command;
+    expect_piece(program, ".TP\n\\fB" + command + "\\fR\n");
     const auto manual = page("flbc-" + command + ".1"), markdown = page(command + ".md");
     for (auto option : options_of(command)) {
       EXPECT_NE(markdown.find('`' + option), std::string::npos) << command << ' ' << option;
       option = std::regex_replace(option, std::regex("-"), "\\-");
-      EXPECT_NE(manual.find("\\fB" + option + "\\fR"), std::string::npos)
-          << command << ' ' << option;
+      expect_piece(manual, "\\fB" + option + "\\fR");
     }
   }
 }
@@ -127,18 +119,17 @@ TEST_F(HelpCommands, OldNamesOfPosesAreHiddenAliases) {
 }
 
 TEST_F(HelpPages, AreWithoutWarnings) {
-  if (!is_there("groff")) GTEST_SKIP() << "groff is not installed";
+  if (!has_program("groff")) GTEST_SKIP() << "groff is not installed";
   auto names = commands();
   names.insert("");
   for (const auto& name : names) {
     const auto page =
         std::string(FLBC_HELP_PAGES) + "/flbc" + (name.empty() ? "" : "-" + name) + ".1";
-    ASSERT_EQ(
-        std::system(("groff -man -ww -Tutf8 '" + page + "' >page.txt 2>warnings.txt").c_str()), 0);
+    ASSERT_EQ(status_of("groff -man -ww -Tutf8 '" + page + "' >page.txt 2>warnings.txt"), 0);
     EXPECT_EQ(slurp("warnings.txt"), "") << page;
     EXPECT_NE(slurp("page.txt").find("wrong usage"), std::string::npos) << page;
-    if (!is_there("mandoc")) continue;
-    EXPECT_EQ(std::system(("mandoc -Tlint -Werror '" + page + "'").c_str()), 0) << page;
+    if (!has_program("mandoc")) continue;
+    EXPECT_EQ(status_of("mandoc -Tlint -Werror '" + page + "'"), 0) << page;
   }
 }
 
@@ -170,8 +161,8 @@ TEST_F(HelpPages, ZshKnowsEveryOption) {
       EXPECT_NE(part.find(")" + option + "["), std::string::npos) << command << ' ' << option;
     }
   }
-  if (!is_there("zsh")) GTEST_SKIP() << "zsh is not installed: its script is not read by it";
-  EXPECT_EQ(std::system(("zsh -n " + file("_flbc", script)).c_str()), 0);
+  if (!has_program("zsh")) GTEST_SKIP() << "zsh is not installed: its script is not read by it";
+  EXPECT_EQ(status_of("zsh -n " + file("_flbc", script)), 0);
 }
 
 TEST_F(HelpCommands, ParserNamesTheCommandAndVersionTheComponents) {
@@ -182,7 +173,7 @@ TEST_F(HelpCommands, ParserNamesTheCommandAndVersionTheComponents) {
   }
   const auto version = run("--version").output;
   for (const char* component : {"\nwith", "CGAL (", "TetGen ("}) {
-    EXPECT_NE(version.find(component), std::string::npos) << version;
+    expect_piece(version, component);
   }
 }
 

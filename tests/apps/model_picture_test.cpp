@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures of models in space: what is nearer covers what is farther, what is hidden is pale.
-#include <cmath>
-#include <limits>
-
-#include <gtest/gtest.h>
-
-#include "draw/colormap.h"
 #include "draw/model_picture.h"
+#include "draw/colormap.h"
 #include "draw/view.h"
-#include "flbc/errors.h"
 #include "support/command_line.h"
 #include "support/png_image.h"
 

@@ -1,14 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cages of several parts in one file: every command takes them, and each part is as if alone.
-#include <nlohmann/json.hpp>
-#include <sstream>
-#include <type_traits>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include "flbc/io/weights_io.h"
-#include "support/code_cages.h"
 #include "support/command_line.h"
 #include "support/png_image.h"
 
@@ -55,14 +46,12 @@ class PartsCommand : public CommandLineTest {
   }
 };
 
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(PartsCommand, Dimensions);
 
 TYPED_TEST(PartsCommand, SolvesEachAsAlone) {
   constexpr int n = 1 << TypeParam::value;
   const auto cage = this->both();
-  EXPECT_NE(this->expect("check " + cage, 0).output.find("each part is solved on its own"),
-            std::string::npos);
+  expect_piece(this->expect("check " + cage, 0).output, "each part is solved on its own");
   const std::string by_gap = "--smoothness 0 --certify ";
   this->expect("solve " + cage + this->vertices() + by_gap + "--save-domain " + this->domain() +
                    " -o w.npy --report report.json",

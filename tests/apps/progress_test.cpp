@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The progress line: within 80 columns, never going back, with the time that is left; and the
 // history of a solve.
-#include <cmath>
-#include <nlohmann/json.hpp>
-
-#include <gtest/gtest.h>
-
 #include "solve/progress_estimate.h"
 #include "support/command_line.h"
 
@@ -14,8 +9,7 @@ namespace {
 
 TEST(ProgressEstimate, NeverGoesBackAndFitsALine) {
   for (const Method method : {Method::kWeights, Method::kGradient}) {
-    SolverOptions options;
-    options.method = method;
+    SolverOptions options{method};
     ProgressEstimate estimate(options);
     EXPECT_EQ(estimate.line("meshing the cage", 2.5), "meshing the cage, 3 s");
     double done = 0, seconds = 0;
@@ -30,12 +24,12 @@ TEST(ProgressEstimate, NeverGoesBackAndFitsALine) {
         const auto line = estimate.line("", seconds);
         EXPECT_LE(line.size(), 79U) << line;
         if (done > 0.1) {
-          EXPECT_NE(line.find(" left"), std::string::npos) << line;
+          flbc::testing::expect_piece(line, " left");
         }
       }
       EXPECT_GT(done, level == 0 ? 0.99 : 0.02);
     }
-    EXPECT_NE(estimate.line("", seconds).find("100%"), std::string::npos);
+    flbc::testing::expect_piece(estimate.line("", seconds), "100%");
     // No progress is reported after the iteration.
     EXPECT_EQ(estimate.line("", seconds + 1000).substr(0, 9), "finishing");
   }
@@ -48,7 +42,7 @@ TEST(ProgressEstimate, StagesTellTheTimeThatIsLeft) {
   EXPECT_EQ(estimate.line("setting up", 13),
             "measuring distances [#####...............] 25%, 9 s left");
   estimate.update_stage("measuring distances", 0.2, 14);  // nothing is taken back
-  EXPECT_NE(estimate.line("setting up", 14).find("25%"), std::string::npos);
+  flbc::testing::expect_piece(estimate.line("setting up", 14), "25%");
   estimate.update({1, 100, 0, 0, {}}, 20);
   EXPECT_EQ(estimate.line("", 20).substr(0, 7), "solving");
   estimate.update_stage("proving the gap", 0.5, 30);
@@ -61,19 +55,18 @@ TEST(ProgressEstimate, TheTimeLeftIsRightForASteadyFall) {
     estimate.update({10 * k + 1, std::pow(10.0, 10 - k / 10.0), 0, 0, {}}, 5.0 + k);
   }
   // Half of the way of the logarithm took 50 s.
-  EXPECT_NE(estimate.line("", 55).find("50%, 50 s left"), std::string::npos)
-      << estimate.line("", 55);
+  flbc::testing::expect_piece(estimate.line("", 55), "50%, 50 s left");
 }
 
 using ProgressLine = flbc::testing::CommandLineTest;
 
 TEST_F(ProgressLine, IsForTerminalsOnly) {
   const std::string solve = "solve 3d/limb_cage.obj --method gradient -o w.npy --vertices ";
-  EXPECT_EQ(expect(solve + "300").errors.find("solving ["), std::string::npos);
-  if (std::system("command -v script >/dev/null 2>&1") != 0) GTEST_SKIP() << "no script(1)";
+  flbc::testing::expect_no_piece(expect(solve + "300").errors, "solving [");
+  if (!has_program("script")) GTEST_SKIP() << "no script(1)";
   const auto in_terminal = "script -qec '" + std::string(FLBC_PROGRAM) + " " + solve +
                            "2500' log.txt >/dev/null </dev/null";
-  ASSERT_EQ(std::system(in_terminal.c_str()), 0);
+  ASSERT_EQ(status_of(in_terminal), 0);
   const auto text = flbc::testing::slurp("log.txt");
   int last = 0;
   std::size_t lines = 0;

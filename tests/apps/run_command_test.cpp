@@ -4,14 +4,6 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <filesystem>
-#include <nlohmann/json.hpp>
-#include <set>
-
-#include <gtest/gtest.h>
-
-#include "flbc/io/cage_io.h"
-#include "flbc/io/model_file.h"
 #include "support/command_line.h"
 #include "support/model_cages.h"
 #include "support/splats.h"
@@ -39,9 +31,6 @@ using Names = std::set<std::string>;
 
 class RunCommand : public CommandLineTest {
  protected:
-  Ended run_into(const std::string& folder, const std::string& arguments) const {
-    return run("run " + arguments + " -o " + folder);
-  }
   void expect_run(const std::string& folder, const std::string& arguments, int status,
                   const std::string& words) const {
     expect("run " + arguments + " -o " + folder, status, words);
@@ -70,11 +59,10 @@ class RunCommand : public CommandLineTest {
 
   void expect_all_that_others_do(const std::string& name, const std::string& domain) const {
     SCOPED_TRACE(name);
-    const auto cage = name + "_cage.obj";
-    const auto model = name + "_model.obj";
+    const auto cage = name + "_cage.obj", model = name + "_model.obj";
     const auto pose = name + "_cage_pose.obj";
-    const auto result = run_into(
-        "out", cage + " " + model + " --pose " + pose + " -k 6 --tolerance 1e-4 --vertices 800");
+    const auto result = run("run " + cage + " " + model + " --pose " + pose +
+                            " -k 6 --tolerance 1e-4 --vertices 800 -o out");
     ASSERT_EQ(result.status, 0) << result.errors;
     EXPECT_EQ(result.output, "");
     const Names expected{
@@ -83,7 +71,7 @@ class RunCommand : public CommandLineTest {
         "report.json"};
     EXPECT_EQ(names_in("out"), expected);
     for (const auto& file : expected) {
-      EXPECT_NE(result.errors.find("  " + file + ' '), std::string::npos) << file;
+      expect_piece(result.errors, "  " + file + ' ');
     }
     const auto json = report("out");
     EXPECT_EQ(json["files"].get<Names>(), expected);
@@ -233,7 +221,7 @@ TEST_F(RunCommand, AnInterruptedRunIsNoObstacle) {
   const auto kill = "sh -c '" + endless +
                     " & for k in $(seq 1000); do [ -e out/domain.obj ] && break; sleep 0.02; done; "
                     "kill -9 $!; wait; true' 2>&1";
-  ASSERT_EQ(std::system(kill.c_str()), 0);
+  ASSERT_EQ(status_of(kill), 0);
   EXPECT_EQ(names_in("out").count("domain.obj"), 1U);
   EXPECT_EQ(names_in("out").count("weights.npy"), 0U);
   EXPECT_EQ(report("out")["unfinished"], true);
@@ -297,19 +285,17 @@ TEST_F(RunCommand, SplatsGetACageAndMoveAsByDeform) {
   const auto splats = random_splats(io::to_points<3>(model, ""), 1);
   const auto splat_file = file("splats.ply", splats.text());
   expect_run("out", splat_file + " --auto-cage --vertices 800", 0, " --rest out/cage.obj");
-  auto soup = io::read_polygons("out/cage.obj");
   Eigen::Matrix3d a;
   a << 0, -2, 0, 1, 0, 0.5, 0, 0, 1;
-  for (auto& point : soup.points) point = a * point;
-  io::write_model("pose.obj", {soup});
+  moved("out/cage.obj", "pose.obj", [&](const auto& point) { return a * point; });
   expect_run("posed", "out/cage.obj " + splat_file + " --vertices 800 --pose pose.obj", 0,
              "deformed.ply");
-  const auto moved = splats.parse(slurp("posed/deformed.ply"));
-  for (Eigen::Index p = 0; p < moved.values.cols(); ++p) {
+  const auto posed = splats.parse(slurp("posed/deformed.ply"));
+  for (Eigen::Index p = 0; p < posed.values.cols(); ++p) {
     const Vector<3> before = splats.values.col(p).head<3>().cast<double>();
-    EXPECT_LT((moved.values.col(p).head<3>().cast<double>() - a * before).norm(), 1e-4);
+    EXPECT_LT((posed.values.col(p).head<3>().cast<double>() - a * before).norm(), 1e-4);
     const Eigen::Matrix3d expected = a * splats.covariance(p) * a.transpose();
-    EXPECT_LT((moved.covariance(p) - expected).norm(), 1e-4 * expected.norm());
+    EXPECT_LT((posed.covariance(p) - expected).norm(), 1e-4 * expected.norm());
   }
   const auto command = "deform " + splat_file + " --weights posed/weights.npy --pose pose.obj";
   expect(command + " -q -o own.ply", 1, "need --domain and --rest");

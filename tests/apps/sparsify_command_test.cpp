@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc sparsify as its users and their scripts see it.
-#include <filesystem>
-#include <nlohmann/json.hpp>
-
-#include <gtest/gtest.h>
-
-#include "flbc/io/cage_io.h"
 #include "flbc/io/mesh_io.h"
-#include "flbc/io/model_file.h"
-#include "flbc/io/weights_io.h"
-#include "flbc/quality.h"
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "support/command_line.h"
@@ -71,8 +62,7 @@ TEST_F(SparsifyCommand, ModelsIn2DAnd3D) {
   const auto sparsify = [&](const std::string& name, const std::string& domain_file, int most) {
     SCOPED_TRACE(name);
     solve(name, domain_file);
-    const auto cage = name + "_cage.obj";
-    const auto model = name + "_model.obj";
+    const auto cage = name + "_cage.obj", model = name + "_model.obj";
     const auto result =
         expect("sparsify w.npy --cage " + cage + " --points " + model + " -k " +
                    std::to_string(most) + " -o s.mtx --report s.json --pose " + cage,

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc transfer as its users see it.
-#include <gtest/gtest.h>
-
-#include "flbc/io/model_file.h"
-#include "flbc/io/weights_io.h"
 #include "support/command_line.h"
 
 namespace flbc::testing {

@@ -1,11 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // --up of the commands that show or export models.
-#include <sstream>
-
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-
 #include "files/up_axis.h"
 #include "support/command_line.h"
 #include "support/glb_file.h"
@@ -104,8 +98,7 @@ TEST_F(UpOption, SkinsTurnTheirRoot) {
     EXPECT_EQ(text.find("xformOp:transform = (") == std::string::npos, axis == 1);
   }
   // Rows are the images of x, y, and z.
-  EXPECT_NE(slurp("s.usda").find("((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1))"),
-            std::string::npos);
+  expect_piece(slurp("s.usda"), "((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1))");
   expect("export " + pyramid(2) + " -o s.py --up z", 1, "leave out --up");
 }
 
@@ -113,9 +106,9 @@ TEST_F(UpOption, PagesKnowTheAxis) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto up = "\"up\":" + std::to_string(axis);
     expect("view " + pyramid(axis) + " -q -o p.html");
-    EXPECT_NE(slurp("p.html").find(up), std::string::npos);
+    expect_piece(slurp("p.html"), up);
     expect("view " + pyramid(1) + " -q -o p.html --up " + kAxes[axis]);
-    EXPECT_NE(slurp("p.html").find(up), std::string::npos);
+    expect_piece(slurp("p.html"), up);
   }
 }
 
@@ -126,11 +119,11 @@ TEST_F(UpOption, RunsTurnPicturesPageAndSkins) {
   };
   run("");
   const auto picture = slurp("out/function.png");
-  EXPECT_NE(slurp("out/model.html").find("\"up\":2"), std::string::npos);
+  expect_piece(slurp("out/model.html"), "\"up\":2");
   EXPECT_TRUE(GlbFile(slurp("out/model.glb")).root_joint().contains("rotation"));
   run(" --up y");
   EXPECT_NE(slurp("out/function.png"), picture);
-  EXPECT_NE(slurp("out/model.html").find("\"up\":1"), std::string::npos);
+  expect_piece(slurp("out/model.html"), "\"up\":1");
   EXPECT_FALSE(GlbFile(slurp("out/model.glb")).root_joint().contains("rotation"));
 }
 

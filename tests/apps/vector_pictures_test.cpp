@@ -1,11 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Vector pictures of the program, as other programs read them.
-#include <cmath>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "support/command_line.h"
 #include "support/png_image.h"
 
@@ -29,10 +23,6 @@ Image averaged(const Image& fine, int scale) {
     }
   }
   return coarse;
-}
-
-bool has_program(const std::string& name) {
-  return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
 }
 
 // Whether every element ends, in order.
@@ -66,7 +56,7 @@ class VectorPictures : public CommandLineTest {
   }
 
   std::string output_of(const std::string& command) const {
-    EXPECT_EQ(std::system((command + " >text.txt 2>/dev/null").c_str()), 0) << command;
+    EXPECT_EQ(status_of(command + " >text.txt 2>/dev/null"), 0) << command;
     return slurp("text.txt");
   }
 
@@ -106,7 +96,7 @@ class VectorPictures : public CommandLineTest {
     }
     if (has_program("pdftotext")) {
       const auto text = output_of("pdftotext p.pdf -");
-      EXPECT_NE(text.find(label), std::string::npos) << text;
+      expect_piece(text, label);
     }
     if (has_program("pdftoppm")) {  // a pixel is 0.375 points of 1/72 inch
       output_of("pdftoppm -png -r 768 -singlefile p.pdf of_pdf");
@@ -143,7 +133,7 @@ TEST_F(VectorPictures, ShowWhatPngShows) {
 TEST_F(VectorPictures, UnknownFormatsAreNamed) {
   const auto result = expect("draw d.obj --weights w.npy --cage 2d/figure_cage.obj -o p.jpg", 1,
                              ".png, .svg, .pdf");
-  EXPECT_NE(result.errors.find("'.jpg'"), std::string::npos) << result.errors;
+  expect_piece(result.errors, "'.jpg'");
 }
 
 TEST_F(VectorPictures, OfARunAsWell) {

@@ -7,7 +7,6 @@
 #include "flbc/io/model_file.h"
 #include "support/enclosure_judge.h"
 #include "support/mesh_checks.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "support/harmonic_weights.h"
 #include "support/mesh_checks.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "support/errors.h"
 #include "support/refined_sample.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sizes of cages known beforehand.
+// Sizes and parts of cages known beforehand.
 #include "flbc/cage_facts.h"
 
 #include "support/feasible_vertices.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -48,6 +47,58 @@ TEST_IN_2D_AND_3D(CageFactsTest, NoPlaceIsThinner) {
       }
     }
   }
+}
+
+// Numbers from first on, as many as a box has corners.
+template <int Dim>
+std::vector<Index> corners_from(Index first) {
+  std::vector<Index> numbers(1 << Dim);
+  std::iota(numbers.begin(), numbers.end(), first);
+  return numbers;
+}
+
+TEST_IN_2D_AND_3D(CagePartsTest, NestsAndNeighbours) {
+  constexpr Index n = 1 << Dim;
+  // A nest of five boxes around the origin, of which two are holes, given from the middle outward
+  // and inward; and two boxes next to it, one with a hole.
+  Cage<Dim> cage = join(box_cage<Dim>(0.5), reversed(box_cage<Dim>(0.7)));  // a hole around a part
+  cage = join(cage, box_cage<Dim>(1));
+  cage = join(cage, box_cage<Dim>(0.3));  // a hole in the innermost but one
+  cage = join(cage, reversed(box_cage<Dim>(0.1)));
+  cage = join(cage, box_cage<Dim>(5, 6));
+  cage = join(join(cage, box_cage<Dim>(2, 3)), box_cage<Dim>(2.2, 2.8));
+  const auto parts = cage_parts(cage);
+  ASSERT_EQ(parts.size(), 5u);
+  EXPECT_EQ(measure_cage(cage).parts, 5);
+
+  const auto expect_part = [&](std::size_t p, std::vector<Index> boxes, double measure) {
+    std::vector<Index> numbers;
+    for (const Index box : boxes) {
+      const auto corners = corners_from<Dim>(box * n);
+      numbers.insert(numbers.end(), corners.begin(), corners.end());
+    }
+    EXPECT_EQ(parts[p].control_points, numbers) << p;
+    EXPECT_TRUE(find_defects(parts[p].cage).empty()) << p;
+    EXPECT_EQ(parts[p].cage.points, PointList<Dim>(cage.points(Eigen::all, numbers))) << p;
+    const auto facts = measure_cage(parts[p].cage);
+    EXPECT_EQ(facts.parts, 1) << p;
+    EXPECT_EQ(facts.holes, Index(boxes.size()) - 1) << p;
+    EXPECT_NEAR(facts.measure, measure, 1e-12) << p;
+  };
+  const auto volume = [](double side) { return std::pow(side, Dim); };
+  expect_part(0, {0, 3}, volume(1) - volume(0.6));
+  expect_part(1, {1, 2}, volume(2) - volume(1.4));
+  expect_part(2, {4}, volume(0.2));
+  expect_part(3, {5}, volume(1));
+  expect_part(4, {6, 7}, volume(1) - volume(0.6));
+}
+
+TEST_IN_2D_AND_3D(CagePartsTest, OnePartIsTheWhole) {
+  const auto cage = join(box_cage<Dim>(1), box_cage<Dim>(0.5));
+  const auto parts = cage_parts(cage);
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_EQ(parts[0].cage.points, cage.points);
+  EXPECT_EQ(parts[0].cage.facets, cage.facets);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include "flbc/cage.h"
 
 #include "support/model_cages.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -217,13 +216,8 @@ TEST(Cage3Test, NonManifoldVertex) {
 
 TEST(RealCageTest, SoundOnes) {
   if (!has_model("3d/horse_cage.obj")) GTEST_SKIP() << "the real models are absent";
-  for (const char* name : {"woody", "cactus", "LBClogo"}) {
-    EXPECT_TRUE(
-        find_defects(load_cage<2>("2d/" + std::string(name) + "-control-edgeset.obj")).empty());
-  }
-  for (const char* name : {"horse", "armadillo", "shark", "beast", "arm", "clothing"}) {
-    EXPECT_TRUE(find_defects(load_cage<3>("3d/" + std::string(name) + "_cage.obj")).empty());
-  }
+  for (const auto* name : kRealCages2D) EXPECT_TRUE(find_defects(load_cage<2>(name)).empty());
+  for (const auto* name : kRealCages3D) EXPECT_TRUE(find_defects(load_cage<3>(name)).empty());
 }
 
 TEST(RealCageTest, DefectiveOnes) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/meshing.h"
 #include "support/model_cages.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -94,14 +93,11 @@ TEST(SelfIntersectionRealTest, RealCages) {
   for (const char* name : {"self_intersecting_cage.obj", "genus1_self_intersecting_cage.obj"}) {
     EXPECT_FALSE(find_self_intersections(load_cage<3>("defective/" + std::string(name))).empty());
   }
-  for (const char* name : {"horse", "armadillo", "shark", "beast", "arm", "clothing"}) {
-    EXPECT_TRUE(
-        find_self_intersections(load_cage<3>("3d/" + std::string(name) + "_cage.obj")).empty());
+  for (const auto* name : kRealCages2D) {
+    EXPECT_TRUE(find_self_intersections(load_cage<2>(name)).empty());
   }
-  for (const char* name : {"woody", "cactus", "LBClogo"}) {
-    EXPECT_TRUE(
-        find_self_intersections(load_cage<2>("2d/" + std::string(name) + "-control-edgeset.obj"))
-            .empty());
+  for (const auto* name : kRealCages3D) {
+    EXPECT_TRUE(find_self_intersections(load_cage<3>(name)).empty());
   }
 }
 

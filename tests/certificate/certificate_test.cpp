@@ -3,50 +3,17 @@
 
 #include "flbc/harmonic.h"
 #include "flbc/non_negative.h"
-#include "flbc/recovery.h"
-#include "mesh/cell_geometry.h"
 #include "polytope/vertex_linear_program.h"
+#include "support/cell_field.h"
 #include "support/feasible_vertices.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
 
-// A cell field, padded by three numbers of rubbish per component.
-template <class Scalar, int Dim>
-struct Field {
-  std::vector<Scalar> numbers;
-  CellFieldView<Scalar, Dim> view;
-
-  explicit Field(const LbcProblem<Dim>& problem) {
-    const Index n = problem.num_control_points();
-    numbers.assign(problem.mesh.num_cells() * Dim * (n + 3), Scalar(1e30));
-    view = {numbers.data(), static_cast<std::size_t>(n) + 3, n};
-  }
-  Scalar& at(Index s, int d, Index i) { return numbers[(s * Dim + d) * view.stride + i]; }
-  template <class Function>
-  Field& fill(const Function& function) {
-    const auto cells = static_cast<Index>(numbers.size() / view.stride / Dim);
-    for (Index s = 0; s < cells; ++s) {
-      for (Index i = 0; i < view.n; ++i) {
-        const Vector<Dim> value = function(s, i);
-        for (int d = 0; d < Dim; ++d) at(s, d, i) = static_cast<Scalar>(value[d]);
-      }
-    }
-    return *this;
-  }
-};
-
-template <int Dim>
-Vector<Dim> gradient_of(const DomainMesh<Dim>& mesh, const WeightMatrix& weights, Index s,
-                        Index i) {
-  return weight_gradients(mesh, s, cell_geometry(mesh, s), weights).row(i).transpose();
-}
-
 // phi A grad w / |grad w|: the flux that makes weights optimal if they are.
 template <class Scalar, int Dim>
 Field<Scalar, Dim> aligned_flux(const LbcProblem<Dim>& problem, const WeightMatrix& weights) {
-  Field<Scalar, Dim> field(problem);
+  Field<Scalar, Dim> field(problem.mesh, problem.num_control_points());
   field.fill([&](Index s, Index i) {
     const Vector<Dim> gradient = gradient_of(problem.mesh, weights, s, i);
     const double length = std::max(gradient.norm(), 1e-300);
@@ -132,7 +99,7 @@ TEST_IN_2D_AND_3D(CertificateTest, BoundIsBelowAllFeasibleWeightsForAnyFlux) {
       least = std::min(least, testing::objective(problem.mesh, weights, problem.phi.dense()));
     }
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    Field<double, Dim> field(problem);
+    Field<double, Dim> field(problem.mesh, n);
     for (const double size : {0.0, 1e-3, 1.0, 1e3, 1e100, 1e300, nan}) {
       field.fill([&](Index, Index) { return numbers.matrix(Dim, 1, -size, size); });
       const double bound = lower_bound(problem, field.view, harmonic);
@@ -245,8 +212,8 @@ TEST_IN_2D_AND_3D(CertificateTest, SizesThatDoNotFitAreErrors) {
   const auto sample = make_sample<Dim>(Shape::kBox, 3, 0.2);
   const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant, 0);
   const auto weights = harmonic_coordinates(problem);
-  Field<double, Dim> field(problem);
   const Index n = problem.num_control_points();
+  Field<double, Dim> field(problem.mesh, n);
   expect_error<InputError>([&] { lower_bound(problem, field.view, weights.leftCols(2).eval()); },
                            {"2 points", std::to_string(n)});
   field.view.n = n - 1;

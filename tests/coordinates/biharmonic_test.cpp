@@ -2,9 +2,7 @@
 #include "flbc/biharmonic.h"
 
 #include "flbc/coordinates.h"
-#include "flbc/harmonic.h"
 #include "support/cages_of_all_kinds.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -2,8 +2,6 @@
 // Where a grid passes through a box in it.
 #include "flbc/border.h"
 
-#include <set>
-
 #include "flbc/cage_facts.h"
 #include "support/test.h"
 

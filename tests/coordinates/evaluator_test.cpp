@@ -7,7 +7,6 @@
 #include "flbc/deform.h"
 #include "flbc/poses.h"
 #include "support/harmonic_weights.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

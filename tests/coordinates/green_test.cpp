@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/green.h"
 
-#include <Eigen/QR>
-
 #include "flbc/coordinates.h"
 #include "flbc/deform.h"
 #include "support/cages_of_all_kinds.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

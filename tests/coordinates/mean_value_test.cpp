@@ -2,7 +2,6 @@
 #include "flbc/mean_value.h"
 
 #include "support/cages_of_all_kinds.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -8,8 +8,6 @@
 #include "flbc/maximum_likelihood.h"
 #include "flbc/mean_value.h"
 #include "support/cages_of_all_kinds.h"
-#include "support/hollow_sample.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

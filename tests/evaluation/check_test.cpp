@@ -4,7 +4,6 @@
 #include "flbc/cage_facts.h"
 #include "support/harmonic_weights.h"
 #include "support/hollow_sample.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -28,7 +27,7 @@ template <int Dim>
 void expect_one_violation(const WeightCheck<Dim>& check, const std::string& words) {
   const auto violations = find_violations(check);
   ASSERT_EQ(violations.size(), 1);
-  EXPECT_NE(violations.front().find(words), std::string::npos) << violations.front();
+  expect_piece(violations.front(), words);
 }
 
 TEST_IN_2D_AND_3D(CheckTest, SoundWeightsAreSound) {
@@ -316,15 +315,11 @@ TEST(Creases, AreChangesOfTheAngleBetweenFaces) {
 TEST_IN_2D_AND_3D(CheckTest, SameResultForAnyNumberOfThreads) {
   Weighted<Dim> weighted;
   weighted.weights += 0.01 * WeightMatrix::Random(weighted.weights.rows(), weighted.weights.cols());
-  const auto with = [&](int threads) {
-    const ThreadScope scope(threads);
-    return weighted.check();
-  };
-  const auto one = with(1), three = with(3);
-  EXPECT_EQ(one.mesh->total_variation, three.mesh->total_variation);
-  EXPECT_EQ(one.reproduction.value, three.reproduction.value);
-  EXPECT_EQ(one.reproduction.point, three.reproduction.point);
-  EXPECT_EQ(one.mesh->local_minima, three.mesh->local_minima);
+  expect_same_for_any_threads([&] {
+    const auto check = weighted.check();
+    return std::tuple(check.mesh->total_variation, check.mesh->local_minima,
+                      check.reproduction.value, check.reproduction.point);
+  });
 }
 
 TEST_IN_2D_AND_3D(CheckTest, FactsOfNestedBoxes) {

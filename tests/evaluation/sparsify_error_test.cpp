@@ -3,7 +3,6 @@
 #include "flbc/poses.h"
 #include "flbc/sparsify.h"
 #include "support/feasible_vertices.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

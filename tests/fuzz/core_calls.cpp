@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Public functions of the core with damaged arguments.
-#include <functional>
-#include <optional>
-
 #include "flbc/biharmonic.h"
 #include "flbc/blended.h"
 #include "flbc/boundary_values.h"
@@ -26,7 +23,6 @@
 #include "flbc/poses.h"
 #include "flbc/published_penalty.h"
 #include "flbc/quality.h"
-#include "flbc/recovery.h"
 #include "flbc/solver.h"
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
@@ -84,6 +80,13 @@ SparseWeights some_weights(Mutator& mutator) {
   WeightMatrix weights = valid<Dim>().weights.dense();
   mutator.damage(Argument::kWeights, weights);
   return weights;
+}
+
+template <int Dim>
+WeightFunctions some_phi(Mutator& mutator) {
+  Eigen::MatrixXd phi = valid<Dim>().problem.phi.dense();
+  mutator.damage(Argument::kPhi, phi);
+  return WeightFunctions(phi);
 }
 
 // Vertices of the mesh, of which some moved out of the cage.
@@ -183,40 +186,27 @@ void solve_with_topology(Mutator& mutator) {
 template <int Dim>
 void solve_problem(Mutator& mutator) {
   auto problem = valid<Dim>().problem;
-  Eigen::MatrixXd phi = problem.phi.dense();
-  mutator.damage(Argument::kPhi, phi);
-  problem.phi = WeightFunctions(phi);
+  problem.phi = some_phi<Dim>(mutator);
   solve(problem, some_options_for(problem, mutator));
 }
 
 template <int Dim>
 void judge_problem(Mutator& mutator) {
   auto problem = valid<Dim>().problem;
-  Eigen::MatrixXd phi = problem.phi.dense();
-  mutator.damage(Argument::kPhi, phi);
-  problem.phi = WeightFunctions(phi);
+  problem.phi = some_phi<Dim>(mutator);
   const auto weights = some_weights<Dim>(mutator);
   const std::vector<double> flux(static_cast<std::size_t>(problem.mesh.num_cells()) * Dim *
                                  static_cast<std::size_t>(problem.num_control_points()));
   const CellFieldView<double, Dim> view{flux.data(),
                                         static_cast<std::size_t>(problem.num_control_points()),
                                         problem.num_control_points()};
-  switch (mutator.below(5)) {
-    case 0:
-      certify<double, Dim>(problem, view, weights.dense());
-      break;
-    case 1:
-      lower_bound<double, Dim>(problem, view, weights);
-      break;
-    case 2:
-      objective(problem, weights);
-      break;
-    case 3:
-      gradient_jump(problem, weights);
-      break;
-    default:
-      squared_error(problem, weights, some_weights<Dim>(mutator));
-  }
+  mutator.call_one({
+      [&] { certify<double, Dim>(problem, view, weights.dense()); },
+      [&] { lower_bound<double, Dim>(problem, view, weights); },
+      [&] { objective(problem, weights); },
+      [&] { gradient_jump(problem, weights); },
+      [&] { squared_error(problem, weights, some_weights<Dim>(mutator)); },
+  });
 }
 
 template <int Dim>
@@ -226,16 +216,11 @@ void set_up(Mutator& mutator) {
   const auto problem = mutator.below(2) == 0 ? make_problem(cage, mesh, some_scheme(mutator), 0.003)
                                              : make_problem(cage, mesh, some_topology<Dim>(mutator),
                                                             some_scheme(mutator), 0.003);
-  switch (mutator.below(3)) {
-    case 0:
-      harmonic_coordinates(problem);
-      break;
-    case 1:
-      bounded_biharmonic_weights(problem);
-      break;
-    default:
-      solve(problem, some_options_for(problem, mutator));
-  }
+  mutator.call_one({
+      [&] { harmonic_coordinates(problem); },
+      [&] { bounded_biharmonic_weights(problem); },
+      [&] { solve(problem, some_options_for(problem, mutator)); },
+  });
 }
 
 template <int Dim>
@@ -263,65 +248,36 @@ void solve_and_move(Mutator& mutator) {
 template <int Dim>
 void look_at_cage(Mutator& mutator) {
   const auto cage = some_cage<Dim>(mutator);
-  switch (mutator.below(7)) {
-    case 0:
-      find_defects(cage);
-      break;
-    case 1:
-      validate(cage);
-      break;
-    case 2:
-      measure_cage(cage);
-      break;
-    case 3:
-      thinnest_place(cage);
-      break;
-    case 4:
-      points_outside(cage, some_points<Dim>(mutator));
-      break;
-    case 5:
-      cage_parts(cage);
-      break;
-    default:
-      embeddable_points(cage, some_points<Dim>(mutator));
-  }
+  mutator.call_one({
+      [&] { find_defects(cage); },
+      [&] { validate(cage); },
+      [&] { measure_cage(cage); },
+      [&] { thinnest_place(cage); },
+      [&] { points_outside(cage, some_points<Dim>(mutator)); },
+      [&] { cage_parts(cage); },
+      [&] { embeddable_points(cage, some_points<Dim>(mutator)); },
+  });
 }
 
 template <int Dim>
 void look_at_mesh(Mutator& mutator) {
   auto mesh = some_mesh<Dim>(mutator);
   const auto cage = some_cage<Dim>(mutator);
-  switch (mutator.below(9)) {
-    case 0:
-      normalize_and_validate(mesh);
-      break;
-    case 1:
-      count_parts(mesh);
-      break;
-    case 2:
-      join_parts(mesh_parts(mesh));
-      break;
-    case 3:
-      require_connected(mesh);
-      break;
-    case 4:
-      edges_of_cells(mesh);
-      break;
-    case 5:
-      locate_points(mesh, some_points<Dim>(mutator));
-      break;
-    case 6:
-      published_penalty(cage, mesh, Method::kPaper, 100);
-      break;
-    case 7: {
-      auto parts = mesh_parts(valid<Dim>().sample.mesh);
-      mutator.damage(Argument::kIndices, parts.front().vertices);
-      join_parts(parts);
-      break;
-    }
-    default:
-      build_topology(mesh);
-  }
+  mutator.call_one({
+      [&] { normalize_and_validate(mesh); },
+      [&] { count_parts(mesh); },
+      [&] { join_parts(mesh_parts(mesh)); },
+      [&] { require_connected(mesh); },
+      [&] { edges_of_cells(mesh); },
+      [&] { locate_points(mesh, some_points<Dim>(mutator)); },
+      [&] { published_penalty(cage, mesh, Method::kPaper, 100); },
+      [&] {
+        auto parts = mesh_parts(valid<Dim>().sample.mesh);
+        mutator.damage(Argument::kIndices, parts.front().vertices);
+        join_parts(parts);
+      },
+      [&] { build_topology(mesh); },
+  });
 }
 
 template <int Dim>
@@ -330,26 +286,18 @@ void find_boundary(Mutator& mutator) {
   const auto cage = some_cage<Dim>(mutator);
   const auto topology =
       mutator.below(2) == 0 ? some_topology<Dim>(mutator) : valid<Dim>().problem.topology;
-  switch (mutator.below(5)) {
-    case 0:
-      boundary_values(cage, mesh, topology);
-      break;
-    case 1:
-      snap_to_cage(cage, topology, 1e-3, mesh);
-      break;
-    case 2:
-      boundary_vertices(topology, mesh.num_vertices());
-      break;
-    case 3:
-      validate(mesh, topology);
-      break;
-    default: {
-      auto sources = valid<Dim>().problem.boundary.control_vertices;
-      mutator.damage(Argument::kIndices, sources);
-      const auto distances = geodesic_distances(mesh, topology, sources);
-      WeightFunctions(some_scheme(mutator), distances, mesh, cage.size());
-    }
-  }
+  mutator.call_one({
+      [&] { boundary_values(cage, mesh, topology); },
+      [&] { snap_to_cage(cage, topology, 1e-3, mesh); },
+      [&] { boundary_vertices(topology, mesh.num_vertices()); },
+      [&] { validate(mesh, topology); },
+      [&] {
+        auto sources = valid<Dim>().problem.boundary.control_vertices;
+        mutator.damage(Argument::kIndices, sources);
+        const auto distances = geodesic_distances(mesh, topology, sources);
+        WeightFunctions(some_scheme(mutator), distances, mesh, cage.size());
+      },
+  });
 }
 
 // ----------------------------------------------------------------------------------------- points
@@ -405,32 +353,21 @@ void compute_pointwise(Mutator& mutator) {
   const auto cage = some_cage<Dim>(mutator);
   const auto points = some_points<Dim>(mutator);
   const auto coordinates = some_coordinates(mutator);
-  switch (mutator.below(8)) {
-    case 0:
-      pointwise_coordinates(cage, points, coordinates);
-      break;
-    case 1:
-      pointwise_coordinates(cage, place_points(cage, points, some_policy(mutator)), coordinates,
-                            mutator.below(2) == 0);
-      break;
-    case 2:
-      mean_value_coordinates(cage, points);
-      break;
-    case 3:
-      maximum_entropy_coordinates(cage, points);
-      break;
-    case 4:
-      maximum_likelihood_coordinates(cage, points);
-      break;
-    case 5:
-      if constexpr (Dim == 2) blended_coordinates(cage, points);
-      break;
-    case 6:
-      green_coordinates(cage, points);
-      break;
-    default:
-      control_points_and_normals(cage, some_pose<Dim>(mutator));
-  }
+  mutator.call_one({
+      [&] { pointwise_coordinates(cage, points, coordinates); },
+      [&] {
+        pointwise_coordinates(cage, place_points(cage, points, some_policy(mutator)), coordinates,
+                              mutator.below(2) == 0);
+      },
+      [&] { mean_value_coordinates(cage, points); },
+      [&] { maximum_entropy_coordinates(cage, points); },
+      [&] { maximum_likelihood_coordinates(cage, points); },
+      [&] {
+        if constexpr (Dim == 2) blended_coordinates(cage, points);
+      },
+      [&] { green_coordinates(cage, points); },
+      [&] { control_points_and_normals(cage, some_pose<Dim>(mutator)); },
+  });
 }
 
 // ---------------------------------------------------------------------------------------- weights
@@ -467,39 +404,29 @@ void reduce(Mutator& mutator) {
   const auto poses = some_poses<Dim>(mutator);
   SparsifyOptions options;
   options.max_influences = Dim + 1 + mutator.below(3);
-  switch (mutator.below(9)) {
-    case 0:
-      sparsify(control_points, points, weights, options);
-      break;
-    case 1:
-      reduce_by_poisson(control_points, points, edges, weights, poses, options);
-      break;
-    case 2:
-      reduce_influences(control_points, points, edges, weights, poses, options);
-      break;
-    case 3:
-      poisson_cost(control_points, points, edges, weights, some_weights<Dim>(mutator), poses);
-      break;
-    case 4: {
-      std::vector<Index> some{0, 3, 5};
-      mutator.damage(Argument::kIndices, some);
-      const auto projected = project_non_negative(control_points, points, weights, some);
-      break;
-    }
-    case 5:
-      weight_error(weights, some_weights<Dim>(mutator));
-      count_influences(weights);
-      break;
-    case 6:
-      deformation_error<Dim>(poses, weights, some_weights<Dim>(mutator));
-      break;
-    case 7:
-      edge_error<Dim>(points, edges, poses, weights, some_weights<Dim>(mutator));
-      break;
-    default:
-      independent_poses<Dim>(control_points, 2);
-      smooth_poses<Dim>(control_points, 2);
-  }
+  mutator.call_one({
+      [&] { sparsify(control_points, points, weights, options); },
+      [&] { reduce_by_poisson(control_points, points, edges, weights, poses, options); },
+      [&] { reduce_influences(control_points, points, edges, weights, poses, options); },
+      [&] {
+        poisson_cost(control_points, points, edges, weights, some_weights<Dim>(mutator), poses);
+      },
+      [&] {
+        std::vector<Index> some{0, 3, 5};
+        mutator.damage(Argument::kIndices, some);
+        const auto projected = project_non_negative(control_points, points, weights, some);
+      },
+      [&] {
+        weight_error(weights, some_weights<Dim>(mutator));
+        count_influences(weights);
+      },
+      [&] { deformation_error<Dim>(poses, weights, some_weights<Dim>(mutator)); },
+      [&] { edge_error<Dim>(points, edges, poses, weights, some_weights<Dim>(mutator)); },
+      [&] {
+        independent_poses<Dim>(control_points, 2);
+        smooth_poses<Dim>(control_points, 2);
+      },
+  });
 }
 
 template <int Dim>
@@ -526,31 +453,19 @@ void judge(Mutator& mutator) {
   const auto cage = some_cage<Dim>(mutator);
   const auto mesh = some_mesh<Dim>(mutator);
   const auto weights = some_weights<Dim>(mutator);
-  switch (mutator.below(6)) {
-    case 0:
-      measure_quality<Dim>(cage.points, some_points<Dim>(mutator), weights);
-      break;
-    case 1:
-      find_violations(check_weights(cage, some_points<Dim>(mutator), weights));
-      break;
-    case 2:
-      find_violations(check_weights(cage, mesh, weights));
-      break;
-    case 3:
-      total_variation(mesh, weights);
-      break;
-    case 4: {
-      Eigen::MatrixXd phi = valid<Dim>().problem.phi.dense();
-      mutator.damage(Argument::kPhi, phi);
-      objective(mesh, WeightFunctions(phi), weights);
-      break;
-    }
-    default:
-      if constexpr (Dim == 3) {
-        check_creases(some_points<3>(mutator), some_points<3>(mutator),
-                      FacetList<3>(mesh.cells.template topRows<3>()));
-      }
-  }
+  mutator.call_one({
+      [&] { measure_quality<Dim>(cage.points, some_points<Dim>(mutator), weights); },
+      [&] { find_violations(check_weights(cage, some_points<Dim>(mutator), weights)); },
+      [&] { find_violations(check_weights(cage, mesh, weights)); },
+      [&] { total_variation(mesh, weights); },
+      [&] { objective(mesh, some_phi<Dim>(mutator), weights); },
+      [&] {
+        if constexpr (Dim == 3) {
+          check_creases(some_points<3>(mutator), some_points<3>(mutator),
+                        FacetList<3>(mesh.cells.template topRows<3>()));
+        }
+      },
+  });
 }
 
 template <int Dim>

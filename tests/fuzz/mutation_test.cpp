@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Public functions with damaged arguments return or throw flbc::Error. flbc_mutations makes more
 // such calls.
-#include <cmath>
-#include <functional>
-
 #include "flbc/cage_facts.h"
 #include "flbc/gradients.h"
 #include "flbc/maximum_likelihood.h"
 #include "flbc/mean_value.h"
 #include "flbc/solver.h"
 #include "fuzz/mutations.h"
-#include "support/dimensions.h"
-#include "support/errors.h"
-#include "support/sample_meshes.h"
 #include "support/test.h"
 
 namespace flbc::testing {

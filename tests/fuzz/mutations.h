@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <random>
 #include <string>
@@ -35,6 +36,11 @@ class Mutator {
   template <class T>
   T one_of(std::initializer_list<T> values) {
     return values.begin()[below(static_cast<Eigen::Index>(values.size()))];
+  }
+
+  //! Makes one of the calls.
+  void call_one(std::initializer_list<std::function<void()>> calls) {
+    calls.begin()[below(static_cast<Eigen::Index>(calls.size()))]();
   }
 
   //! Damages a matrix of numbers or indices in a third of the calls.

@@ -39,10 +39,8 @@ std::string coordinates(int bytes) {
   return one + std::string(static_cast<std::size_t>(5 * bytes), '\0');
 }
 
-std::string npy(const std::string& shape) {
-  const auto dictionary = "{'descr': '<f8', 'fortran_order': False, 'shape': " + shape + ", }";
-  return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(dictionary.size()) + '\0' +
-         dictionary + coordinates(8);
+std::string npy_of_shape(const std::string& shape) {
+  return npy("{'descr': '<f8', 'fortran_order': False, 'shape': " + shape + ", }", coordinates(8));
 }
 
 std::string ply(const std::string& type, int bytes) {
@@ -65,12 +63,13 @@ std::string vtu(const std::string& header_type, const std::string& type, int byt
 }  // namespace
 
 std::vector<Reader> point_readers() {
-  return {{"points_npy", "input.npy", read_points, {npy("(2, 3)"), npy("(3, 2)")}},
-          {"points_ply", "input.ply", read_points, {ply("float", 4), ply("double", 8)}},
-          {"points_vtu",
-           "input.vtu",
-           read_points,
-           {vtu("", "Float32", 4), vtu(" header_type='UInt64'", "Float64", 8)}}};
+  return {
+      {"points_npy", "input.npy", read_points, {npy_of_shape("(2, 3)"), npy_of_shape("(3, 2)")}},
+      {"points_ply", "input.ply", read_points, {ply("float", 4), ply("double", 8)}},
+      {"points_vtu",
+       "input.vtu",
+       read_points,
+       {vtu("", "Float32", 4), vtu(" header_type='UInt64'", "Float64", 8)}}};
 }
 
 }  // namespace flbc::fuzz

@@ -86,6 +86,12 @@ std::string written(const std::string& name, const Write& write) {
   return get_file(folder.path(name));
 }
 
+//! A .npy file.
+inline std::string npy(const std::string& dictionary, const std::string& numbers) {
+  return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(dictionary.size()) + '\0' +
+         dictionary + numbers;
+}
+
 //! Hands contents to one reader.
 class Reading {
  public:

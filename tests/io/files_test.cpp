@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/io/files.h"
 
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -12,7 +11,6 @@
 #include <stdexcept>
 #include <thread>
 
-#include "flbc/errors.h"
 #include "support/io_files.h"
 
 namespace flbc::io {

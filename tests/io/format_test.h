@@ -3,11 +3,6 @@
 //! What the tests of all file formats share.
 #pragma once
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include "flbc/errors.h"
 #include "flbc/io/mesh_io.h"
 #include "support/io_files.h"
 #include "support/sample_meshes.h"

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/io/formats.h"
 
-#include <gtest/gtest.h>
-
-#include "flbc/errors.h"
 #include "flbc/io/model_file.h"
 #include "support/io_files.h"
 

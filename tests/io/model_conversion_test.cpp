@@ -2,9 +2,6 @@
 // Models in other formats than theirs, read by OpenMesh alone.
 #include "flbc/io/model_file.h"
 
-#include <gtest/gtest.h>
-
-#include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/openmesh/om_file.h"
 #include "support/model_kinds.h"

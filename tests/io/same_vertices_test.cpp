@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/io/same_vertices.h"
 
-#include <algorithm>
-#include <numeric>
-#include <random>
-#include <set>
-
 #include "flbc/io/cage_io.h"
 #include "support/cages_of_all_kinds.h"
-#include "support/errors.h"
-#include "support/fine_cages.h"
-#include "support/test.h"
+#include "support/refined_sample.h"
 
 namespace flbc::testing {
 namespace {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/io/splat_file.h"
 
-#include <gtest/gtest.h>
-
 #include <fstream>
 #include <sstream>
 

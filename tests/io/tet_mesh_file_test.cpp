@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files of tetrahedral meshes with fields per vertex, and .vtu.
-#include <gtest/gtest.h>
-
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include "format_test.h"
 
-namespace flbc {
+namespace flbc::testing {
 namespace {
 
-using flbc::testing::awkward_mesh;
-using flbc::testing::bit_equal;
-using flbc::testing::expect_error;
-using flbc::testing::expect_reference_tetrahedron;
-
-class TetMeshFile : public flbc::testing::FormatTest {
+class TetMeshFile : public FormatTest {
  protected:
   static void expect_equal(const DomainMesh<3>& a, const DomainMesh<3>& b) {
     EXPECT_TRUE(bit_equal(a.points, b.points));
@@ -174,4 +163,4 @@ TEST_F(TetMeshFile, MalformedVtu) {
 }
 
 }  // namespace
-}  // namespace flbc
+}  // namespace flbc::testing

@@ -7,7 +7,6 @@
 #include "problem/laplacian.h"
 #include "solver/methods/splitting/compact_splitting.h"
 #include "support/splitting_cases.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

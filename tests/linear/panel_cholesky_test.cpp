@@ -123,23 +123,6 @@ class PanelCholeskyTest : public ::testing::Test {
 using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(PanelCholeskyTest, Scalars);
 
-TYPED_TEST(PanelCholeskyTest, EverySliceGivesTheSameBits) {
-  for (const auto& [name, matrix] : matrices()) {
-    const PanelCholesky<TypeParam> cholesky(matrix);
-    for (const std::size_t stride : kStrides) {
-      auto whole = random_rows<TypeParam>(cholesky.size(), stride);
-      cholesky.solve_slice(whole.data(), stride, 0, stride);
-      for (const std::size_t width : {8, 16, 24, 40}) {
-        auto parts = random_rows<TypeParam>(cholesky.size(), stride);
-        for (std::size_t begin = 0; begin < stride; begin += width) {
-          cholesky.solve_slice(parts.data(), stride, begin, std::min(stride, begin + width));
-        }
-        EXPECT_TRUE(same_bits(whole, parts)) << name << ", slices of " << width << " of " << stride;
-      }
-    }
-  }
-}
-
 TYPED_TEST(PanelCholeskyTest, AnyNumberOfThreadsGivesTheSameBits) {
   for (const auto& [name, matrix] : matrices()) {
     const PanelCholesky<TypeParam> cholesky(matrix);
@@ -170,7 +153,7 @@ TYPED_TEST(PanelCholeskyTest, SlicesTouchNothingElse) {
   EXPECT_FALSE(same_bits(before, after));
 }
 
-// The loops for every instruction set this processor has, on one factor.
+// The loops for every instruction set this processor has, in slices of every width.
 TYPED_TEST(PanelCholeskyTest, EveryKernelSolvesTheSameSystem) {
   const auto list = supported_kernels<panel::Kernel<TypeParam>>();
   ASSERT_GE(list.size, 1);
@@ -179,17 +162,19 @@ TYPED_TEST(PanelCholeskyTest, EveryKernelSolvesTheSameSystem) {
       const PanelCholesky<TypeParam> cholesky(matrix, *list.kernels[k]);
       ASSERT_EQ(cholesky.size(), matrix.rows());
       for (const std::size_t stride : kStrides) {
+        SCOPED_TRACE(name + ", kernel " + std::to_string(k) + ", " + std::to_string(stride));
         const auto right_hand_side = random_rows<TypeParam>(cholesky.size(), stride);
         auto whole = random_rows<TypeParam>(cholesky.size(), stride);
-        auto parts = random_rows<TypeParam>(cholesky.size(), stride);
         cholesky.solve_slice(whole.data(), stride, 0, stride);
-        for (std::size_t i = 0; i < stride; i += 8) {
-          cholesky.solve_slice(parts.data(), stride, i, i + 8);
-        }
-        EXPECT_TRUE(same_bits(whole, parts)) << name << ", kernel " << k << ", stride " << stride;
         EXPECT_LT(error_against_eigen(matrix, cholesky.position(), right_hand_side, whole, stride),
-                  TestFixture::kTolerance)
-            << name << ", kernel " << k << ", stride " << stride;
+                  TestFixture::kTolerance);
+        for (const std::size_t width : {8, 16, 24, 40}) {
+          auto parts = random_rows<TypeParam>(cholesky.size(), stride);
+          for (std::size_t begin = 0; begin < stride; begin += width) {
+            cholesky.solve_slice(parts.data(), stride, begin, std::min(stride, begin + width));
+          }
+          EXPECT_TRUE(same_bits(whole, parts)) << "slices of " << width;
+        }
       }
     }
   }

@@ -5,7 +5,6 @@
 #include "flbc/sparsify_error.h"
 #include "problem/laplacian.h"
 #include "support/feasible_vertices.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

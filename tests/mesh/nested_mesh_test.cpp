@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/nested_mesh.h"
 
-#include <set>
-
 #include "support/test.h"
 
 namespace flbc::testing {

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Functions in another process, on every system.
 #include <chrono>
-#include <cstdlib>
 #include <new>
-#include <stdexcept>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "meshing/isolated_process.h"
+#include "support/child_processes.h"
 #include "support/test.h"
 
 namespace flbc {
@@ -63,16 +60,9 @@ TEST(IsolatedFunction, TimeLimitEndsIt) {
   EXPECT_EQ(run_function(sleep, 0.3).end, ProcessEnd::kTimedOut);
 }
 
-int recursion_depth(int levels) {
-  volatile char room[1024];
-  room[0] = static_cast<char>(levels);
-  return levels == 0 ? 0
-                     : recursion_depth(levels - 1) + (room[0] == static_cast<char>(levels) ? 1 : 0);
-}
-
 TEST(IsolatedFunction, MayRecurseDeeply) {
   const auto outcome = run_function([](const auto&, const ByteSink& send) {
-    const int depth = recursion_depth(6000);
+    const int depth = testing::depth_of(6000);
     send(&depth, sizeof depth);
   });
   EXPECT_EQ(outcome.end, ProcessEnd::kFinished);

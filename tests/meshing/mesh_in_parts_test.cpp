@@ -3,7 +3,6 @@
 
 #include "flbc/cage_facts.h"
 #include "support/mesh_checks.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -17,8 +16,7 @@ Cage<Dim> three_parts() {
 
 TEST_IN_2D_AND_3D(MeshInPartsTest, PartsAreThoseMadeAlone) {
   const auto cage = three_parts<Dim>();
-  MeshingOptions<Dim> options;
-  options.vertices = Dim == 2 ? 2000 : 6000;
+  MeshingOptions<Dim> options{Dim == 2 ? 2000 : 6000};
   auto mesh = mesh_in_parts<Dim>(cage, options, fill<Dim>);
   EXPECT_NO_THROW(normalize_and_validate(mesh));
   const double measure = measure_cage(cage).measure;
@@ -31,8 +29,7 @@ TEST_IN_2D_AND_3D(MeshInPartsTest, PartsAreThoseMadeAlone) {
   ASSERT_EQ(parts.size(), cages.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const double share = total_volume(parts[p].mesh) / measure;
-    MeshingOptions<Dim> alone;
-    alone.vertices = static_cast<Index>(std::lround(share * options.vertices));
+    MeshingOptions<Dim> alone{static_cast<Index>(std::lround(share * options.vertices))};
     const auto expected = fill<Dim>(cages[p].cage, alone);
     EXPECT_EQ(parts[p].mesh.points, expected.points) << p;
     EXPECT_EQ(parts[p].mesh.cells, expected.cells) << p;
@@ -63,10 +60,6 @@ TEST_IN_2D_AND_3D(MeshInPartsTest, NamesThePartThatFails) {
   expect_error<InputError>(
       [&] { mesh_in_parts<Dim>(cage, {}, failing); },
       {"part 3 of 3, with control point " + std::to_string(3 << Dim) + " at (", ": no"});
-}
-
-TEST_IN_2D_AND_3D(MeshInPartsTest, MeshersAloneTakeOnePart) {
-  EXPECT_THROW(fill<Dim>(three_parts<Dim>(), {}), InputError);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include "support/mesh_checks.h"
 #include "support/model_cages.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -2,7 +2,6 @@
 #include "meshing/surface_subdivision.h"
 
 #include "support/mesh_checks.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

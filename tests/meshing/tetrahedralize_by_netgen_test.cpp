@@ -5,7 +5,6 @@
 #include "support/mesh_checks.h"
 #include "support/model_cages.h"
 #include "support/processor_time.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -79,9 +78,9 @@ TEST(TetrahedralizeByNetgenTest, WhatCannotBeDoneIsRefused) {
 
 TEST(TetrahedralizeByNetgenTest, RealCages) {
   if (!has_model("3d/horse_cage.obj")) GTEST_SKIP() << "the real models are absent";
-  for (const char* name : {"horse", "armadillo", "shark", "beast", "arm", "clothing"}) {
+  for (const auto* name : kRealCages3D) {
     SCOPED_TRACE(name);
-    const Cage<3> cage = load_cage<3>("3d/" + std::string(name) + "_cage.obj");
+    const Cage<3> cage = load_cage<3>(name);
     const DomainMesh<3> mesh = tetrahedralize_by_netgen(cage, vertices<3>(1500));
     expect_fills(cage, mesh, enclosed_measure(cage));
     expect_count(mesh, 1500, 0.15);

@@ -5,7 +5,6 @@
 #include "support/mesh_checks.h"
 #include "support/model_cages.h"
 #include "support/processor_time.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -137,8 +136,8 @@ TEST(TetrahedralizeTest, IsRefinedWhereTheCageAllowsACoarserMesh) {
 
 TEST(TetrahedralizeTest, RealCages) {
   if (!has_model("3d/horse_cage.obj")) GTEST_SKIP() << "the real models are absent";
-  for (const char* name : {"horse", "armadillo", "shark", "beast", "arm", "clothing"}) {
-    const Cage<3> cage = load_cage<3>("3d/" + std::string(name) + "_cage.obj");
+  for (const auto* name : kRealCages3D) {
+    const Cage<3> cage = load_cage<3>(name);
     const DomainMesh<3> mesh = tetrahedralize(cage, vertices<3>(5900));
     expect_fills(cage, mesh, enclosed_measure(cage));
     expect_count(mesh, 5900, 0.10);

@@ -3,7 +3,6 @@
 #include "support/mesh_checks.h"
 #include "support/model_cages.h"
 #include "support/processor_time.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -5,7 +5,6 @@
 #include "flbc/nested_mesh.h"
 #include "flbc/openmesh/bind.h"
 #include "flbc/openmesh/lbc.h"
-#include "support/test.h"
 #include "support/wide_meshes.h"
 
 namespace flbc::testing {

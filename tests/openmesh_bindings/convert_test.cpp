@@ -4,7 +4,6 @@
 
 #include "flbc/cage_facts.h"
 #include "support/hollow_sample.h"
-#include "support/test.h"
 #include "support/wide_meshes.h"
 
 namespace flbc::testing {

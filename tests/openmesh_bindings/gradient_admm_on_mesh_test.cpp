@@ -7,7 +7,6 @@
 #include "solver/methods/gradient/gradient_admm.h"
 #include "support/hollow_sample.h"
 #include "support/scratch.h"
-#include "support/test.h"
 #include "support/wide_meshes.h"
 
 namespace flbc::testing {
@@ -137,8 +136,7 @@ TYPED_TEST(MeshAdmm, ResidualsDoNotDependOnThreads) {
 TYPED_TEST(MeshAdmm, ReachesTheSolutionWithThePenaltyOfTheSolver) {
   constexpr int kDim = Admm<TypeParam>::kDim;
   const auto sample = moved(make_sample<kDim>(Shape::kRing, 2));
-  SolverOptions options;
-  options.method = Method::kGradient;
+  SolverOptions options{Method::kGradient};
   options.smoothness = 0;
   options.precision = Precision::kDouble;
   options.tolerance = 1e-12;  // the error is larger, because the optimum is flat

@@ -5,7 +5,6 @@
 #include "flbc/openmesh/deform.h"
 #include "flbc/openmesh/lbc.h"
 #include "flbc/openmesh/sparsify.h"
-#include "support/test.h"
 #include "support/wide_meshes.h"
 
 namespace flbc::testing {

@@ -6,7 +6,6 @@
 
 #include "flbc/openmesh/bind.h"
 #include "support/scratch.h"
-#include "support/test.h"
 #include "support/wide_meshes.h"
 
 namespace flbc::testing {
@@ -93,8 +92,7 @@ TYPED_TEST(LbcTest, GradientsAreAPropertyOnRequest) {
   properties.gradients = true;
   for (const auto method :
        {Method::kWeights, Method::kGradient, Method::kPaper, Method::kLbc2014}) {
-    SolverOptions options;
-    options.method = method;
+    SolverOptions options{method};
     openmesh::solve(mesh, sample.cage, options, properties);
     ASSERT_TRUE(mesh.get_property_handle(handle, openmesh::gradients_name()));
     const auto weights = openmesh::get_weights(mesh);

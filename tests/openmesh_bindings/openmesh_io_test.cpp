@@ -5,7 +5,6 @@
 #include "flbc/openmesh/mesh_io.h"
 #include "support/openmesh_model.h"
 #include "support/scratch.h"
-#include "support/test.h"
 
 namespace flbc::openmesh {
 namespace {

@@ -6,7 +6,6 @@
 #include "support/glb_file.h"
 #include "support/harmonic_weights.h"
 #include "support/io_files.h"
-#include "support/test.h"
 #include "support/wide_meshes.h"
 
 namespace flbc::testing {
@@ -14,7 +13,6 @@ namespace {
 
 template <class Dimension>
 class MeshSkin : public FolderTest {};
-using Dimensions = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(MeshSkin, Dimensions);
 
 // Triangles between the vertices of a mesh of the interior, with few weights each.

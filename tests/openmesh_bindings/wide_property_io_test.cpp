@@ -3,9 +3,7 @@
 #include <sys/resource.h>
 
 #include "../../openmesh_bindings/src/number_stream.h"
-#include "flbc/openmesh/wide_property.h"
 #include "support/scratch.h"
-#include "support/test.h"
 #include "support/wide_meshes.h"
 
 namespace flbc::openmesh {

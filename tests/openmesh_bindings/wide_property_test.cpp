@@ -2,22 +2,16 @@
 // Wide properties do in memory what other properties of OpenMesh do.
 #include "flbc/openmesh/wide_property.h"
 
-#include "support/test.h"
 #include "support/wide_meshes.h"
 
-namespace flbc::openmesh {
+namespace flbc::testing {
 namespace {
 
-using testing::add_filled;
-using testing::expect_filled;
-using testing::fill;
-using testing::is_filled;
-using testing::is_zero;
-using testing::key;
+using openmesh::Wide;
 
 template <class Case>
-struct WideProperty : testing::WidePropertyTest<Case> {};
-TYPED_TEST_SUITE(WideProperty, testing::WideCases);
+struct WideProperty : WidePropertyTest<Case> {};
+TYPED_TEST_SUITE(WideProperty, WideCases);
 
 TYPED_TEST(WideProperty, LaysRowsOutElementMajor) {
   using Scalar = typename TypeParam::Scalar;
@@ -154,7 +148,7 @@ TYPED_TEST(WideProperty, IsCopiedWithItsMesh) {
   fill(this->mesh_.property(of_mesh), 7);
 
   const Mesh copy(this->mesh_);
-  Mesh assigned = testing::make_squares<Mesh>(2);
+  Mesh assigned = make_squares<Mesh>(2);
   assigned = copy;
   this->mesh_.property(handle).set_shape(1, 1);
   this->mesh_.property(of_mesh)[0] = 0;
@@ -232,4 +226,4 @@ TYPED_TEST(WideProperty, IsNotMistakenForAPropertyOfAnotherType) {
 }
 
 }  // namespace
-}  // namespace flbc::openmesh
+}  // namespace flbc::testing

@@ -4,7 +4,6 @@
 #include "polytope/nearest_point_in_hull.h"
 #include "support/feasible_vertices.h"
 #include "support/io_files.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

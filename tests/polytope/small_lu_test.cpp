@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "polytope/small_lu.h"
 
-#include <Eigen/LU>
-
 #include "support/test.h"
 
 namespace flbc::testing {

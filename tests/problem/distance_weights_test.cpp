@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/distance_weights.h"
 
-#include "flbc/lbc_problem.h"
 #include "problem/geodesic/eikonal_mesh.h"
 #include "problem/geodesic/march.h"
 #include "support/test.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "problem/geodesic/interpolated_distances.h"
 
-#include "flbc/lbc_problem.h"
 #include "flbc/nested_mesh.h"
 #include "support/test.h"
 

@@ -7,10 +7,9 @@
 #include "flbc/non_negative.h"
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
-#include "support/fine_cages.h"
 #include "support/published_problem.h"
+#include "support/refined_sample.h"
 #include "support/splitting_cases.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -4,10 +4,8 @@
 #include "flbc/names.h"
 #include "flbc/published_penalty.h"
 #include "solver/methods/method_run.h"
-#include "support/fine_cages.h"
 #include "support/refined_sample.h"
 #include "support/solver_options.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -258,8 +256,7 @@ TEST_IN_2D_AND_3D(ContinuedSolveTest, ABudgetOfSecondsReportsResiduals) {
   for (const auto method :
        {Method::kWeights, Method::kGradient, Method::kPaper, Method::kLbc2014}) {
     SCOPED_TRACE(name_of(method));
-    SolverOptions options;
-    options.method = method;
+    SolverOptions options{method};
     Solver<Dim> solver(sample.cage, sample.mesh, options);
     const auto& report = solver.solve({0, 1e-9}).report;
     EXPECT_EQ(report.status, SolveStatus::kIterationLimit);
@@ -279,8 +276,7 @@ TEST_IN_2D_AND_3D(ContinuedSolveTest, PenaltiesDoNotDependOnTheUnitOfLength) {
   for (const auto method :
        {Method::kWeights, Method::kLbc2014, Method::kGradient, Method::kPaper}) {
     SCOPED_TRACE(name_of(method));
-    SolverOptions options;
-    options.method = method;
+    SolverOptions options{method};
     options.max_iterations = 30;
     options.penalty = published_penalty(sample.cage, sample.mesh, method, 10);
     EXPECT_NEAR(published_penalty(scaled.cage, scaled.mesh, method, 10), *options.penalty,

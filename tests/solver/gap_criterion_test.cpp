@@ -4,7 +4,6 @@
 #include "solver/run/run.h"
 #include "support/solver_models.h"
 #include "support/solver_options.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -105,8 +104,7 @@ TEST(GapCriterion, AsksForFewCertificatesAtTimesThatOnlyIterationsDecide) {
 TEST(GapOption, IsSetWhereTheOptimumDoesNotDetermineTheWeights) {
   const auto gap = [](Method method, double smoothness, std::optional<double> tolerance = {},
                       std::optional<double> given = {}) {
-    SolverOptions options;
-    options.method = method;
+    SolverOptions options{method};
     options.smoothness = smoothness;
     options.tolerance = tolerance;
     options.gap = given;

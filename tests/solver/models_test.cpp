@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From cage to coordinates on real cages: every documented property, measured independently.
 
-#include "flbc/io/weights_io.h"
-#include "support/scratch.h"
 #include "support/solver_models.h"
 #include "support/solver_options.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -35,12 +32,6 @@ void expect_properties(const Model& model) {
   EXPECT_GE(judgement.min_weight, 0);
   // Locality: few control points influence a vertex, for any number of control points.
   EXPECT_LT(solution.report.quality.mean_influences, 8);
-  for (const char* extension : {"npy", "dmat", "mtx"}) {
-    const auto path = scratch_path(std::string("weights.") + extension);
-    io::write_weights(path, solution.weights.dense());
-    EXPECT_TRUE((io::read_weights(path).dense().array() == solution.weights.dense().array()).all())
-        << extension;
-  }
 }
 
 class RealModels : public ::testing::TestWithParam<Model> {};

@@ -6,7 +6,6 @@
 #include "support/newton_optimum.h"
 #include "support/refined_sample.h"
 #include "support/solver_options.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -137,17 +136,6 @@ TEST_IN_2D_AND_3D(SmoothnessTest, LeadsFromTotalVariationToHarmonicCoordinates) 
   const double far = largest_difference<Dim>(with(1, NonNegative::kOff), harmonic);
   EXPECT_GT(far, 1e-4);
   EXPECT_LT(largest_difference<Dim>(with(1000, NonNegative::kOff), harmonic), 0.05 * far);
-}
-
-TEST_IN_2D_AND_3D(SmoothnessTest, MovedCagesKeepIt) {
-  const auto sample = tiny_sample<Dim>(Shape::kCorner);
-  const auto options = accurate(0.01);
-  Solver<Dim> solver(sample.cage, sample.mesh, options);
-  PointList<Dim> moved = sample.cage.points;
-  moved.col(0).array() -= 0.05;
-  const auto weights = solver.move(moved).weights.dense();
-  const auto alone = solve(solver.cage(), solver.mesh(), options).weights.dense();
-  EXPECT_LT(largest_difference<Dim>(weights, alone), 1e-3);
 }
 
 TEST_IN_2D_AND_3D(SmoothnessTest, RefusesWhatItCannotDo) {

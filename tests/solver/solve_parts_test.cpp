@@ -4,7 +4,6 @@
 #include "flbc/coordinates.h"
 #include "flbc/names.h"
 #include "support/hollow_sample.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -133,8 +132,7 @@ TEST_IN_2D_AND_3D(SolvePartsTest, EachIsAsAlone) {
     for (const auto method :
          {Method::kWeights, Method::kGradient, Method::kPaper, Method::kLbc2014}) {
       SCOPED_TRACE(name_of(method));
-      SolverOptions options;
-      options.method = method;
+      SolverOptions options{method};
       options.max_iterations = 40;
       options.certify = method == Method::kWeights;
       expect_as_alone(

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whether the methods keep what their tolerance promises: on real cages, at any scale, on meshes of
 // very different cells, in narrow gaps, and with few and many control points.
-#include <algorithm>
-
 #include "mesh/cell_geometry.h"
 #include "support/solver_models.h"
 #include "support/solver_options.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -106,28 +103,18 @@ TEST(Tolerance3dTest, HoldsOnRoundCages) {
   }
 }
 
-// Counterclockwise.
-Cage<2> polygon(const std::vector<Eigen::Vector2d>& corners) {
-  const auto n = static_cast<Index>(corners.size());
-  Cage<2> cage{PointList<2>(2, n), FacetList<2>(2, n)};
-  for (Index k = 0; k < n; ++k) {
-    cage.points.col(k) = corners[k];
-    cage.facets.col(k) << k, (k + 1) % n;
-  }
-  return cage;
-}
-
 // Weights on both sides of a narrow gap hardly know of each other, and converge slowly.
 TEST(Tolerance2dTest, HoldsInNarrowGaps) {
   const auto slit =
-      polygon({{0, 0}, {4, 0}, {4, 1.95}, {1, 1.95}, {1, 2.05}, {4, 2.05}, {4, 4}, {0, 4}});
+      loop(PointList<2>{{0, 4, 4, 1, 1, 4, 4, 0}, {0, 0, 1.95, 1.95, 2.05, 2.05, 4, 4}});
   expect_promise_kept(slit, mesh_of(slit, 3000));
   std::vector<Eigen::Vector2d> corners{{0, 0}, {8, 0}};
   for (double k = 8; k >= 2; --k) {
     corners.insert(corners.end(), {{k, 3}, {k - 0.45, 3}, {k - 0.45, 0.6}, {k - 0.55, 0.6}});
   }
   corners.insert(corners.end(), {{1, 3}, {0, 3}});
-  const auto comb = polygon(corners);
+  const auto comb =
+      loop(Eigen::Map<PointList<2>>(corners[0].data(), 2, static_cast<Index>(corners.size())));
   expect_promise_kept(comb, mesh_of(comb, 3000));
 }
 

@@ -4,7 +4,6 @@
 #include "sparsify/poisson/poisson_energy.h"
 #include "sparsify/support_selection.h"
 #include "support/poisson_problem.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

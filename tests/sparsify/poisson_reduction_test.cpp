@@ -3,7 +3,6 @@
 
 #include "flbc/poses.h"
 #include "support/poisson_problem.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

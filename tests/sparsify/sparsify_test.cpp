@@ -5,12 +5,8 @@
 
 #include "flbc/non_negative.h"
 #include "flbc/poses.h"
-#include "flbc/solver.h"
-#include "flbc/sparsify_error.h"
-#include "support/feasible_vertices.h"
 #include "support/model_cages.h"
 #include "support/poisson_problem.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

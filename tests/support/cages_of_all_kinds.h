@@ -2,10 +2,7 @@
 // Cages for tests of coordinates that are evaluated at points.
 #pragma once
 
-#include <vector>
-
 #include "support/hollow_sample.h"
-#include "support/sample_meshes.h"
 
 namespace flbc::testing {
 

@@ -17,6 +17,13 @@
 
 namespace flbc::testing {
 
+//! The number of levels, counted by calls of itself that take 1 KiB of the stack each.
+inline int depth_of(int levels) {
+  volatile char room[1024];
+  room[0] = static_cast<char>(levels);
+  return levels == 0 ? 0 : depth_of(levels - 1) + (room[0] == static_cast<char>(levels) ? 1 : 0);
+}
+
 //! Whether this process has children, also ended ones that nothing has waited for.
 inline bool has_child() {
 #ifdef _WIN32

@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Runs the program FLBC_PROGRAM as its users do.
+//! Runs the program FLBC_PROGRAM as its users do, and includes what tests of its files need.
 #pragma once
 
 #include <sys/wait.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <set>
-#include <string>
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "flbc/io/cage_io.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "support/scratch.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 
@@ -38,6 +35,9 @@ inline std::string slurp(const std::filesystem::path& path) {
 inline nlohmann::json json_in(const std::string& path) {
   return nlohmann::json::parse(slurp(path));
 }
+
+//! Displacements of four control points at keyframe 0.
+inline const std::string kRestKeys = "c 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\n";
 
 //! The vertices of a model.
 template <int Dim>
@@ -61,12 +61,20 @@ class CommandLineTest : public ::testing::Test {
     return name;
   }
 
-  static Ended run(const std::string& arguments) {
-    const std::string command =
-        FLBC_PROGRAM " " + arguments + " >stdout.txt 2>stderr.txt </dev/null";
+  // \return the exit status, -1 if a signal ended the command
+  static int status_of(const std::string& command) {
     const int status = std::system(command.c_str());
-    Ended result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp("stdout.txt"),
-                 slurp("stderr.txt")};
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  static bool has_program(const std::string& name) {
+    return status_of("command -v " + name + " >/dev/null 2>&1") == 0;
+  }
+
+  static Ended run(const std::string& arguments) {
+    const int status =
+        status_of(FLBC_PROGRAM " " + arguments + " >stdout.txt 2>stderr.txt </dev/null");
+    Ended result{status, slurp("stdout.txt"), slurp("stderr.txt")};
     std::filesystem::remove("stdout.txt");
     std::filesystem::remove("stderr.txt");
     return result;
@@ -78,7 +86,7 @@ class CommandLineTest : public ::testing::Test {
     SCOPED_TRACE(arguments);
     auto result = run(arguments);
     EXPECT_EQ(result.status, status) << result.errors;
-    EXPECT_NE(result.errors.find(words), std::string::npos) << result.errors;
+    expect_piece(result.errors, words);
     const std::set<std::string> printing{"check", "completion", "info", "man"};
     if (printing.count(arguments.substr(0, arguments.find(' '))) == 0) {
       EXPECT_EQ(result.output, "");
@@ -104,14 +112,28 @@ class CommandLineTest : public ::testing::Test {
     expect(command + "v.npy --domain " + domain_file);
   }
 
+  // Writes a model with its points moved. \return its name
+  template <class Move>
+  static std::string moved(const std::string& from, const std::string& to, const Move& move) {
+    auto soup = io::read_polygons(from);
+    for (auto& point : soup.points) point = move(point);
+    io::write_model(to, {soup});
+    return to;
+  }
+
+  static std::string square() {
+    return file("square.obj", "v 0 0\nv 1 0\nv 1 1\nv 0 1\nl 1 2 3 4 1\n");
+  }
+
   // A tetrahedron as cage, whose weights are known: x, y, z and what is left to 1.
   static std::string tetrahedron(
       const std::string& vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n",
       const std::string& name = "cage.obj") {
     return file(name, vertices + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
   }
-  static std::string linear_weights(const PointList<3>& points) {
-    WeightMatrix weights(4, points.cols());
+  // The same for the triangle of the origin and the unit vectors of the plane.
+  static std::string linear_weights(const Eigen::MatrixXd& points) {
+    WeightMatrix weights(points.rows() + 1, points.cols());
     weights << 1 - points.colwise().sum().array(), points;
     io::write_weights("w.npy", weights);
     return "w.npy";

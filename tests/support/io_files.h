@@ -3,8 +3,6 @@
 //! Files and expectations for the tests of the file layer.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <cstring>

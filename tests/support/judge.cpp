@@ -6,7 +6,6 @@
 #include <set>
 #include <stdexcept>
 
-#include "flbc/quality.h"
 #include "support/simplex.h"
 
 namespace flbc::testing {

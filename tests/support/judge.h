@@ -6,6 +6,8 @@
 
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/quality.h"
@@ -35,6 +37,20 @@ struct Judgement {
 template <int Dim>
 Judgement<Dim> judge(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                      const Eigen::MatrixXd& weights, double extremum_margin = 0);
+
+//! Expects the properties 1, 2, 4, and 5 of the paper, and a mesh whose boundary is on the cage.
+//! \param rounding  largest error of sums and of reproduced points
+template <int Dim>
+Judgement<Dim> expect_coordinates(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                                  const Eigen::MatrixXd& weights, double rounding = 1e-13) {
+  const auto judgement = judge(cage, mesh, weights);
+  EXPECT_LT(judgement.partition_error, rounding);
+  EXPECT_LT(judgement.reproduction_error, rounding);
+  EXPECT_EQ(judgement.lagrange_error, 0);
+  EXPECT_LT(judgement.linearity_error, 1e-11);
+  EXPECT_EQ(judgement.boundary_vertices_off_cage, 0);
+  return judgement;
+}
 
 //! The weights that the Lagrange property and linearity demand at the mesh's boundary vertices, by
 //! comparing every boundary vertex with every cage facet.

@@ -10,8 +10,7 @@ namespace flbc::testing {
 
 template <int Dim>
 MeshingOptions<Dim> vertices(Index count, const PointList<Dim>& embedded = PointList<Dim>(Dim, 0)) {
-  MeshingOptions<Dim> options;
-  options.vertices = count;
+  MeshingOptions<Dim> options{count};
   options.embedded_points = embedded;
   return options;
 }

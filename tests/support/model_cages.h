@@ -22,6 +22,14 @@ inline bool has_model(const std::string& name) {
   return std::ifstream(model_path(name)).good();
 }
 
+//! The sound ones among the real cages.
+constexpr const char* kRealCages2D[] = {"2d/woody-control-edgeset.obj",
+                                        "2d/cactus-control-edgeset.obj",
+                                        "2d/LBClogo-control-edgeset.obj"};
+constexpr const char* kRealCages3D[] = {"3d/horse_cage.obj", "3d/armadillo_cage.obj",
+                                        "3d/shark_cage.obj", "3d/beast_cage.obj",
+                                        "3d/arm_cage.obj",   "3d/clothing_cage.obj"};
+
 //! Positive indices only, as in all those files. In 3D polygons become fans of triangles, in 2D
 //! polylines become edges.
 template <int Dim>

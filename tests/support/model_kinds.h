@@ -3,9 +3,6 @@
 //! Files of OpenMesh's in all formats of models.
 #pragma once
 
-#include <sstream>
-#include <string>
-
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
 #include "support/io_files.h"

@@ -7,7 +7,6 @@
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "support/feasible_vertices.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 

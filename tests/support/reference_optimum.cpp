@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/reference_optimum.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <limits>
-#include <stdexcept>
 
 #ifndef FLBC_TEST_DATA_DIR
 #error "FLBC_TEST_DATA_DIR has to be the folder tests/data"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Samples on refined meshes, without a mesher.
+//! Samples with refined meshes, and with more control points than their shapes have corners.
 #pragma once
 
 #include "flbc/nested_mesh.h"
-#include "support/sample_meshes.h"
+#include "support/test.h"
 
 namespace flbc::testing {
 
@@ -13,6 +13,17 @@ template <int Dim>
 Sample<Dim> refined_sample(Shape shape, Index resolution) {
   auto sample = make_sample<Dim>(shape, resolution, 0.2);
   sample.mesh = refine(sample.mesh);
+  return sample;
+}
+
+//! A shape whose cage is subdivided. \param cage_subdivisions  divides `subdivisions`
+template <int Dim>
+Sample<Dim> with_fine_cage(Shape shape, Index cage_subdivisions, Index subdivisions) {
+  if (subdivisions % cage_subdivisions != 0) {
+    throw std::invalid_argument("the mesh has to refine the cage");
+  }
+  auto sample = make_sample<Dim>(shape, subdivisions, 0.2);
+  sample.cage = boundary_of(make_sample<Dim>(shape, cage_subdivisions).mesh);
   return sample;
 }
 

@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "support/coarse_shapes.h"
 #include "support/simplex.h"
 
 namespace flbc::testing {

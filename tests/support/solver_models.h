@@ -5,7 +5,6 @@
 
 #include "flbc/meshing.h"
 #include "support/model_cages.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 

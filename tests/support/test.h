@@ -29,10 +29,6 @@
 #include <Eigen/LU>
 
 #include "flbc/bounding_box.h"
-#include "flbc/cage.h"
-#include "flbc/domain_mesh.h"
-#include "flbc/errors.h"
-#include "flbc/quality.h"
 #include "support/code_cages.h"
 #include "support/dense_algebra.h"
 #include "support/dimensions.h"

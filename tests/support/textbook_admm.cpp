@@ -6,8 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "support/dense_algebra.h"
-
 namespace flbc::testing {
 namespace {
 

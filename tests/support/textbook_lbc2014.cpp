@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/textbook_lbc2014.h"
 
-#include "support/dense_algebra.h"
 #include "support/simplex.h"
 
 namespace flbc::testing {

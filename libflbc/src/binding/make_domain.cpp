@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/make_domain.h"
 
-#include <utility>
-
 #include "base/instantiate.h"
 #include "flbc/errors.h"
 

@@ -2,7 +2,6 @@
 #include "flbc/cage_facts.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>

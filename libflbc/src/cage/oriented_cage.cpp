@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cage/oriented_cage.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 

@@ -8,7 +8,6 @@
 #include "base/shape_checks.h"
 #include "coordinates/place_checks.h"
 #include "coordinates/place_on_cage.h"
-#include "flbc/bounding_box.h"
 #include "flbc/errors.h"
 #include "flbc/interpolate.h"
 #include "mesh/cell_geometry.h"

@@ -10,7 +10,6 @@
 #include "flbc/maximum_entropy.h"
 
 #include <cmath>
-#include <vector>
 
 #include <Eigen/Geometry>
 

@@ -9,7 +9,6 @@
 #include "flbc/maximum_likelihood.h"
 
 #include <cmath>
-#include <vector>
 
 #include "base/instantiate.h"
 #include "coordinates/points_in_cage.h"

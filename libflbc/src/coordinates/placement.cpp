@@ -135,20 +135,33 @@ void refuse_outside(const Placement<Dim>& placement, const PointList<Dim>& point
 }
 
 // Lists the points that are not inside, and moves them onto the cage where that is due.
-template <int Dim>
-void place_not_inside(const Cage<Dim>& cage, const PointList<Dim>& points,
-                      const std::vector<Index>& not_inside, Placement<Dim>& placement) {
+// \param is_inside  (point, place), where it may set the place
+template <int Dim, class IsInside>
+Placement<Dim> place_all(const Cage<Dim>& cage, const PointList<Dim>& points, OutsidePoints policy,
+                         const IsInside& is_inside) {
+  const auto num_points = static_cast<Index>(points.cols());
+  Placement<Dim> placement;
+  placement.policy = policy;
+  placement.points = points;
+  placement.places.resize(static_cast<std::size_t>(num_points));
+  std::vector<char> inside(static_cast<std::size_t>(num_points));
+  parallel_for(num_points, [&](Index p) { inside[p] = is_inside(p, placement.places[p]); });
+  std::vector<Index> not_inside;
+  for (Index p = 0; p < num_points; ++p) {
+    if (!inside[p]) not_inside.push_back(p);
+  }
   const double size = bounding_box_diagonal(cage.points);
   for (const auto& point : nearest_on_cage(cage, points, not_inside)) {
     const bool is_near = point.distance() <= kBoundaryTolerance * size;
     (is_near ? placement.on_cage : placement.outside).push_back(point);
-    if (is_near || placement.policy == OutsidePoints::kNearest) {
+    if (is_near || policy == OutsidePoints::kNearest) {
       placement.points.col(point.point) = place_on_cage(cage, point);
     }
   }
-  if (placement.policy == OutsidePoints::kFail && !placement.outside.empty()) {
+  if (policy == OutsidePoints::kFail && !placement.outside.empty()) {
     refuse_outside(placement, points, size);
   }
+  return placement;
 }
 
 // Evaluates the weights of one placed point at a time.
@@ -258,20 +271,10 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
   check_elements(cage.points, cage.facets, kCageNames);
   check_finite<Dim>(points);
   const double size = bounding_box_diagonal(cage.points);
-  const auto num_points = static_cast<Index>(points.cols());
-  Placement<Dim> placement;
-  placement.policy = policy;
-  placement.points = points;
-  placement.places.resize(static_cast<std::size_t>(num_points));
-  parallel_for(num_points, [&](Index p) {
-    placement.places[p] = locate<Dim>(locator, mesh, points.col(p), size);
+  return place_all(cage, points, policy, [&](Index p, Location<Dim>& place) {
+    place = locate<Dim>(locator, mesh, points.col(p), size);
+    return place.cell >= 0;
   });
-  std::vector<Index> not_inside;
-  for (Index p = 0; p < num_points; ++p) {
-    if (placement.places[p].cell < 0) not_inside.push_back(p);
-  }
-  place_not_inside(cage, points, not_inside, placement);
-  return placement;
 }
 
 template <int Dim>
@@ -279,19 +282,8 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const PointList<Dim>& points,
                             OutsidePoints policy) {
   check_finite<Dim>(points);
   const CageLocator<Dim> locator(cage, kRounding * bounding_box_diagonal(cage.points));
-  const auto num_points = static_cast<Index>(points.cols());
-  std::vector<char> is_outside(static_cast<std::size_t>(num_points));
-  parallel_for(num_points, [&](Index p) { is_outside[p] = locator.is_outside(points.col(p)); });
-  std::vector<Index> not_inside;
-  for (Index p = 0; p < num_points; ++p) {
-    if (is_outside[p]) not_inside.push_back(p);
-  }
-  Placement<Dim> placement;
-  placement.policy = policy;
-  placement.points = points;
-  placement.places.resize(static_cast<std::size_t>(num_points));
-  place_not_inside(cage, points, not_inside, placement);
-  return placement;
+  return place_all(cage, points, policy,
+                   [&](Index p, Location<Dim>&) { return !locator.is_outside(points.col(p)); });
 }
 
 template <int Dim>

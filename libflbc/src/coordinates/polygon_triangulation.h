@@ -2,8 +2,6 @@
 // Triangulates polygons without new vertices.
 #pragma once
 
-#include <vector>
-
 #include "flbc/cage.h"
 
 namespace flbc {

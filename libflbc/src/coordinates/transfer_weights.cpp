@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/transfer_weights.h"
 
-#include <algorithm>
 #include <string>
 #include <vector>
 

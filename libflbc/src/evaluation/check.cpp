@@ -12,7 +12,6 @@
 #include "base/shape_checks.h"
 #include "cage/facet_locator.h"
 #include "flbc/bounding_box.h"
-#include "flbc/errors.h"
 #include "flbc/harmonic.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/placement.h"

@@ -2,7 +2,6 @@
 #include "linear/multigrid.h"
 
 #include <numeric>
-#include <utility>
 
 #include "linear/aggregation.h"
 

@@ -6,8 +6,6 @@
 #include <variant>
 #include <vector>
 
-#include <Eigen/SparseCore>
-
 #include "flbc/boundary_values.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/types.h"

@@ -2,7 +2,6 @@
 #include "flbc/io/formats.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"

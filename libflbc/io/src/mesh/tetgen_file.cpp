@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <ostream>
 
-#include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "mesh/mesh_formats.h"
 #include "text/text_reader.h"

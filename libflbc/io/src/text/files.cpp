@@ -16,7 +16,6 @@
 #include <memory>
 #include <random>
 #include <system_error>
-#include <utility>
 
 #include "flbc/errors.h"
 #include "text/text_reader.h"

@@ -2,7 +2,6 @@
 #include "flbc/io/keyframes.h"
 
 #include "base/messages.h"
-#include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "text/text_reader.h"
 

@@ -2,7 +2,6 @@
 #include "flbc/io/weights_io.h"
 
 #include <cmath>
-#include <new>
 #include <ostream>
 
 #include "flbc/errors.h"

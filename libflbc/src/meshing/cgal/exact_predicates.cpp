@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

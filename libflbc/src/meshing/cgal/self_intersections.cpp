@@ -11,7 +11,6 @@
 
 #include "base/messages.h"
 #include "cage/box_tree.h"
-#include "flbc/errors.h"
 #include "flbc/meshing.h"
 #include "meshing/cgal/exact_predicates.h"
 

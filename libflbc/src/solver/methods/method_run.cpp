@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/stopwatch.h"
-#include "flbc/errors.h"
 #include "mesh/cell_geometry.h"
 #include "solver/methods/active_set/active_splitting.h"
 #include "solver/methods/gradient/gradient_iteration.h"

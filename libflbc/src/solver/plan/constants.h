@@ -3,8 +3,6 @@
 //! Every automatic constant of a solve, with the measurement behind it.
 #pragma once
 
-#include <cstddef>
-
 #include "flbc/types.h"
 
 namespace flbc::plan {

@@ -2,7 +2,6 @@
 #include "solver/methods/active_set/active_data.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/instantiate.h"
 #include "base/padded_rows.h"

@@ -2,12 +2,10 @@
 #include "solver/methods/active_set/active_splitting.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "base/flush_denormals.h"
 #include "base/instantiate.h"
-#include "base/padded_rows.h"
 #include "base/parallel.h"
 #include "solver/plan/constants.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/methods/gradient/constraint_data.h"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "base/instantiate.h"

@@ -2,7 +2,6 @@
 //! \file
 //! The loops, included once per instruction set with FLBC_ISA as its name. Each including file is
 //! compiled with the flags of that set (see libflbc/CMakeLists.txt).
-#include <limits>
 
 #include "base/simd.h"
 #include "solver/methods/gradient/gradient_kernel.h"

@@ -4,7 +4,6 @@
 //! memory instead of reading a part of every row.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 

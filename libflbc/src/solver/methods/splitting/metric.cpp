@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/methods/splitting/metric.h"
 
-#include <algorithm>
-
 #include "base/instantiate.h"
 #include "mesh/cell_geometry.h"
 #include "problem/laplacian.h"

@@ -4,8 +4,6 @@
 //! those of its list in an active set.
 #pragma once
 
-#include <algorithm>
-
 #include "base/aligned_array.h"
 #include "base/parallel.h"
 
