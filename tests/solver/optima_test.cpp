@@ -67,8 +67,8 @@ SolverOptions accurate(const LbcProblem<Dim>& problem, Method method, NonNegativ
   options.method = method;
   options.non_negative = non_negative;
   double penalty = 300;
-  if (method == Method::kGradient || method == Method::kPaper) {
-    options.max_iterations = method == Method::kPaper ? 60000 : 30000;
+  if (method == Method::kGradient) {
+    options.max_iterations = 30000;
     penalty = Dim == 2 ? 1e5 : 1e6;
   }
   if (method == Method::kLbc2014) {
@@ -106,7 +106,6 @@ TEST_IN_2D_AND_3D(OptimaTest, WeightsFindBothOptima) {
 
 TEST_IN_2D_AND_3D(OptimaTest, GradientsFindTheUnconstrainedOptimum) {
   expect_found<Dim>(Method::kGradient, NonNegative::kOff);
-  expect_found<Dim>(Method::kPaper, NonNegative::kOff);
 }
 
 TEST_IN_2D_AND_3D(OptimaTest, TheOriginalSolverFindsTheUnconstrainedOptimum) {

@@ -91,6 +91,35 @@ TEST_IN_2D_AND_3D(SolverTest, WeightsThatMayBeNegativeReproduceExactly) {
   }
 }
 
+// Gradients with local constraints only, and weights with a global linear system: two iterations
+// with nothing in common but the problem, of which the optimum may not differ. Its value is a lower
+// bound for every feasible function.
+TEST_IN_2D_AND_3D(SolverTest, GradientsAndWeightsAgree) {
+  for (const auto& sample : samples<Dim>()) {
+    SCOPED_TRACE(sample.name);
+    const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0);
+    const auto optimum = [&](Method method, std::optional<double> penalty) {
+      auto options = many_iterations(4000, without_smoothness());
+      options.method = method;
+      options.non_negative = NonNegative::kOff;
+      if (penalty) {
+        options.penalty = published_penalty(sample.cage, sample.mesh, method, *penalty);
+      }
+      return solve(problem, options).weights.dense();
+    };
+    const auto weights = optimum(Method::kWeights, {});
+    const auto gradients = optimum(Method::kPaper, Dim == 2 ? 1e4 : 1e5);
+    const double value = testing::objective(problem.mesh, weights, problem.phi.dense());
+    EXPECT_NEAR(testing::objective(problem.mesh, gradients, problem.phi.dense()), value,
+                5e-3 * value);
+    // Symmetric boxes leave the optimum some freedom, so this is no sharper.
+    EXPECT_LT(mean_squared_difference(problem.mesh, weights, gradients), 1e-4);
+    EXPECT_LE(value,
+              testing::objective(problem.mesh, harmonic_coordinates(problem), problem.phi.dense()) *
+                  (1 + 1e-9));
+  }
+}
+
 TEST_IN_2D_AND_3D(SolverTest, DoesNotDependOnScalePlaceOrOrientation) {
   const auto sample = make_sample<Dim>(Shape::kCorner, 4, 0.2);
   const auto expected = solve(sample.cage, sample.mesh);
