@@ -504,10 +504,6 @@ class Solver:
         found = self._core.move(moved, iterations, seconds, callback)
         return _solution(found, self.cage, self.mesh, not (iterations or seconds))
 
-    def anchor(self) -> None:
-        """Makes the mesh follow later moves by the current coordinates of the current cage."""
-        self._core.anchor()
-
     def set_options(self, **options: Unpack[SolverOptions]) -> None:
         """Changes options of the following solves; `phi` cannot change."""
         given = checked(options, "Solver")

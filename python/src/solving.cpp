@@ -180,9 +180,6 @@ class AnySolver {
     });
   }
 
-  void anchor() {
-    use([](auto& solver) { without_gil([&] { solver.anchor(); }); });
-  }
   void set_options(const py::dict& keywords) {
     use([&](auto& solver) { solver.set_options(here(options_of(keywords))); });
   }
@@ -250,7 +247,6 @@ void bind_solving(py::module_& module) {
                     const py::dict&>())
       .def("solve", &AnySolver::solve)
       .def("move", &AnySolver::move)
-      .def("anchor", &AnySolver::anchor)
       .def("set_options", &AnySolver::set_options)
       .def("restart", &AnySolver::restart)
       .def("options", &AnySolver::options)

@@ -239,7 +239,6 @@ void solve_and_move(Mutator& mutator) {
       // A refused pose leaves the object as it was.
       solver.solve({3, 0});
     }
-    if (mutator.below(2) == 0) solver.anchor();
   }
 }
 

@@ -18,6 +18,13 @@ export interface Weights {
   values: Float32Array;
 }
 
+export interface SolveOptions {
+  smoothness?: number;
+  tolerance?: number;
+  distances?: "auto" | "exact" | "interpolated";
+  precision?: "auto" | "single" | "double";
+}
+
 /** A mesh, and the weights of its vertices. */
 export interface Solution {
   points: Float64Array;
@@ -25,6 +32,8 @@ export interface Solution {
   starts: Uint32Array;
   controlPoints: Uint32Array;
   values: Float64Array;
+  /** Of `solve()`, for later moves. */
+  options?: SolveOptions;
 }
 
 export interface CageFacts {
@@ -67,8 +76,7 @@ export class Flbc {
     Promise<{ vertices: number; cells: number; note: string; seconds: number }>;
   setMesh(points: Numbers, cells: Indices): Promise<void>;
 
-  solve(options?: { smoothness?: number; tolerance?: number; distances?: "auto" | "exact" | "interpolated";
-                    precision?: "auto" | "single" | "double" }, onProgress?: OnProgress):
+  solve(options?: SolveOptions, onProgress?: OnProgress):
     Promise<{ iterations: number; objective: number; converged: boolean }>;
   /** What makeMesh() and solve() have computed. */
   solution(): Promise<Solution>;

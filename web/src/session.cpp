@@ -24,8 +24,7 @@
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/names.h"
-#include "flbc/placement.h"
-#include "flbc/solver.h"
+#include "flbc/rig.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
 #include "gltf/look.h"
@@ -216,14 +215,20 @@ class Work {
     const auto mesh = [&]() -> DomainMesh<Dim> {
       return {pose(), matrix_in<CellList<Dim>>(given["cells"])};
     };
+    report_ = name == "move" ? Report() : report;  // moves are short
+    first_excess_ = 0;
     if (name == "makeCage") return make_cage(options(), report);
     if (name == "readCage") return read_cage(text("name"));
     if (name == "repairCage") return repair_cage();
     if (name == "setCage") return set_cage({pose(), matrix_in<FacetList<Dim>>(given["facets"])});
     if (name == "makeMesh") return make_mesh(options(), report);
-    if (name == "setMesh") return set_mesh(mesh());
-    if (name == "setSolution") return set_solution(mesh(), weights_in(given, cage_.size()));
-    if (name == "solve") return solve(options(), report);
+    if (name == "setMesh") return set_mesh(mesh(), {});
+    if (name == "setSolution") {
+      return set_solution(
+          mesh(), weights_in(given, cage_.size()),
+          given.hasOwnProperty("options") ? to_json(given["options"]) : Json::object());
+    }
+    if (name == "solve") return solve(options());
     if (name == "reduce") return reduce(options(), report);
     if (name == "move") return move(options());
     if (name == "solution") return solution();
@@ -263,8 +268,7 @@ class Work {
   }
 
   void show_cage(Cage<Dim> cage, const std::string& file) {
-    solver_.reset();
-    set_weights_of_mesh({});
+    rig_.reset();
     cage_ = std::move(cage);
     shown_ = app::load_shown_cage<Dim>(file);
   }
@@ -329,135 +333,114 @@ class Work {
   // ----------------------------------------------------------------------------- mesh and weights
 
   val make_mesh(const Json& options, const Report& report) {
-    place_in_cage();
+    outside_points();  // refuses before the mesher starts
     report("filling the cage", 0);
     auto made = app::make_domain<Dim>({cage_, kCageFile, options.value("vertices", 0)});
-    set_mesh(std::move(made.mesh));
+    set_mesh(std::move(made.mesh), {});
+    const auto& mesh = rig_->mesh();
     // Twice the time of the native program.
-    const auto estimate = app::estimate_solve(Dim, cage_.size(), mesh_.num_vertices(), {});
-    return from_json({{"vertices", mesh_.num_vertices()},
-                      {"cells", mesh_.num_cells()},
+    const auto estimate = app::estimate_solve(Dim, cage_.size(), mesh.num_vertices(), {});
+    return from_json({{"vertices", mesh.num_vertices()},
+                      {"cells", mesh.num_cells()},
                       {"note", made.note},
                       {"seconds", 2 * estimate.seconds}});
   }
 
-  val set_mesh(DomainMesh<Dim> mesh) {
-    solver_.reset();
-    mesh_ = std::move(mesh);
+  // \param options  of the solver
+  val set_mesh(DomainMesh<Dim> mesh, const Json& options) {
+    BindOptions binding;
+    binding.solver = solver_options(options);
+    binding.outside = outside_points();
+    binding.observer.progress = [this](const Progress& progress) {
+      show_progress(progress);
+      return true;
+    };
+    binding.observer.stage = [this](Stage stage, double done) {
+      if (report_) report_(stage == Stage::kDistances ? "measuring distances" : "solving", done);
+    };
+    rig_ = std::make_unique<Rig<Dim>>(cage_, std::move(mesh), points(), edges_, binding);
+    few_ = {};
     return val::undefined();
   }
 
+  void show_progress(const Progress& progress) {
+    if (!report_) return;
+    const double excess = std::log(
+        std::max({progress.relative_primal_residual, progress.relative_dual_residual, 1.0}));
+    first_excess_ = std::max(first_excess_, excess);
+    report_("solving", first_excess_ > 0 ? 1 - excess / first_excess_ : 0);
+  }
+
+  Rig<Dim>& rig() {
+    if (!rig_) throw OptionError("there is no mesh of the cage yet: call makeMesh");
+    return *rig_;
+  }
+
   // Refuses vertices of faces outside.
-  void place_in_cage() {
-    outside_ = OutsidePoints::kFail;
+  OutsidePoints outside_points() const {
     try {
-      place_points(cage_, points(), outside_);
+      place_points(cage_, points());
+      return OutsidePoints::kFail;
     } catch (const InputError& error) {
       if (!app::only_loose_are_outside(cage_, points(), model_->model()->soup)) {
         const std::string message = error.what();  // with advice for users of the library
         throw InputError(name_ + ": " + message.substr(0, message.find("; choose")) +
                          "; enlarge the cage, or make one around the model");
       }
-      outside_ = OutsidePoints::kNearest;
+      return OutsidePoints::kNearest;
     }
   }
 
-  void set_weights_of_mesh(const SparseWeights& weights) {
-    of_mesh_ = weights;
-    weights_ = {};
-  }
-
-  // At the model's points, where they are needed: they take more memory than a solve.
+  // At the model's points, reduced if they were.
   const SparseWeights& weights() {
-    if (weights_.num_points() == 0 && of_mesh_.num_points() > 0) {
-      placement_ = place_points(cage_, mesh_, points(), outside_);
-      weights_ = weights_at(cage_, mesh_, of_mesh_, placement_);
-    }
-    return weights_;
+    return few_.num_points() > 0 ? few_ : rig().weights_of_points();
   }
 
-  val solve(const Json& options, const Report& report) {
-    double first = 0;
-    Observer observer;
-    observer.progress = [&](const Progress& progress) {
-      const double excess = std::log(
-          std::max({progress.relative_primal_residual, progress.relative_dual_residual, 1.0}));
-      first = std::max(first, excess);
-      report("solving", first > 0 ? 1 - excess / first : 0);
-      return true;
-    };
-    observer.stage = [&](Stage stage, double done) {
-      report(stage == Stage::kDistances ? "measuring distances" : "solving", done);
-    };
-    const auto solver = solver_options(options);
-    const auto take = [&](const auto& solution) {
-      set_weights_of_mesh(solution.weights);
-      const SolveReport& of = solution.report;
-      return from_json({{"iterations", of.iterations},
-                        {"objective", of.objective},
-                        {"converged", of.status == SolveStatus::kConverged}});
-    };
-    if (cage_parts(cage_).size() > 1) {
-      return take(flbc::solve(cage_, mesh_, solver, observer));
-    }
-    solver_ = std::make_unique<Solver<Dim>>(cage_, mesh_, solver);
-    return take(solver_->solve({}, observer));
+  val solve(const Json& options) {
+    auto binding = rig().options();
+    binding.solver = solver_options(options);
+    rig_->set_options(binding);
+    solver_given_ = options;
+    const auto& of = rig_->solve().report;
+    few_ = {};
+    return from_json({{"iterations", of.iterations},
+                      {"objective", of.objective},
+                      {"converged", of.status == SolveStatus::kConverged}});
   }
 
   // In double precision, so that another worker continues from the same numbers.
-  val solution() const {
+  val solution() {
     auto result = val::object();
-    result.set("points", array_of(mesh_.points));
-    result.set("cells", array_of(mesh_.cells));
-    set_weights<double>(result, of_mesh_);
+    result.set("points", array_of(rig().mesh().points));
+    result.set("cells", array_of(rig().mesh().cells));
+    set_weights<double>(result, rig().solution().weights);
+    result.set("options", from_json(solver_given_));
     return result;
   }
 
-  val set_solution(DomainMesh<Dim> mesh, const SparseWeights& weights) {
-    place_in_cage();
-    set_mesh(std::move(mesh));
-    set_weights_of_mesh(weights);
+  val set_solution(DomainMesh<Dim> mesh, SparseWeights weights, const Json& options) {
+    set_mesh(std::move(mesh), options);
+    solver_given_ = options;
+    rig_->set_solution({std::move(weights), {}});
     return val::undefined();
   }
 
   val move(const Json& request) {
-    if (cage_parts(cage_).size() > 1) {
-      throw InputError("a cage with several parts cannot be reshaped");
-    }
-    if (!solver_) {
-      solver_ = std::make_unique<Solver<Dim>>(cage_, mesh_, solver_options({}));
-      solver_->solve();
-    }
     // Long enough to converge after most moves, short enough to be interrupted.
     constexpr Budget kBudget{0, 0.25};
-    const PointList<Dim> before = cage_.points;
-    const bool refines = request.value("refine", false);
     try {
-      const auto points = refines ? before : points_in(request["points"]);
-      const auto change = [&] {
-        refines ? solver_->solve(kBudget) : solver_->move(points, kBudget);
-      };
-      try {
-        change();
-      } catch (const InputError&) {
-        // On the way from the anchored shape cells may be inverted that are not from the present
-        // one.
-        solver_->anchor();
-        change();
+      if (request.value("refine", false)) {
+        rig().solve(kBudget);
+      } else {
+        rig().reshape(points_in(request["points"]), kBudget);
       }
-      cage_ = solver_->cage();
-      mesh_ = solver_->mesh();
-      set_weights_of_mesh(solver_->solution().weights);
-      weights();
     } catch (const Error& error) {
-      // The model may reach out of the cage.
-      if (solver_->cage().points != before) solver_->move(before);
-      cage_ = solver_->cage();
-      mesh_ = solver_->mesh();
       return from_json({{"refused", error.what()}});
     }
+    few_ = {};
+    cage_ = rig_->cage();
     shown_.points = cage_.points;
-    const auto& report = solver_->solution().report;
+    const auto& report = rig_->solution().report;
     auto reply = from_json(
         {{"converged", report.status == SolveStatus::kConverged},
          {"iterations", report.iterations},
@@ -480,14 +463,15 @@ class Work {
     SparsifyOptions sparsify{options.value("influences", 8)};
     sparsify.progress = [&](double done) { report("reducing influences", done); };
     const auto& all = weights();
-    weights_ = reduce_influences<Dim>(cage_.points, placement_.points, edges_, all, {}, sparsify);
+    few_ =
+        reduce_influences<Dim>(cage_.points, rig_->placement().points, edges_, all, {}, sparsify);
     return from_json({{"influences", sparsify.max_influences}});
   }
 
   SparseWeights harmonic() {
-    weights();
-    const auto solution = compute_coordinates(cage_, mesh_, Coordinates::kHarmonic);
-    return weights_at(cage_, mesh_, solution.weights, placement_);
+    const auto solution = compute_coordinates(cage_, rig().mesh(), Coordinates::kHarmonic);
+    const auto placement = place_points(cage_, rig_->mesh(), points(), rig_->options().outside);
+    return weights_at(cage_, rig_->mesh(), solution.weights, placement);
   }
 
   PointList<Dim> posed(const PointList<Dim>& control_points) {
@@ -502,15 +486,17 @@ class Work {
     const auto limited = [&](const PointList<Dim>& places, const SparseWeights& weights) {
       return view::limit_influences<Dim>(cage_.points, places, weights, view::kMostInfluences);
     };
-    if (weights_.num_points() > 0) return limited(placement_.points, weights_);
+    if (few_.num_points() > 0) return limited(rig_->placement().points, few_);
     std::vector<std::int64_t> starts{0};
     std::vector<std::uint32_t> owners;
     std::vector<double> values;
     constexpr Eigen::Index kPart = 8192;
-    for (Eigen::Index p = 0; p < points().cols() && of_mesh_.num_points() > 0; p += kPart) {
+    const bool is_solved = rig_ && rig_->solution().weights.num_points() > 0;
+    for (Eigen::Index p = 0; p < points().cols() && is_solved; p += kPart) {
       const PointList<Dim> part = points().middleCols(p, std::min(kPart, points().cols() - p));
-      const auto placement = place_points(cage_, mesh_, part, outside_);
-      const auto few = limited(placement.points, weights_at(cage_, mesh_, of_mesh_, placement));
+      const auto placement = place_points(cage_, rig_->mesh(), part, rig_->options().outside);
+      const auto few = limited(
+          placement.points, weights_at(cage_, rig_->mesh(), rig_->solution().weights, placement));
       for (Index k = 0; k < few.num_points(); ++k) starts.push_back(starts.back() + few.count(k));
       owners.insert(owners.end(), few.control_points().begin(), few.control_points().end());
       values.insert(values.end(), few.values().begin(), few.values().end());
@@ -550,7 +536,7 @@ class Work {
 
   val weight_file(const std::string& of, const std::string& format) {
     return bytes_of("weights." + format, [&](const auto& file) {
-      io::write_weights(file, of == "mesh" ? of_mesh_ : weights());
+      io::write_weights(file, of == "mesh" ? rig().solution().weights : weights());
     });
   }
 
@@ -558,9 +544,9 @@ class Work {
     return bytes_of("saved_cage.obj", [&](const auto& file) { app::write_cage(file, cage_); });
   }
 
-  val mesh_file() const {
+  val mesh_file() {
     return bytes_of(Dim == 2 ? "domain.obj" : "domain.mesh",
-                    [&](const auto& file) { io::write_domain<Dim>(file, mesh_); });
+                    [&](const auto& file) { io::write_domain<Dim>(file, rig().mesh()); });
   }
 
   val model_file(const PointList<Dim>& pose, const std::string& extension) {
@@ -577,13 +563,11 @@ class Work {
   EdgeList edges_;
   Cage<Dim> cage_;
   view::ShownCage<Dim> shown_;
-  DomainMesh<Dim> mesh_;
-  OutsidePoints outside_ = OutsidePoints::kFail;
-  Placement<Dim> placement_;
-  // None if the cage has several parts, or if another worker solved.
-  std::unique_ptr<Solver<Dim>> solver_;
-  SparseWeights of_mesh_;
-  SparseWeights weights_;  // at the model's points
+  std::unique_ptr<Rig<Dim>> rig_;  // once there is a mesh
+  SparseWeights few_;              // after reduce()
+  Json solver_given_ = Json::object();
+  Report report_;  // of the present step
+  double first_excess_ = 0;
 };
 
 // -------------------------------------------------------------------------------- calls and errors

@@ -62,10 +62,11 @@ bool tries_active_set(int dim, Index control_points, Index vertices,
 //! to change the tolerance, to run a few iterations at a time, or to change the rest cage.
 //!
 //! When control points move, mesh vertices follow by their weights: x' = C' w. These weights are
-//! the coordinates of the first rest cage at its first move, or of the rest cage at the last
-//! anchor(). Vertex positions therefore depend only on the control points, not on the path or on
-//! the accuracy of solves in between. Vertices on the cage stay on it. Self-intersections of the
-//! cage that do not invert a cell are not detected.
+//! the coordinates of the first rest cage at its first move. Vertex positions therefore depend only
+//! on the control points, not on the path or on the accuracy of solves in between. If a cell would
+//! be inverted, vertices follow by the coordinates of the current rest cage, then and from then on.
+//! Vertices on the cage stay on it. Self-intersections of the cage that do not invert a cell are
+//! not detected.
 template <int Dim>
 class Solver {
  public:
@@ -73,8 +74,10 @@ class Solver {
   //! \param cage  n control points, with a connected interior
   //! \param mesh  domain mesh of the cage, V vertices (see normalize_and_validate)
   //! \param options  of all solves until set_options()
+  //! \param observer  of the setup
   //! \throws InputError if the mesh does not match the cage; OptionError
-  Solver(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options = {});
+  Solver(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options = {},
+         const Observer& observer = {});
   ~Solver();
   Solver(Solver&&) noexcept;
   Solver& operator=(Solver&&) noexcept;
@@ -97,12 +100,6 @@ class Solver {
   //! SolverError
   const Solution& move(const PointList<Dim>& control_points, const Budget& budget = {},
                        const Observer& observer = {});
-
-  //! Makes the mesh follow by the current coordinates of the current rest cage, which is solved
-  //! first if it has no solution. Use it for large
-  //! edits that would otherwise invert cells. Moving the cage back then no longer restores the mesh
-  //! exactly.
-  void anchor();
 
   //! Changes the options of the following solves. The next solve resumes from the last state if
   //! only tolerance, gap, max_iterations, certify, or threads differ and distances are accurate

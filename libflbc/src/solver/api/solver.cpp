@@ -255,14 +255,28 @@ struct Solver<Dim>::State {
     std::optional<MethodRun<Dim>> run{};
   };
 
+  // A solved shape by whose weights the mesh follows the control points.
+  struct Reference {
+    DomainMesh<Dim> mesh;
+    SparseWeights weights;
+
+    // \throws InputError if a cell would be inverted
+    DomainMesh<Dim> moved(const PointList<Dim>& control_points) const {
+      DomainMesh<Dim> moved{deform<Dim>(weights, control_points), mesh.cells};
+      refuse_folds(mesh, moved);
+      return moved;
+    }
+  };
+
   // Sets up the problem of a rest cage, as a new Solver does.
-  void begin(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& given) {
+  void begin(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& given,
+             const Observer& observer = {}) {
     require_valid(given, cage.size());
     require_connected(mesh);
     const ThreadScope threads(threads_for(given.threads, cage.size(), mesh.num_vertices()));
     const Stopwatch watch;
     const auto settings = plan::settings_of(given);
-    auto ready = set_up_shape(cage, mesh, make_geometry(cage, mesh), settings);
+    auto ready = set_up_shape(cage, mesh, make_geometry(cage, mesh), settings, observer);
     require_distances<Dim>(*ready, settings);
     shape = std::move(ready);
     shape->setup_seconds = watch.seconds();
@@ -271,10 +285,11 @@ struct Solver<Dim>::State {
 
   static std::unique_ptr<Shape> set_up_shape(Cage<Dim> cage, DomainMesh<Dim> mesh,
                                              LbcProblem<Dim> geometry,
-                                             const plan::Settings& settings) {
-    const Observer nobody;
-    auto shape = std::make_unique<Shape>(Shape{
-        set_up(std::move(geometry), settings, Reporter(nobody)), std::move(cage), std::move(mesh)});
+                                             const plan::Settings& settings,
+                                             const Observer& observer) {
+    auto shape =
+        std::make_unique<Shape>(Shape{set_up(std::move(geometry), settings, Reporter(observer)),
+                                      std::move(cage), std::move(mesh)});
     shape->run.emplace(shape->problem);
     return shape;
   }
@@ -286,16 +301,27 @@ struct Solver<Dim>::State {
            !plan::interpolates(plan::settings_of(given), error);
   }
 
+  std::shared_ptr<const Reference> present() const {
+    return std::make_shared<Reference>(Reference{shape->mesh, solution.weights});
+  }
+
   // The mesh moved by the control points, not solved yet.
-  std::unique_ptr<Shape> moved(const PointList<Dim>& control_points,
-                               const plan::Settings& settings) {
+  // \param by  becomes the present shape if the mesh cannot follow this one
+  std::unique_ptr<Shape> moved(const PointList<Dim>& control_points, const plan::Settings& settings,
+                               std::shared_ptr<const Reference>& by, const Observer& observer) {
     require_points_for(shape->cage, control_points);
     Cage<Dim> cage{control_points, shape->cage.facets};
     validate(cage);
-    DomainMesh<Dim> moved{deform<Dim>(anchor_weights, control_points), shape->mesh.cells};
-    refuse_folds(anchor_mesh, moved);
+    DomainMesh<Dim> moved;
+    try {
+      moved = by->moved(control_points);
+    } catch (const InputError&) {
+      // Cells that are inverted on the way from there may not be on the way from here.
+      by = present();
+      moved = by->moved(control_points);
+    }
     auto geometry = make_geometry(cage, moved, shape->problem.topology, shape->problem.boundary);
-    return set_up_shape(std::move(cage), std::move(moved), std::move(geometry), settings);
+    return set_up_shape(std::move(cage), std::move(moved), std::move(geometry), settings, observer);
   }
 
   // Solves from the start, or resumes the run. The solution is unchanged if it throws.
@@ -324,15 +350,15 @@ struct Solver<Dim>::State {
   SolverOptions options;
   std::unique_ptr<Shape> shape{};
   Solution solution{};
-  DomainMesh<Dim> anchor_mesh{};
-  SparseWeights anchor_weights{};
+  std::shared_ptr<const Reference> reference{};  // none before the first move
 };
 
 template <int Dim>
-Solver<Dim>::Solver(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options)
+Solver<Dim>::Solver(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
+                    const Observer& observer)
     : state_(std::make_unique<State>(State{options})) {
   normalize_and_validate(mesh);
-  state_->begin(std::move(cage), std::move(mesh), options);
+  state_->begin(std::move(cage), std::move(mesh), options, observer);
 }
 
 template <int Dim>
@@ -360,12 +386,12 @@ const Solution& Solver<Dim>::move(const PointList<Dim>& control_points, const Bu
   validate(budget);
   auto& state = *state_;
   if (state.solution.weights.num_points() == 0) solve({}, observer);
-  if (state.anchor_weights.num_points() == 0) anchor();
   Stopwatch watch;
   const auto& before = *state.shape;
   const auto settings = plan::settings_of(state.options);
   const ThreadScope threads(num_threads(before.problem, settings));
-  auto shape = state.moved(control_points, settings);
+  auto reference = state.reference ? state.reference : state.present();
+  auto shape = state.moved(control_points, settings, reference, observer);
   shape->setup_seconds = watch.lap();
   const double spent = shape->setup_seconds;
   if (plan::inherits(settings.method) && before.run->has_duals()) {
@@ -376,14 +402,8 @@ const Solution& Solver<Dim>::move(const PointList<Dim>& control_points, const Bu
     state.solve_on(*shape, nullptr, budget, spent, observer);
   }
   state.shape = std::move(shape);
+  state.reference = std::move(reference);
   return solution();
-}
-
-template <int Dim>
-void Solver<Dim>::anchor() {
-  if (state_->solution.weights.num_points() == 0) solve();
-  state_->anchor_mesh = mesh();
-  state_->anchor_weights = solution().weights;
 }
 
 template <int Dim>

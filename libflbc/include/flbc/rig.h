@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! A model in a cage whose rest shape may change.
+#pragma once
+
+#include <memory>
+
+#include "flbc/bind.h"
+#include "flbc/solver.h"
+
+namespace flbc {
+
+//! From a cage to weights of a model, for programs that change parts of it: a new pose needs
+//! nothing, a new model only weights_of_points(), and a new rest cage, tolerance, or smoothness a
+//! solve that starts from the state before. bind() is a Rig that is used once.
+//!
+//! BindOptions::observer receives the progress of all steps. If it, or bad input, ends a function
+//! by an exception, the Rig is as before, except that the next solve() may start over.
+template <int Dim>
+class Rig {
+ public:
+  //! Meshes the interior of the cage.
+  //! \param cage  n control points
+  //! \param points  Dim x P of the model, in the units of the cage
+  //! \param edges  of the model, along which the reduction leaves no seams; may be empty
+  //! \param meshers  such as linked_meshers<Dim>()
+  //! \throws InputError naming the defect of cage or model; OptionError
+  Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindOptions& options,
+      const Meshers<Dim>& meshers);
+
+  //! With a given domain mesh of V vertices, see normalize_and_validate().
+  Rig(Cage<Dim> cage, DomainMesh<Dim> domain, PointList<Dim> points, EdgeList edges,
+      const BindOptions& options);
+
+  //! Solves, or resumes the last solve. A budget does not limit a cage with several parts.
+  //! \throws OptionError, SolverError
+  const Solution& solve(const Budget& budget = {});
+
+  //! Takes a solution of this cage and mesh from elsewhere. The next solve starts over.
+  //! \throws InputError if it is not for V vertices and n control points
+  void set_solution(Solution solution);
+
+  //! Moves the rest cage, and the mesh with it, and solves, see Solver::move(). The model stays.
+  //! \param control_points  Dim x n
+  //! \throws InputError if the model would be outside (OutsidePoints::kFail), the cage has several
+  //! parts, or as Solver::move(); then nothing has changed
+  const Solution& reshape(const PointList<Dim>& control_points, const Budget& budget = {});
+
+  //! \throws InputError if the model is outside
+  void set_model(PointList<Dim> points, EdgeList edges);
+
+  //! Changes options, except for the number of vertices of the mesh. See Solver::set_options().
+  void set_options(const BindOptions& options);
+
+  const Cage<Dim>& cage() const { return solver_ ? solver_->cage() : cage_; }
+  const DomainMesh<Dim>& mesh() const { return solver_ ? solver_->mesh() : mesh_; }
+  const BindOptions& options() const { return options_; }
+  //! Of the last solve or set_solution(); without weights before.
+  const Solution& solution() const { return solver_ ? solver_->solution() : solution_; }
+
+  //! Where the points are; empty before weights_of_points().
+  const Placement<Dim>& placement() const { return placement_; }
+
+  //! Weights of the points with all influences. They are kept until the solution or the model
+  //! changes. Solves first if there is no solution.
+  const SparseWeights& weights_of_points();
+
+  //! Weights of the points with BindOptions::max_influences each.
+  Binding<Dim> bind();
+
+ private:
+  SparseWeights reduced(const Placement<Dim>& placement, const SparseWeights& weights) const;
+  SparseWeights reduced_inside(const std::vector<Index>& outside);
+
+  Cage<Dim> cage_;
+  DomainMesh<Dim> mesh_{};
+  PointList<Dim> points_;
+  EdgeList edges_;
+  BindOptions options_;
+  BindReport report_{};
+  std::unique_ptr<Solver<Dim>> solver_{};  // none for several parts, or before the first solve()
+  Solution solution_{};                    // without a Solver
+  Placement<Dim> placement_{};
+  SparseWeights weights_{};  // at the placed points
+};
+
+}  // namespace flbc

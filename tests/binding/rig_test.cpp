@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/rig.h"
+
+#include "support/errors.h"
+#include "support/refined_sample.h"
+#include "support/test.h"
+
+namespace flbc::testing {
+namespace {
+
+template <int Dim>
+Sample<Dim> sample() {
+  return refined_sample<Dim>(Shape::kCorner, Dim == 2 ? 8 : 3);
+}
+
+// Points near the centers of cells.
+template <int Dim>
+PointList<Dim> model(const DomainMesh<Dim>& mesh) {
+  PointList<Dim> points(Dim, 30);
+  for (Index p = 0; p < points.cols(); ++p) {
+    const Index cell = p * (mesh.num_cells() / 30);
+    points.col(p).setZero();
+    for (int k = 0; k <= Dim; ++k)
+      points.col(p) += mesh.points.col(mesh.cells(k, cell)) / (Dim + 1);
+  }
+  return points;
+}
+
+template <int Dim>
+PointList<Dim> with_one_moved(const PointList<Dim>& points, double part) {
+  PointList<Dim> moved = points;
+  const Vector<Dim> size = points.rowwise().maxCoeff() - points.rowwise().minCoeff();
+  moved.col(0) -= part * size;  // the lowest corner, outward
+  return moved;
+}
+
+template <int Dim>
+Rig<Dim> rig(const BindOptions& options = {}) {
+  const auto [cage, mesh, name] = sample<Dim>();
+  return {cage, mesh, model<Dim>(mesh), {}, options};
+}
+
+template <int Dim>
+void expect_reproduces(Rig<Dim>& rig, const PointList<Dim>& points) {
+  EXPECT_LT((rig.bind().deform(rig.cage().points) - points).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_GE(rig.bind().report.quality.min_weight, 0);
+}
+
+TEST_IN_2D_AND_3D(RigTest, SolvesInSlicesToTheWeightsOfBind) {
+  const auto [cage, mesh, name] = sample<Dim>();
+  auto sliced = rig<Dim>();
+  while (sliced.solve({10}).report.status != SolveStatus::kConverged) {
+  }
+  EXPECT_TRUE(sliced.bind().weights == bind<Dim>(cage, mesh, model<Dim>(mesh), {}, {}).weights);
+}
+
+TEST_IN_2D_AND_3D(RigTest, AReshapedCageHasTheWeightsOfANewOne) {
+  auto reshaped = rig<Dim>();
+  const auto points = model<Dim>(reshaped.mesh());
+  const auto control_points = with_one_moved<Dim>(reshaped.cage().points, 0.05);
+  reshaped.reshape(control_points);
+  EXPECT_TRUE(reshaped.cage().points == control_points);
+  expect_reproduces<Dim>(reshaped, points);
+  Rig<Dim> made(reshaped.cage(), reshaped.mesh(), points, {}, {});
+  const WeightMatrix difference =
+      reshaped.weights_of_points().dense() - made.weights_of_points().dense();
+  EXPECT_LT(difference.squaredNorm() / points.cols(), 1e-5);
+}
+
+TEST_IN_2D_AND_3D(RigTest, ARefusedShapeChangesNothing) {
+  auto changed = rig<Dim>();
+  const auto weights = changed.weights_of_points();
+  const auto cage = changed.cage();
+  const auto mesh = changed.mesh();
+  const auto expect_unchanged = [&] {
+    EXPECT_TRUE(changed.cage().points == cage.points);
+    EXPECT_TRUE(changed.mesh().points == mesh.points);
+    EXPECT_TRUE(changed.weights_of_points() == weights);
+  };
+  const Vector<Dim> center = cage.points.rowwise().mean();
+  const PointList<Dim> small = (0.2 * (cage.points.colwise() - center)).colwise() + center;
+  expect_refused<InputError>("outside", [&] { changed.reshape(small); });
+  expect_unchanged();
+  PointList<Dim> flat = cage.points;
+  flat.row(0).setZero();
+  EXPECT_THROW(changed.reshape(flat), InputError);
+  expect_unchanged();
+  EXPECT_THROW(changed.reshape(cage.points.leftCols(1)), InputError);
+  expect_unchanged();
+  PointList<Dim> far = model<Dim>(mesh);
+  far.col(3).array() += 100;
+  expect_refused<InputError>("outside", [&] { changed.set_model(far, {}); });
+  expect_unchanged();
+  BindOptions few;
+  few.max_influences = Dim;
+  EXPECT_THROW(changed.set_options(few), OptionError);
+  expect_unchanged();
+}
+
+TEST_IN_2D_AND_3D(RigTest, AnotherModelNeedsNoSolve) {
+  auto changed = rig<Dim>();
+  changed.weights_of_points();
+  const auto iterations = changed.solution().report.iterations;
+  const PointList<Dim> points = model<Dim>(changed.mesh()).rightCols(10);
+  changed.set_model(points, {});
+  expect_reproduces<Dim>(changed, points);
+  EXPECT_EQ(changed.solution().report.iterations, iterations);
+  BindOptions outside;
+  outside.outside = OutsidePoints::kNearest;
+  changed.set_options(outside);
+  PointList<Dim> far = points;
+  far.col(3).array() += 100;
+  changed.set_model(far, {});
+  EXPECT_EQ(changed.bind().outside, std::vector<Index>{3});
+}
+
+TEST_IN_2D_AND_3D(RigTest, TakesTheSolutionOfAnother) {
+  auto first = rig<Dim>();
+  auto second = rig<Dim>();
+  second.set_solution(first.solve());
+  EXPECT_TRUE(second.weights_of_points() == first.weights_of_points());
+  const auto control_points = with_one_moved<Dim>(first.cage().points, 0.05);
+  first.reshape(control_points);
+  second.reshape(control_points);
+  EXPECT_TRUE(second.weights_of_points() == first.weights_of_points());
+  EXPECT_THROW(second.set_solution({}), InputError);
+}
+
+}  // namespace
+}  // namespace flbc::testing
