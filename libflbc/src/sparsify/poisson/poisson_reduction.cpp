@@ -145,18 +145,18 @@ class PoissonDescent {
   }
 
   // Adopting the supports of neighbors gives most of the gain and costs little, so exchanges with
-  // other control points come last.
+  // other control points come last, once. On a horse of 48,485 vertices, 233,000 visits leave
+  // edges an error of 1.02% in smooth poses; 307,000 visits, of 0.96%.
   void run() {
-    constexpr int kAdoptions = 7, kExchanges = 3;
-    constexpr double kAdopted = 0.6;  // share of the time
+    constexpr double kAdopted = 0.8;  // share of the time
     {
       const StagePart part(0, kAdopted);
-      sweep_until_settled(kAdoptions);
+      adopt_until_settled();
     }
     const StagePart part(kAdopted, 1);
     exchanges_ = true;
     std::fill(open_.begin(), open_.end(), true);
-    sweep_until_settled(kExchanges);
+    sweep();
   }
 
   // The weights of a point with exact sum and reproduction. Points without edges, or where
@@ -248,16 +248,14 @@ class PoissonDescent {
     });
   }
 
-  // Sweeps over the points until no point gains more than the least gain, at most `sweeps` times.
-  void sweep_until_settled(int sweeps) {
-    // Each sweep leaves about this fraction of work to the next.
-    constexpr double kFall = 0.6;
-    for (int k = 0; k < sweeps; ++k) {
-      const StagePart part(1 - std::pow(kFall, k), 1 - std::pow(kFall, k + 1));
+  // Sweeps over the points until no point gains more than the least gain.
+  void adopt_until_settled() {
+    constexpr int kMostSweeps = 5;
+    for (int k = 0; k < kMostSweeps; ++k) {
+      const StagePart part(static_cast<double>(k) / kMostSweeps, (k + 1.0) / kMostSweeps);
       if (!sweep()) return;
       // The first two sweeps bring the energy near its end.
-      if (k == 1 && !exchanges_)
-        least_gain_ = kLeastGain * energy() / static_cast<double>(points_.cols());
+      if (k == 1) least_gain_ = kLeastGain * energy() / static_cast<double>(points_.cols());
     }
   }
 
