@@ -2,7 +2,9 @@
 #include <thread>
 
 #include "flbc/coordinates.h"
+#include "flbc/harmonic.h"
 #include "flbc/names.h"
+#include "flbc/published_penalty.h"
 #include "support/refined_sample.h"
 #include "support/solver_options.h"
 
