@@ -37,11 +37,12 @@ py::tuple mesh(const Doubles& points, const Indices& facets, Index vertices,
     MeshingOptions<kDim> options;
     options.vertices = vertices;
     options.time_limit = time_limit;
+    options.poll = interruption();
     if (embedded) options.embedded_points = points_of<kDim>(*embedded);
     const auto made = without_gil([&] {
       validate(cage);
       options.embedded_points = embeddable_points(cage, options.embedded_points).points;
-      return make_domain(cage, options, linked_meshers<kDim>(), throw_if_interrupted);
+      return make_domain(cage, options, linked_meshers<kDim>());
     });
     return py::make_tuple(as_python(made.mesh), made.note);
   });

@@ -183,5 +183,17 @@ TEST_F(IsolatedProcessTest, RunsFromSeveralThreadsDoNotMix) {
   }
 }
 
+TEST(IsolatedProcessTest, WhatPollThrowsEndsTheChild) {
+  int calls = 0;
+  const auto poll = [&] {
+    if (++calls == 3) throw std::runtime_error("cancelled");
+  };
+  const auto sleep = [](const ByteSink&) {
+    while (true) std::this_thread::sleep_for(std::chrono::seconds(1));
+  };
+  EXPECT_THROW(run_isolated(sleep, {1000, poll}), std::runtime_error);
+  EXPECT_EQ(calls, 3);
+}
+
 }  // namespace
 }  // namespace flbc

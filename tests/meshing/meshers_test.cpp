@@ -56,6 +56,15 @@ TEST_IN_2D_AND_3D(MeshersTest, PointsThatCannotBeEmbedded) {
   refused({std::nan(""), 0.75, 0.75}, "not finite");
 }
 
+TEST_IN_2D_AND_3D(MeshersTest, WhatPollThrowsEndsThem) {
+  struct Cancelled {};
+  auto options = vertices<Dim>(3000);
+  options.poll = [calls = 0]() mutable {
+    if (++calls == 2) throw Cancelled();
+  };
+  EXPECT_THROW(fill<Dim>(box_with_hole<Dim>(), options), Cancelled);
+}
+
 TEST_IN_2D_AND_3D(MeshersTest, OptionsOutOfRange) {
   auto cage = box_with_hole<Dim>();
   // Bent, because where facets are coplanar the smallest mesh need not be the one returned.

@@ -42,11 +42,10 @@ constexpr Index kDefaultVertices = 10000;
 //! \param cage  n control points, valid; without a check free of self-intersections
 //! \param options  of the whole mesh, see mesh_in_parts()
 //! \param meshers  at least one
-//! \param poll  called before another mesher is tried; what it throws passes through
 //! \throws OptionError if there is no mesher, or no mesher supports the options; InputError with
 //! the reasons of all meshers
 template <int Dim>
 MadeDomain<Dim> make_domain(const Cage<Dim>& cage, const MeshingOptions<Dim>& options,
-                            const Meshers<Dim>& meshers, const std::function<void()>& poll = {});
+                            const Meshers<Dim>& meshers);
 
 }  // namespace flbc

@@ -29,6 +29,10 @@ struct MeshingOptions {
 
   //! Time limit in seconds for one run of a mesher, including retries.
   double time_limit = 60;
+
+  //! Called about every 0.1 s while the mesher runs. What it throws ends the mesher and passes
+  //! through.
+  std::function<void()> poll{};
 };
 
 //! Points for MeshingOptions::embedded_points, and their relation to the given points.

@@ -26,11 +26,10 @@ DomainMesh<Dim> fill_or_exceed(const PartMesher<Dim>& mesher, const Cage<Dim>& c
 // \param made  receives the mesher and what those before it said
 template <int Dim>
 DomainMesh<Dim> fill_by_first(const Cage<Dim>& cage, const MeshingOptions<Dim>& options,
-                              const Meshers<Dim>& meshers, const std::function<void()>& poll,
-                              MadeDomain<Dim>& made) {
+                              const Meshers<Dim>& meshers, MadeDomain<Dim>& made) {
   std::string failures;
   for (const auto& [name, mesher] : meshers.in_order) {
-    if (!failures.empty() && poll) poll();
+    if (options.poll) options.poll();
     try {
       auto mesh = fill_or_exceed(mesher, cage, options);
       if (!failures.empty()) add_sentence(made.note, failures + "; the mesh was made by " + name);
@@ -57,7 +56,7 @@ std::string note_on_count(Index wanted, Index count) {
 
 template <int Dim>
 MadeDomain<Dim> make_domain(const Cage<Dim>& cage, const MeshingOptions<Dim>& options,
-                            const Meshers<Dim>& meshers, const std::function<void()>& poll) {
+                            const Meshers<Dim>& meshers) {
   if (meshers.in_order.empty()) {
     throw OptionError(std::string("there is no mesher for ") + (Dim == 2 ? "2D" : "3D") +
                       " cages: link the component " +
@@ -68,7 +67,7 @@ MadeDomain<Dim> make_domain(const Cage<Dim>& cage, const MeshingOptions<Dim>& op
   MadeDomain<Dim> made;
   made.mesh = mesh_in_parts<Dim>(cage, options,
                                  [&](const Cage<Dim>& part, const MeshingOptions<Dim>& of_part) {
-                                   return fill_by_first(part, of_part, meshers, poll, made);
+                                   return fill_by_first(part, of_part, meshers, made);
                                  });
   const auto on_count = note_on_count(options.vertices, made.mesh.num_vertices());
   if (!on_count.empty()) add_sentence(made.note, on_count);

@@ -67,7 +67,8 @@ Rig<Dim>::Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindO
   const Stopwatch watch;
   MeshingOptions<Dim> meshing;
   meshing.vertices = options_.vertices;
-  auto made = make_domain(cage_, meshing, meshers, options_.observer.poll);
+  meshing.poll = options_.observer.poll;
+  auto made = make_domain(cage_, meshing, meshers);
   mesh_ = std::move(made.mesh);
   report_.mesher = std::move(made.mesher);
   report_.note = std::move(made.note);

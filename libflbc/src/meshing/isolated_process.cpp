@@ -173,15 +173,17 @@ class Child {
   Child& operator=(const Child&) = delete;
 
   //! Reads until the child closes the pipe. \return false if the deadline passed first
-  bool read_all(std::vector<char>& output, Clock::time_point deadline) {
+  bool read_all(std::vector<char>& output, Clock::time_point deadline,
+                const std::function<void()>& poll_caller) {
     std::vector<char> buffer(std::size_t{1} << 16);
     while (true) {
       const auto left =
           std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
       if (left <= 0) return false;
+      if (poll_caller) poll_caller();
       pollfd watched{pipe_, POLLIN, 0};
-      const auto patience = std::min<decltype(left)>(left, 60000);
-      const int ready = poll(&watched, 1, static_cast<int>(patience));
+      const auto pause = std::min<decltype(left)>(left, 100);
+      const int ready = poll(&watched, 1, static_cast<int>(pause));
       if (ready < 0 && errno != EINTR) throw_system_error("wait for data");
       if (ready <= 0) continue;
       const ssize_t received = read(pipe_, buffer.data(), buffer.size());
@@ -209,15 +211,16 @@ class Child {
 
 }  // namespace
 
-ProcessOutcome run_isolated(const std::function<void(const ByteSink&)>& work, double time_limit) {
+ProcessOutcome run_isolated(const std::function<void(const ByteSink&)>& work,
+                            const Patience& patience) {
   constexpr double kLongest = 1e8;  // three years, far below the range of the clock
-  const std::chrono::duration<double> limit(std::min(time_limit, kLongest));
+  const std::chrono::duration<double> limit(std::min(patience.seconds, kLongest));
   const Clock::time_point deadline =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);
 
   ProcessOutcome outcome;
   Child child(work);
-  if (!child.read_all(outcome.output, deadline)) {
+  if (!child.read_all(outcome.output, deadline, patience.poll)) {
     child.stop();
     child.wait();
     outcome.end = ProcessEnd::kTimedOut;
@@ -236,8 +239,8 @@ ProcessOutcome run_isolated(const std::function<void(const ByteSink&)>& work, do
 }
 
 ProcessOutcome run_isolated(IsolatedFunction function, const std::vector<char>& input,
-                            double time_limit) {
-  return run_isolated([&](const ByteSink& send) { function(input, send); }, time_limit);
+                            const Patience& patience) {
+  return run_isolated([&](const ByteSink& send) { function(input, send); }, patience);
 }
 
 std::string describe_signal(int signal) {

@@ -57,11 +57,17 @@ class ByteSource {
   std::size_t position_ = 0;
 };
 
+//! How a parent waits.
+struct Patience {
+  double seconds;                //!< time limit, > 0
+  std::function<void()> poll{};  //!< called every 0.1 s; what it throws ends child and wait
+};
+
 //! Runs `work` in a forked child with a copy of the memory of the parent. Its output is discarded,
-//! and it dumps no core. No process or file descriptor is leaked. \param time_limit  in seconds, >
-//! 0 \throws Error if the system cannot create a process or pipe; std::bad_alloc if `work` throws
-//! it
-ProcessOutcome run_isolated(const std::function<void(const ByteSink&)>& work, double time_limit);
+//! and it dumps no core. No process or file descriptor is leaked.
+//! \throws Error if the system cannot create a process or pipe; std::bad_alloc if `work` throws it
+ProcessOutcome run_isolated(const std::function<void(const ByteSink&)>& work,
+                            const Patience& patience);
 
 //! A function that is called in the other process, with a copy of `input`.
 using IsolatedFunction = void (*)(const std::vector<char>& input, const ByteSink& send);
@@ -69,7 +75,7 @@ using IsolatedFunction = void (*)(const std::vector<char>& input, const ByteSink
 //! The same without a copy of the memory, for systems that cannot fork. These have only this one:
 //! there the other process is the same program, and the function runs before main().
 ProcessOutcome run_isolated(IsolatedFunction function, const std::vector<char>& input,
-                            double time_limit);
+                            const Patience& patience);
 
 //! "signal 11 (Segmentation fault)".
 std::string describe_signal(int signal);

@@ -98,7 +98,7 @@ int enter_copy(std::uintptr_t stack, const Work* work) {
 
 }  // namespace
 
-ProcessOutcome run_isolated(const Work& work, double) {
+ProcessOutcome run_isolated(const Work& work, const Patience&) {
   ProcessOutcome outcome;
   const int end = flbc_run_in_copy(static_cast<int>(reinterpret_cast<std::uintptr_t>(&enter_copy)),
                                    emscripten_stack_get_current(), &__data_end,
@@ -111,8 +111,8 @@ ProcessOutcome run_isolated(const Work& work, double) {
 }
 
 ProcessOutcome run_isolated(IsolatedFunction function, const std::vector<char>& input,
-                            double time_limit) {
-  return run_isolated([&](const ByteSink& send) { function(input, send); }, time_limit);
+                            const Patience& patience) {
+  return run_isolated([&](const ByteSink& send) { function(input, send); }, patience);
 }
 
 std::string describe_signal(int) {

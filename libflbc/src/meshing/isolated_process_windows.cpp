@@ -216,9 +216,9 @@ std::vector<char> read_until_closed(HANDLE pipe) {
 }  // namespace
 
 ProcessOutcome run_isolated(IsolatedFunction function, const std::vector<char>& input,
-                            double time_limit) {
+                            const Patience& patience) {
   constexpr double kLongest = 4e6;  // seconds; in milliseconds these are nearly the most of a DWORD
-  const auto limit = static_cast<DWORD>(1000 * std::min(time_limit, kLongest));
+  const auto limit = static_cast<DWORD>(1000 * std::min(patience.seconds, kLongest));
   const auto memory = share(input);
   const auto job = make_job();
   auto attributes = inherited();

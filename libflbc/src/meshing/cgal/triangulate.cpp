@@ -137,6 +137,7 @@ DomainMesh<2> mesh_interior(const Cage<2>& cage, const PointList<2>& input, doub
                        "close");
     }
     seconds += watch.lap();
+    if (options.poll) options.poll();
     if (seconds > options.time_limit) {
       throw InputError(
           "CGAL was stopped at the time limit of " + format_number(options.time_limit) +

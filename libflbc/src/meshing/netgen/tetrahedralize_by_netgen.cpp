@@ -151,14 +151,15 @@ void mesh_and_send(const Cage<3>& surface, double longest, const ByteSink& send)
 // Fills a surface with tetrahedra in a separate process.
 // \param surface     outer shells with outward normals, cavities with inward normals
 // \param longest     approximate maximum edge length, in the units of the surface
-// \param seconds     time limit \param time_limit  time limit shown in messages
+// \param seconds     time limit \param patience  its time limit is shown in messages
 // \return a mesh that starts with the points of the surface and contains all its triangles
 // \throws InputError if Netgen fails, crashes, takes longer or cannot be loaded
 DomainMesh<3> run_netgen(const Cage<3>& surface, double longest, double seconds,
-                         double time_limit) {
+                         const Patience& patience) {
   const ProcessOutcome outcome =
-      run_isolated([&](const ByteSink& send) { mesh_and_send(surface, longest, send); }, seconds);
-  const auto failure = describe_failure(outcome, time_limit);
+      run_isolated([&](const ByteSink& send) { mesh_and_send(surface, longest, send); },
+                   {seconds, patience.poll});
+  const auto failure = describe_failure(outcome, patience.seconds);
   if (!failure.empty()) fail(failure);
 
   ByteSource source(outcome.output, [] { fail("sent an incomplete result"); });
@@ -192,7 +193,7 @@ constexpr std::size_t kMaxSurfacePoints = 1'000'000;
 struct Task {
   OrientedCage<3> oriented;
   double size;  // of the cage
-  double time_limit;
+  Patience patience;
 };
 
 double surface_area(const Cage<3>& cage) {
@@ -234,12 +235,12 @@ void check_surface_is_kept(const Task& task, const Cage<3>& surface, const Domai
 // \param longest  edge lengths to try in order, within one time limit
 DomainMesh<3> fill_by_first(const Task& task, const std::vector<double>& longest) {
   Stopwatch watch;
-  double left = task.time_limit;
+  double left = task.patience.seconds;
   for (std::size_t k = 0;; ++k) {
     // If this has too many points, shorter edges would have even more.
     const auto surface = subdivide_surface(task.oriented.cage, longest[k], kMaxSurfacePoints);
     try {
-      auto mesh = run_netgen(surface, longest[k], left, task.time_limit);
+      auto mesh = run_netgen(surface, longest[k], left, task.patience);
       check_surface_is_kept(task, surface, mesh);
       return mesh;
     } catch (const InputError&) {
@@ -296,7 +297,8 @@ DomainMesh<3> tetrahedralize_by_netgen(const Cage<3>& cage, const MeshingOptions
     throw OptionError(
         "Netgen cannot make given points vertices of its mesh; choose another mesher");
   }
-  const Task task{orient(cage), bounding_box_diagonal(cage.points), options.time_limit};
+  const Task task{
+      orient(cage), bounding_box_diagonal(cage.points), {options.time_limit, options.poll}};
   return fill_with(task, options.vertices);
 }
 

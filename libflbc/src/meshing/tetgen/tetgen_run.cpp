@@ -133,12 +133,13 @@ void refuse_failure(const ProcessOutcome& outcome, double time_limit) {
 // On valid cages with many coplanar points, TetGen sometimes fails an assertion in point location,
 // depending on the insertion order of points. b0/0 uses the input order; l flips incrementally.
 ProcessOutcome run_with_fallbacks(const TetgenInput& input, const std::string& switches,
-                                  double time_limit) {
+                                  const Patience& patience) {
   Stopwatch watch;
-  double left = time_limit;
+  double left = patience.seconds;
   ProcessOutcome outcome;
   for (const char* order : {"", "b0/0", "lb0/0"}) {
-    outcome = run_isolated(tetrahedralize_and_send, packed(input, switches + order), left);
+    outcome = run_isolated(tetrahedralize_and_send, packed(input, switches + order),
+                           {left, patience.poll});
     if (outcome.end != ProcessEnd::kCrashed && outcome.end != ProcessEnd::kThrew) break;
     left -= watch.lap();
     if (left <= 0) break;
@@ -148,9 +149,10 @@ ProcessOutcome run_with_fallbacks(const TetgenInput& input, const std::string& s
 
 }  // namespace
 
-TetgenOutput run_tetgen(const TetgenInput& input, const std::string& switches, double time_limit) {
-  const ProcessOutcome outcome = run_with_fallbacks(input, switches, time_limit);
-  refuse_failure(outcome, time_limit);
+TetgenOutput run_tetgen(const TetgenInput& input, const std::string& switches,
+                        const Patience& patience) {
+  const ProcessOutcome outcome = run_with_fallbacks(input, switches, patience);
+  refuse_failure(outcome, patience.seconds);
 
   ByteSource source(outcome.output, [] { fail("sent an incomplete result"); });
   Header header{};

@@ -7,6 +7,7 @@
 
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
+#include "meshing/isolated_process.h"
 
 namespace flbc {
 
@@ -23,9 +24,9 @@ struct TetgenOutput {
   std::vector<Index> regions;  //!< per cell, the index of its region; facets separate regions
 };
 
-//! \param switches    of TetGen, for example "pq1.414QJA"
-//! \param time_limit  in seconds
+//! \param switches  of TetGen, for example "pq1.414QJA"
 //! \throws InputError if TetGen fails, crashes, or exceeds the time limit
-TetgenOutput run_tetgen(const TetgenInput& input, const std::string& switches, double time_limit);
+TetgenOutput run_tetgen(const TetgenInput& input, const std::string& switches,
+                        const Patience& patience);
 
 }  // namespace flbc

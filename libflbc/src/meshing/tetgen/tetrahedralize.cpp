@@ -92,11 +92,11 @@ std::map<Index, Vector<3>> points_in_regions(const TetgenOutput& filled) {
 
 // TetGen fills everything that the outermost shell encloses. A first coarse mesh identifies
 // cavities, so later runs leave them empty.
-PointList<3> find_cavities(const Cage<3>& cage, double time_limit) {
+PointList<3> find_cavities(const Cage<3>& cage, const Patience& patience) {
   const std::vector<Index> shells = facet_shells(cage);
   PointList<3> cavities(3, 0);
   if (*std::max_element(shells.begin(), shells.end()) == 0) return cavities;
-  const TetgenOutput filled = run_tetgen({cage.points, cage.facets, cavities}, "pAQJ", time_limit);
+  const TetgenOutput filled = run_tetgen({cage.points, cage.facets, cavities}, "pAQJ", patience);
   const CageLocator<3> locator(cage, 0);
   for (const auto& [region, point] : points_in_regions(filled)) {
     if (locator.locate(point) != Containment::kOutside) continue;
@@ -168,12 +168,12 @@ struct Task {
   Index vertices;  // wanted; 0 = any
 };
 
-// \param time_limit  for each run of TetGen
-DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, double time_limit) {
+// \param patience  for each run of TetGen
+DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, const Patience& patience) {
   const Index most_points = std::max(kMostPoints, 4 * task.vertices);
   const auto make_mesh = [&](double ratio, double largest_volume) {
     const std::string switches = quality_switches(coplanar, ratio, largest_volume, most_points);
-    DomainMesh<3> mesh = run_tetgen(task.input, switches, time_limit).mesh;
+    DomainMesh<3> mesh = run_tetgen(task.input, switches, patience).mesh;
     if (mesh.num_vertices() - task.input.points.cols() >= most_points) {
       throw InputError("well-shaped cells would need more than " + std::to_string(most_points) +
                        " vertices in this cage" + describe_thinnest(task.cage) +
@@ -197,9 +197,9 @@ DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, double time_limit)
 // A mesh that also contains cage edges between coplanar facets; empty if TetGen fails. Without
 // these edges, boundary values are not exactly linear along them, which is better than having no
 // mesh.
-DomainMesh<3> keep_coplanar_edges(const Task& task, double time_limit) {
+DomainMesh<3> keep_coplanar_edges(const Task& task, const Patience& patience) {
   try {
-    return fill(task, CoplanarFacets::kKeep, time_limit);
+    return fill(task, CoplanarFacets::kKeep, patience);
   } catch (const InputError&) {
   } catch (const OptionError&) {
   }
@@ -208,13 +208,13 @@ DomainMesh<3> keep_coplanar_edges(const Task& task, double time_limit) {
 
 // The time for a mesh of so many vertices, by that of the coarsest one, and far more, unless TetGen
 // does not terminate.
-double ample_time(const Task& task, double time_limit) {
+Patience ample_time(const Task& task, const Patience& patience) {
   Task coarsest = task;
   coarsest.vertices = 0;
   Stopwatch watch;
-  const auto mesh = fill(coarsest, CoplanarFacets::kJoin, time_limit);
+  const auto mesh = fill(coarsest, CoplanarFacets::kJoin, patience);
   const double ratio = static_cast<double>(task.vertices) / mesh.num_vertices();
-  return std::min(time_limit, 5 + 20 * watch.lap() * std::max(1.0, ratio));
+  return {std::min(patience.seconds, 5 + 20 * watch.lap() * std::max(1.0, ratio)), patience.poll};
 }
 
 }  // namespace
@@ -222,18 +222,18 @@ double ample_time(const Task& task, double time_limit) {
 DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& options) {
   validate(cage);
   const PointList<3> points = collect_input_points(cage, options);
-  const Task task{
-      cage, {points, cage.facets, find_cavities(cage, options.time_limit)}, options.vertices};
+  const Patience patience{options.time_limit, options.poll};
+  const Task task{cage, {points, cage.facets, find_cavities(cage, patience)}, options.vertices};
 
   DomainMesh<3> mesh;
   try {
     if (has_coplanar_facets(cage)) {
-      mesh = keep_coplanar_edges(task, ample_time(task, options.time_limit));
+      mesh = keep_coplanar_edges(task, ample_time(task, patience));
     }
     const bool has_count =
         mesh.num_vertices() > 0 &&
         (task.vertices == 0 || VertexCountGoal<3>{task.vertices, kCountTolerance}.is_met(mesh));
-    if (!has_count) mesh = fill(task, CoplanarFacets::kJoin, options.time_limit);
+    if (!has_count) mesh = fill(task, CoplanarFacets::kJoin, patience);
   } catch (const InputError& error) {
     if (mesh.num_vertices() == 0) throw InputError(error.what() + describe_thinnest(cage));
   } catch (const TooFewVertices&) {  // joined facets of thin rods need more cells
