@@ -373,7 +373,7 @@ class Caging {
   }
 
   // Open and flat models have none to speak of.
-  bool has_volume() const { return thickness_ > 1e-3 * size_; }
+  bool has_volume() const { return thickness_ > kFlat * size_; }
 
   ModelCage<Dim> describe(const Cage<Dim>& cage, double offset) const {
     ModelCage<Dim> made{cage, offset, plane_.axis, plane_.position, distances(cage, *model_).mean};

@@ -17,6 +17,10 @@ Cage<Dim> simplified(const PointList<Dim>& points, const FacetList<Dim>& facets,
 //! \param points  not all in a plane \return outward normals
 Cage<3> convex_hull(const PointList<3>& points);
 
+//! A model thinner than this, relative to its size, is flat: a mesh of its volume would have
+//! hundreds of thousands of cells.
+constexpr double kFlat = 3e-3;
+
 //! A closed surface close to a convex hull.
 struct ConvexSurface {
   Cage<3> surface;  //!< with rings of points across a rod, so that it can bend

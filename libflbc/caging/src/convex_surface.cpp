@@ -75,7 +75,7 @@ Cage<3> coarser(const Cage<3>& hull, const Vector<3>& center) {
 
 ConvexSurface convex_surface(const PointList<3>& points, double thickness) {
   constexpr double kEnlarged = 1.01;
-  constexpr double kFlat = 1e-3, kRod = 2.5;         // relations of extents
+  constexpr double kRod = 2.5;                       // relation of extents
   constexpr double kSpacing = 1.4, kMostRings = 40;  // spacing relative to the width
   constexpr double kNoLimit = std::numeric_limits<double>::infinity();
   const Frame frame(points);
