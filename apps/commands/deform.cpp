@@ -46,7 +46,7 @@ struct DeformArguments {
 };
 
 bool moves_points(const DeformArguments& arguments) {
-  return io::extension_of(arguments.file.model) == "npy";
+  return is_point_file(arguments.file.model);
 }
 
 bool needs_jacobians(const DeformArguments& arguments) {
@@ -89,17 +89,13 @@ void check_arguments(const DeformArguments& arguments) {
     if (arguments.is_relative) {
       throw OptionError(arguments.file.model + ": points cannot be moved with --relative");
     }
-    if (arguments.domain.empty()) {
-      throw OptionError(arguments.file.model +
-                        ": points need --domain and --rest; --weights are those of the domain");
-    }
     if (!arguments.displacement.empty() || arguments.file.shows_displacement ||
         arguments.normals == kJacobian) {
       throw OptionError(arguments.file.model +
                         ": points have no normals and no colors; remove --displacement, "
                         "--show-displacement, and --normals");
     }
-    return require_writable(arguments.file.output, "npy");
+    return require_writable(arguments.file.output, io::extension_of(arguments.file.model).c_str());
   }
   require_formats(arguments.file);
   if (arguments.domain.empty() && moves_splats(arguments.file)) {
@@ -284,12 +280,20 @@ void print_summary(const MovableModel<Dim>& model, const std::vector<Pose<Dim>>&
   }
 }
 
+// Points have no edges that would show a jump.
+void warn_unknown_border(const std::string& file) {
+  std::cerr << "flbc: " << file
+            << ": the deformation jumps where a moved facet passes through a mesh of these points; "
+               "this is not checked, because points have no edges\n";
+}
+
 // Of vertices without weights.
 template <int Dim>
 void warn_border(const MovableModel<Dim>& model, const RestCage<Dim>& rest,
                  const SparseWeights& weights, const std::vector<Pose<Dim>>& poses,
                  const DeformArguments& arguments) {
   if (count_without_weights(weights) == 0) return;
+  if (moves_points(arguments)) return warn_unknown_border(arguments.file.model);
   const Border<Dim> border(rest.cage(), model.points(), model.edges(), weights);
   const auto text = border.describe(poses);
   if (!text.empty()) std::cerr << "flbc: " << arguments.file.model << ' ' << text << '\n';
@@ -329,6 +333,8 @@ void deform_in_batches(const io::PointLayout& layout, const RestCage<Dim>& rest,
     std::cerr << "; " << all.outside << " vertices are outside the cage, by up to " << all.farthest;
   }
   std::cerr << '\n';
+  const bool has_border = all.outside > 0 && arguments.outside == OutsidePoints::kKeep;
+  if (has_border) warn_unknown_border(input);
 }
 
 template <int Dim>
@@ -383,7 +389,7 @@ void add_deform_command(CLI::App& app, int&) {
   command
       ->add_option("MODEL", a.file.model,
                    "model (.obj .off .ply .stl .om .glb), domain mesh (.vtu; 3D: .mesh .node .ele "
-                   ".msh), or points (.npy, with --domain)")
+                   ".msh), or points (.npy .csv)")
       ->required();
   auto* weights = command->add_option("--weights", a.weights, describe_weight_file());
   auto* method =

@@ -253,8 +253,8 @@ void add_shapes(CLI::App& command, RunArguments& a) {
       ->required();
   command.add_option(
       "MODEL", a.settings.model,
-      "model inside the cage: .obj .off .ply .stl .om .glb .gltf (default: the mesh of the "
-      "cage interior)");
+      "model inside the cage: .obj .off .ply .stl .om .glb .gltf, or points: .npy .csv (default: "
+      "the mesh of the cage interior)");
   command.option_defaults()->group("Cage and poses");
   auto* makes_cage =
       command.add_flag("--auto-cage", a.makes_cage, "make a cage around the first file");

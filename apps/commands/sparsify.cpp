@@ -60,7 +60,6 @@ struct ConnectedPoints {
 // The vertices of a domain mesh or a model.
 template <int Dim>
 ConnectedPoints<Dim> load_connected_points(const std::string& path) {
-  if (is_point_file(path)) return {load_points<Dim>(path), {}};
   const MovedFile same{path, path};
   if (io::holds(path, kMeshFiles)) require_formats_of<Dim>(same);
   const MovableModel<Dim> model(same);

@@ -54,6 +54,8 @@ Transferred<Dim> from_domain(const Cage<Dim>& cage, const SparseWeights& weights
   const auto domain = io::read_domain<Dim>(arguments.domain);
   check_sizes(weights, cage.size(), domain.num_vertices(),
               {arguments.weights, arguments.cage, arguments.domain});
+  check_reproduction(weights, cage, domain.points,
+                     {arguments.weights, arguments.cage, arguments.domain});
   const auto to = load_model<Dim>(arguments.to);
   const auto placement =
       placing<Dim>(arguments.to, [&] { return place_points(cage, domain, to, arguments.outside); });
@@ -69,6 +71,8 @@ Transferred<Dim> from_model(const Cage<Dim>& cage, const SparseWeights& weights,
   const auto from = load_model_elements<Dim>(arguments.from);
   check_sizes(weights, cage.size(), from.points.cols(),
               {arguments.weights, arguments.cage, arguments.from});
+  check_reproduction(weights, cage, from.points,
+                     {arguments.weights, arguments.cage, arguments.from});
   auto to = load_model<Dim>(arguments.to);
   const double size = bounding_box_diagonal(from.points);
   Eigen::VectorXd distances;

@@ -47,16 +47,11 @@ FacetList<2> flat_facets(const io::PolygonSoup& soup) {
 }
 
 FacetList<3> solid_facets(const io::PolygonSoup& soup) {
-  std::vector<Vector<3>> corners;
   std::vector<Eigen::Matrix<Index, 3, 1>> triangles;
   for (const auto& polygon : soup.polygons) {
     if (polygon.size() < 3) continue;
-    corners.clear();
-    for (const Index v : polygon) corners.push_back(soup.points[v]);
-    const auto parts = io::cut_polygon(corners);
-    for (Eigen::Index t = 0; t < parts.cols(); ++t) {
-      triangles.emplace_back(polygon[parts(0, t)], polygon[parts(1, t)], polygon[parts(2, t)]);
-    }
+    const auto parts = io::cut_polygon(soup.points, polygon);
+    triangles.insert(triangles.end(), parts.colwise().begin(), parts.colwise().end());
   }
   for (const auto& [a, b] : edges_of(soup, false)) triangles.emplace_back(a, b, b);
   FacetList<3> facets(3, triangles.size());

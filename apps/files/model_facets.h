@@ -29,7 +29,8 @@ using AnyModelFacets = std::variant<ModelFacets<2>, ModelFacets<3>>;
 //! are others. \throws IoError, InputError, OptionError
 AnyModelFacets load_model_facets(const std::string& path);
 
-//! The outline of the pixels of a .png file that are not wholly transparent.
+//! The outline of the pixels of a .png file that are not transparent: their alpha is at least 1/32
+//! of the highest.
 //! \throws IoError; InputError if the file is no such picture, or has no pixel that is transparent
 //! or none that is not
 ModelFacets<2> load_silhouette(const std::string& path);
@@ -37,6 +38,7 @@ ModelFacets<2> load_silhouette(const std::string& path);
 //! Whether each pixel of a picture is to be seen, row by row from the bottom.
 struct Mask {
   Index width = 0, height = 0;
+  int lowest_alpha = 255;
   std::vector<bool> pixels{};
 
   bool at(Index x, Index y) const {

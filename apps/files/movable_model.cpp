@@ -125,6 +125,10 @@ MovableModel<Dim>::MovableModel(MovedFile file) : file_(std::move(file)) {
       return;
     }
   }
+  if (is_point_file(path)) {
+    points_ = load_points<Dim>(path);
+    return;
+  }
   if (is_model_file(path)) {
     model_.emplace(path);
     if (!is_rewritten(file_)) find_losses(model_->model());
@@ -184,6 +188,7 @@ void MovableModel<Dim>::write(const std::string& path, const PointList<Dim>& poi
                             [&](std::ostream& out) { splats_->write(out, points, jacobians); });
     }
   }
+  if (is_point_file(file_.model)) return io::write_weights(path, points);
   if (model_ && is_rewritten(file_)) {
     return io::write_file(path, [&](std::ostream& out) { model_->write(out, points, jacobians); });
   }

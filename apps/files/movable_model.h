@@ -55,7 +55,7 @@ class MovableModel {
   //! Dim x P.
   const PointList<Dim>& points() const { return points_; }
 
-  //! Content of a model's file; null for meshes of the interior.
+  //! Content of a model's file; null for points and for meshes of the interior.
   const io::Model* model() const { return model_ ? &model_->model() : nullptr; }
 
   //! A mesh of the interior; empty for models.

@@ -12,8 +12,9 @@ ModelFacets<2> outline_of(const Mask& mask, const std::string& path) {
   const auto seen = std::count(mask.pixels.begin(), mask.pixels.end(), true);
   if (seen == 0) throw InputError(path + ": all pixels are transparent");
   if (seen == static_cast<std::ptrdiff_t>(mask.pixels.size())) {
-    throw InputError(path +
-                     ": no pixel is transparent; a silhouette needs a transparent background");
+    throw InputError(path + ": no pixel is transparent; the lowest alpha is " +
+                     std::to_string(mask.lowest_alpha) +
+                     " of 255. A silhouette needs a transparent background");
   }
   std::map<std::pair<Index, Index>, Index> number_of;
   std::vector<std::pair<Index, Index>> corners;

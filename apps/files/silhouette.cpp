@@ -74,11 +74,18 @@ Mask read_mask(const std::string& path) {
     throw InputError(path + ": " + image.message);
   }
   constexpr std::size_t kChannels = 4, kAlpha = 3;
-  Mask mask{static_cast<Index>(image.width), static_cast<Index>(image.height)};
+  constexpr int kHaze = 32;  // nobody sees a pixel with less than this part of the highest alpha
+  png_byte lowest = 255, highest = 0;
+  for (std::size_t k = kAlpha; k < colours.size(); k += kChannels) {
+    lowest = std::min(lowest, colours[k]);
+    highest = std::max(highest, colours[k]);
+  }
+  Mask mask{static_cast<Index>(image.width), static_cast<Index>(image.height), lowest};
   for (Index y = mask.height - 1; y >= 0; --y) {
     for (Index x = 0; x < mask.width; ++x) {
       const auto pixel = static_cast<std::size_t>(y) * mask.width + x;
-      mask.pixels.push_back(colours[kChannels * pixel + kAlpha] > 0);
+      const int alpha = colours[kChannels * pixel + kAlpha];
+      mask.pixels.push_back(alpha > 0 && kHaze * alpha >= highest);
     }
   }
   return mask;

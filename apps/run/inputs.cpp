@@ -39,7 +39,7 @@ void load_keyframe_file(const Cage<Dim>& cage, const std::string& path, RunInput
 template <int Dim>
 Shape<Dim> load_shape(const std::string& path) {
   const std::filesystem::path file(path);
-  if (!io::holds(path, {io::Content::kModel})) {
+  if (!io::holds(path, {io::Content::kModel}) && !is_point_file(path)) {
     throw OptionError(path + ": unknown file format; a model must end in " +
                       io::extensions_of({io::Content::kModel}) + io::conversion_hint(path));
   }
@@ -49,7 +49,8 @@ Shape<Dim> load_shape(const std::string& path) {
   if (shape.points.cols() == 0) throw InputError(path + ": the model has no vertices");
   shape.edges = shape.file->edges();
   // Points and lines have none, and are fine nevertheless.
-  if (!shape.file->model()->soup.polygons.empty()) shape.surface = shape.file->surface();
+  const auto* model = shape.file->model();
+  if (model != nullptr && !model->soup.polygons.empty()) shape.surface = shape.file->surface();
   return shape;
 }
 

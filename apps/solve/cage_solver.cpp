@@ -47,6 +47,44 @@ nlohmann::ordered_json beside_json(const std::vector<NearestOnCage<Dim>>& points
   return json;
 }
 
+template <int Dim>
+Eigen::AlignedBox<double, Dim> box_of(const PointList<Dim>& points) {
+  return {points.rowwise().minCoeff(), points.rowwise().maxCoeff()};
+}
+
+// Whether a model outside of a cage would be inside with another axis up.
+bool fits_with_other_up_axis(const PointList<3>& cage, const PointList<3>& model) {
+  const auto around = box_of<3>(cage);
+  const auto fits = [&](double sign) {
+    PointList<3> turned = model;
+    turned.row(1) = sign * model.row(2);
+    turned.row(2) = -sign * model.row(1);
+    return around.contains(box_of<3>(turned));
+  };
+  return !around.contains(box_of<3>(model)) && (fits(1) || fits(-1));
+}
+
+// What to ask about a model that is outside of the cage.
+template <int Dim>
+std::string question_about(const PointList<Dim>& cage, const PointList<Dim>& model) {
+  if constexpr (Dim == 3) {
+    if (fits_with_other_up_axis(cage, model)) {
+      return "; with y and z exchanged the model would fit: was it exported with another up axis?";
+    }
+  }
+  return {};
+}
+
+template <int Dim>
+void warn_tiny(const PointList<Dim>& cage, const PointList<Dim>& model, const std::string& file) {
+  constexpr double kTiny = 1e-3;
+  const double part = std::pow(bounding_box_diagonal(model) / bounding_box_diagonal(cage), Dim);
+  if (model.cols() < 2 || part >= kTiny) return;
+  Facts facts;
+  facts << file << ": fills " << 100 * part << "% of the cage; are both in the same units?";
+  std::cerr << "flbc: " << facts.text() << '\n';
+}
+
 const char* name_of(Stage stage) {
   switch (stage) {
     case Stage::kDistances:
@@ -157,12 +195,13 @@ void CageSolver<Dim>::place_in_cage(bool quiet) {
   };
   try {
     place();
-  } catch (const InputError&) {
+  } catch (const InputError& error) {
     if (settings_.embed || !io::holds(settings_.model, {io::Content::kModel}) ||
         !only_loose_are_outside(cage_, model_, io::read_polygons(settings_.model))) {
-      throw;
+      throw InputError(error.what() + question_about<Dim>(cage_.points, model_));
     }
     outside_ = OutsidePoints::kNearest;
+    outside_verb_ = "belong to no face and are";
     place();
   }
 }
@@ -170,10 +209,12 @@ void CageSolver<Dim>::place_in_cage(bool quiet) {
 template <int Dim>
 void CageSolver<Dim>::make_domain(bool quiet) {
   // Refusals come before a mesh is made, which takes long.
+  const double size = bounding_box_diagonal(cage_.points);
+  if (!quiet && !settings_.model.empty()) warn_tiny<Dim>(cage_.points, model_, settings_.model);
   const bool may_refuse = !settings_.model.empty() && outside_ == OutsidePoints::kFail;
   if (may_refuse || is_meshless(settings_)) place_in_cage(quiet);
   if (is_meshless(settings_)) {
-    if (!quiet) warn_outside(placement_, bounding_box_diagonal(cage_.points), settings_.model);
+    if (!quiet) warn_outside(placement_, size, settings_.model, outside_verb_);
     return;
   }
   const auto start = std::chrono::steady_clock::now();
@@ -188,7 +229,7 @@ void CageSolver<Dim>::make_domain(bool quiet) {
   const ProgressBar bar(quiet, "locating the model vertices in the mesh");
   placement_ =
       placing<Dim>(settings_.model, [&] { return place_points(cage_, domain_, model_, outside_); });
-  if (!quiet) warn_outside(placement_, bounding_box_diagonal(cage_.points), settings_.model);
+  if (!quiet) warn_outside(placement_, size, settings_.model, outside_verb_);
 }
 
 template <int Dim>
@@ -292,22 +333,23 @@ std::string describe(const Placement<Dim>& placement, double size) {
 }
 
 void print_outside(const std::string& file, std::size_t count, std::size_t all, double distance,
-                   OutsidePoints policy) {
+                   OutsidePoints policy, const char* verb) {
   const char* const what = policy == OutsidePoints::kKeep ? "stay where they are"
                            : policy == OutsidePoints::kNearest
                                ? "follow its nearest point at a constant offset"
                                : "are extrapolated";
   Facts facts;
-  facts << file << ": " << count << " of " << all << " vertices are outside the cage, by up to "
-        << 100 * distance << "% of its size; they " << what;
+  facts << file << ": " << count << " of " << all << " vertices " << verb
+        << " outside the cage, by up to " << 100 * distance << "% of its size; they " << what;
   std::cerr << "flbc: " << facts.text() << '\n';
 }
 
 template <int Dim>
-void warn_outside(const Placement<Dim>& placement, double size, const std::string& file) {
+void warn_outside(const Placement<Dim>& placement, double size, const std::string& file,
+                  const char* verb) {
   if (placement.outside.empty()) return;
   print_outside(file, placement.outside.size(), placement.places.size(),
-                farthest(placement.outside).distance() / size, placement.policy);
+                farthest(placement.outside).distance() / size, placement.policy, verb);
 }
 
 bool report_convergence(const SolveReport& report, const SolveSettings& settings) {
@@ -337,7 +379,7 @@ bool report_convergence(const SolveReport& report, const SolveSettings& settings
                                            const SolveSettings&);                       \
   template class CageSolver<Dim>;                                                       \
   template std::string describe(const Placement<Dim>&, double);                         \
-  template void warn_outside(const Placement<Dim>&, double, const std::string&);
+  template void warn_outside(const Placement<Dim>&, double, const std::string&, const char*);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -83,7 +83,8 @@ class CageSolver {
   const Cage<Dim>& cage_;
   const PointList<Dim>& model_;
   const SolveSettings& settings_;
-  OutsidePoints outside_;  // treatment of vertices there
+  OutsidePoints outside_;             // treatment of vertices there
+  const char* outside_verb_ = "are";  // "vertices VERB outside the cage"
   DomainMesh<Dim> domain_;
   double mesh_seconds_ = 0;  // for making or reading it
   std::string mesher_ = "none";
@@ -99,14 +100,15 @@ template <int Dim>
 std::string describe(const Placement<Dim>& placement, double size);
 
 //! Prints how many vertices are outside the cage, how far, and what they do.
-//! \param distance  of the farthest, relative to the cage size
+//! \param distance  of the farthest, relative to the cage size \param verb  in "vertices VERB outside"
 void print_outside(const std::string& file, std::size_t count, std::size_t all, double distance,
-                   OutsidePoints policy);
+                   OutsidePoints policy, const char* verb = "are");
 
 //! The same of a placement, if there are any.
 //! \param file  of the model
 template <int Dim>
-void warn_outside(const Placement<Dim>& placement, double size, const std::string& file);
+void warn_outside(const Placement<Dim>& placement, double size, const std::string& file,
+                  const char* verb = "are");
 
 //! Calls an action that places the vertices of a model. Refusals name the file, and what to do with
 //! vertices outside the cage.

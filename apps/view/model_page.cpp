@@ -22,11 +22,14 @@ template <int Dim>
 view::ShownCage<Dim> cage_as_shown(const io::ModelFile& file, const std::string& path) {
   const auto& soup = file.model().soup;
   const auto cage = io::to_cage(soup, path);
+  const auto polygons = io::control_polygons<Dim>(soup);
   view::ShownCage<Dim> shown;
-  shown.points = io::to_points<Dim>(soup, path);
+  shown.points = io::to_points<Dim>(polygons, path);
   if (const auto* same = std::get_if<Cage<Dim>>(&cage)) shown.facets = same->facets;
-  shown.edges = view::edges_of_cage<Dim>(soup.polygons, shown.facets);
-  if (io::extension_of(path) == "obj") shown.text = file.text();
+  shown.edges = view::edges_of_cage<Dim>(polygons.polygons, shown.facets);
+  // A pose is written into this text, which therefore has the control points and no other vertices.
+  const bool has_others = soup.points.size() > polygons.points.size();
+  if (io::extension_of(path) == "obj" && !has_others) shown.text = file.text();
   return shown;
 }
 

@@ -16,14 +16,10 @@ Cage<3> cage_of_polygons(const PointList<3>& points,
         "use to_outline()");
   }
   std::vector<Eigen::Matrix<Index, 3, 1>> triangles;
-  std::vector<Vector<3>> corners;
+  const std::vector<Vector<3>> places(points.colwise().begin(), points.colwise().end());
   for (const auto& polygon : polygons) {
-    corners.clear();
-    for (const Index vertex : polygon) corners.push_back(points.col(vertex));
-    const auto parts = io::cut_polygon(corners);
-    for (const auto& part : parts.colwise()) {
-      triangles.emplace_back(polygon[part[0]], polygon[part[1]], polygon[part[2]]);
-    }
+    const auto parts = io::cut_polygon(places, polygon);
+    triangles.insert(triangles.end(), parts.colwise().begin(), parts.colwise().end());
   }
   Cage<3> cage{points, {}};
   cage.facets.resize(3, static_cast<Eigen::Index>(triangles.size()));

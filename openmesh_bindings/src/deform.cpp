@@ -3,9 +3,11 @@
 
 #include <atomic>
 #include <cstdint>
+#include <string>
 
 #include "base/parallel.h"
 #include "coordinates/weighted_sums.h"
+#include "flbc/errors.h"
 
 namespace flbc::openmesh::internal {
 namespace {
@@ -56,6 +58,13 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim> arranged(const RowBlock<double>&,
 
 }  // namespace
 
+void require_vertices(std::size_t vertices, std::size_t rows) {
+  if (vertices == rows) return;
+  throw InputError("the mesh has " + std::to_string(vertices) + " vertices, but weights of " +
+                   std::to_string(rows) +
+                   "; clean() of OpenMesh does not shrink properties: bind the mesh again");
+}
+
 template <class Block, class Scalar, int Dim>
 Index move_points(const Block& weights, const PointList<Dim>& control_points,
                   const RowBlock<double>* offsets, int threads, const PointsView<Scalar>& points) {
@@ -66,11 +75,9 @@ Index move_points(const Block& weights, const PointList<Dim>& control_points,
   std::atomic<Index> left{0};
   parallel_for(count, [&](std::int64_t p) {
     Vector<Dim> place = place_of<Dim>(weights, p, cage);
-    const auto has_offset = [&] {
-      return offsets && !is_unbound((*offsets)[static_cast<std::size_t>(p)]);
-    };
-    if (place.isZero(0) && is_unbound(weights[static_cast<std::size_t>(p)]) && !has_offset()) {
-      ++left;
+    if (place.isZero(0) && is_unbound(weights[static_cast<std::size_t>(p)])) {
+      // It stays where it is. Only if it was bound so, it has an offset.
+      if (!offsets || is_unbound((*offsets)[static_cast<std::size_t>(p)])) ++left;
       return;
     }
     if (offsets) {

@@ -9,7 +9,15 @@ import numpy as np
 
 from . import _core
 from ._errors import InputError, OptionError
-from ._shapes import Cage, as_cage, as_points, as_polygons, edges_of
+from ._shapes import (
+    Cage,
+    as_cage,
+    as_points,
+    as_polygons,
+    check_scalars,
+    edges_of,
+    posed_points,
+)
 from ._solve import SolverOptions, checked, evaluate, mesh, solve, with_options
 from ._weights import as_poses, as_weights, corners_of, deform, from_core, measure, sparsify
 
@@ -131,6 +139,11 @@ def make_cage(
     -------
     Cage
     """
+    check_scalars(
+        control_points=(control_points, "an integer"),
+        offset=(offset, "a number"),
+        symmetry=(symmetry, "a name"),
+    )
     points = as_points(vertices, "vertices")
     if points.shape[1] == 2:
         facets = edges_of(as_polygons(faces, "faces", len(points)))
@@ -167,11 +180,13 @@ class Binding:
         self.weights, self.offsets, self.cage = weights, offsets, cage
         self.report, self.outside = report, outside
 
-    def deform(self, control_points: ArrayLike) -> Floats:
-        """The vertices of the model, shape (P, d), for moved control points, shape (n, d)."""
-        cage = self.cage
-        posed = as_points(control_points, "control_points", cage.dim, len(cage))
-        moved = deform(self.weights, posed)
+    def deform(self, control_points: CageLike) -> Floats:
+        """The vertices of the model, shape (P, d), for moved control points: a Cage, or an array of
+        shape (n, d). For a stack of poses, shape (T, n, d), the result has shape (T, P, d)."""
+        cage, posed = self.cage, posed_points(control_points)
+        if posed.ndim == 3:
+            return np.array([self.deform(pose) for pose in posed])
+        moved = deform(self.weights, as_points(posed, "control_points", cage.dim, len(cage)))
         if self.offsets is not None:
             moved += self.offsets
         return moved
@@ -243,6 +258,7 @@ def bind(
             "method 'bbw': a binding needs weights that reproduce the model, which bounded "
             "biharmonic weights do not; choose another method"
         )
+    check_scalars(max_influences=(max_influences, "an integer"), outside=(outside, "a name"))
     cage = as_cage(control_points) if cage_faces is None else Cage(control_points, cage_faces)
     points = as_points(vertices, "vertices", cage.dim)
     if len(points) == 0:

@@ -2,12 +2,13 @@
 """Cages and domain meshes, and the checks of array arguments."""
 from __future__ import annotations
 
+from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _core
-from ._errors import InputError
+from ._errors import InputError, OptionError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -19,6 +20,15 @@ if TYPE_CHECKING:
     Faces = Union[ArrayLike, Sequence[Sequence[int]]]
     CageLike = Union["Cage", Tuple[ArrayLike, Any], Any]
     MeshLike = Union["DomainMesh", Tuple[ArrayLike, ArrayLike]]
+
+
+def check_scalars(**values: Any) -> None:
+    """Names an argument of the wrong type. None stands for a default. The arguments are tuples of
+    a value and its type: "an integer", "a number", or "a name"."""
+    types = {"an integer": Integral, "a number": Real, "a name": str}
+    for name, (value, wanted) in values.items():
+        if value is not None and not isinstance(value, types[wanted]):
+            raise OptionError(f"{name} must be {wanted}, not {value!r}")
 
 
 def as_array(value: Any, name: str) -> NDArray[Any]:
@@ -295,3 +305,8 @@ class Model(NamedTuple):
 
     vertices: Floats
     faces: Faces
+
+
+def posed_points(value: Any) -> NDArray[Any]:
+    """Moved control points: of a cage, or an array; a stack of poses has three axes."""
+    return value.points if isinstance(value, Cage) else as_array(value, "control_points")

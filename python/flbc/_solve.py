@@ -27,6 +27,7 @@ from ._shapes import (
     as_floats,
     as_mesh,
     as_points,
+    check_scalars,
     frozen,
     mesh_from,
 )
@@ -286,6 +287,7 @@ class Solution:
 
 def evaluate(solution: Solution, points: Floats, outside: str) -> Any:
     """Parts of sparse weights at points, the points they reproduce, and which are outside."""
+    check_scalars(outside=(outside, "a name"))
     cage, mesh = solution.cage, solution.mesh
     return _core.weights_at(
         cage.points, cage.facets, mesh.points, mesh.cells, solution._parts, points, outside
@@ -323,6 +325,7 @@ def mesh(
     InputError
         If the cage is defective or cannot be meshed.
     """
+    check_scalars(vertices=(vertices, "an integer"), time_limit=(time_limit, "a number"))
     shape = as_cage(cage)
     inside = None if points is None else as_points(points, "points", shape.dim)
 

@@ -15,6 +15,8 @@ from ._shapes import (
     as_floats,
     as_points,
     as_polygons,
+    check_scalars,
+    posed_points,
 )
 
 if TYPE_CHECKING:
@@ -113,6 +115,7 @@ def sparsify(
     OptionError
         If `k` or `threshold` is out of range.
     """
+    check_scalars(k=(k, "an integer"), threshold=(threshold, "a number"))
     cage = as_cage(cage)
     places = as_points(points, "points", cage.dim)
     given = as_weights(weights, "weights", len(places), len(cage))
@@ -131,18 +134,18 @@ def as_poses(poses: Any, name: str, cage: Any) -> Any:
     ]
 
 
-def deform(weights: Weights, control_points: ArrayLike) -> Floats:
+def deform(weights: Weights, control_points: CageLike) -> Floats:
     """Moves points with the control points.
 
     Parameters
     ----------
     weights : array_like or sparse matrix, shape (P, n)
-    control_points : array_like, shape (n, d)
+    control_points : array_like, shape (n, d) or (T, n, d); or Cage
         In any unit of length.
 
     Returns
     -------
-    ndarray, shape (P, d)
+    ndarray, shape (P, d) or (T, P, d)
 
     Raises
     ------
@@ -152,7 +155,10 @@ def deform(weights: Weights, control_points: ArrayLike) -> Floats:
     array = weights if is_sparse(weights) else as_array(weights, "weights")
     if len(array.shape) != 2:
         raise InputError(f"weights has shape {array.shape}, but needs (P, n)")
-    moved = as_points(control_points, "control_points", count=array.shape[1])
+    posed = posed_points(control_points)
+    if posed.ndim == 3:
+        return np.array([deform(weights, pose) for pose in posed])
+    moved = as_points(posed, "control_points", count=array.shape[1])
     return np.asarray(array @ moved)
 
 
@@ -188,6 +194,7 @@ def transfer(
     InputError
         If points are farther away than the limit.
     """
+    check_scalars(limit=(limit, "a number"))
     cage = as_cage(cage)
     places = as_points(points, "points", cage.dim)
     given = as_weights(weights, "weights", len(places), len(cage))

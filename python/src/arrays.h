@@ -56,6 +56,17 @@ Cage<Dim> cage_of(const Doubles& points, const Indices& facets) {
           Eigen::Map<const FacetList<Dim>>(facets.data(), Dim, facets.shape(0))};
 }
 
+//! Points of the plane get z = 0.
+inline std::vector<Vector<3>> places_of(const Doubles& points) {
+  std::vector<Vector<3>> places(static_cast<std::size_t>(points.shape(0)), Vector<3>::Zero());
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    for (py::ssize_t d = 0; d < points.shape(1); ++d) {
+      places[k][d] = points.at(static_cast<py::ssize_t>(k), d);
+    }
+  }
+  return places;
+}
+
 template <int Dim>
 DomainMesh<Dim> mesh_of(const Doubles& points, const Indices& cells) {
   return {points_of<Dim>(points),

@@ -66,27 +66,17 @@ void translate(std::exception_ptr pointer) {
 
 // ------------------------------------------------------------------------------------------ cages
 
-Vector<3> lifted(const Doubles& points, Index vertex) {
-  Vector<3> place = Vector<3>::Zero();
-  for (py::ssize_t d = 0; d < points.shape(1); ++d) place[d] = points.at(vertex, d);
-  return place;
-}
-
 // Triangles of polygons; segments are triangles that repeat a corner.
 py::array triangles(const Doubles& points, const Polygons& polygons) {
   std::vector<Index> corners;
-  std::vector<Vector<3>> places;
+  const auto places = places_of(points);
   for (const auto& polygon : lists_of(polygons)) {
     if (polygon.size() < 3) {
       corners.insert(corners.end(), {polygon.front(), polygon.back(), polygon.back()});
       continue;
     }
-    places.clear();
-    for (const Index vertex : polygon) places.push_back(lifted(points, vertex));
-    const auto parts = io::cut_polygon(places);
-    for (const Index corner : parts.reshaped()) {
-      corners.push_back(polygon[corner]);
-    }
+    const auto parts = io::cut_polygon(places, polygon);
+    corners.insert(corners.end(), parts.reshaped().begin(), parts.reshaped().end());
   }
   return as_array(
       FacetList<3>(Eigen::Map<const FacetList<3>>(corners.data(), 3, corners.size() / 3)));

@@ -22,16 +22,6 @@ namespace flbc::python {
 namespace {
 
 // Missing coordinates are 0.
-std::vector<Vector<3>> places_of(const Doubles& points) {
-  std::vector<Vector<3>> places(static_cast<std::size_t>(points.shape(0)), Vector<3>::Zero());
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    for (py::ssize_t d = 0; d < points.shape(1); ++d) {
-      places[k][d] = points.at(static_cast<py::ssize_t>(k), d);
-    }
-  }
-  return places;
-}
-
 py::tuple read_cage(const std::string& path) {
   const auto cage = without_gil([&] { return io::to_cage(io::read_polygons(path), path); });
   return std::visit([](const auto& any) { return as_python(any); }, cage);

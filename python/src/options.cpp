@@ -112,7 +112,15 @@ template <class Enum>
 Enum named(const std::string& option, const std::string& name) {
   if (const auto value = value_named<Enum>(name)) return *value;
   std::string all;
-  for (const auto& known : names_of<Enum>()) all += (all.empty() ? "" : ", ") + known;
+  auto known = names_of<Enum>();
+  if constexpr (std::is_same_v<Enum, Method>) {
+    // solve() also takes coordinates, of which Green's have no weights. Solver refuses them here.
+    for (const auto& other : names_of<Coordinates>()) {
+      if (value_named<Coordinates>(name) || other == name_of(Coordinates::kGreen)) continue;
+      known.push_back(other);
+    }
+  }
+  for (const auto& one : known) all += (all.empty() ? "" : ", ") + one;
   throw OptionError(option + " must be one of " + all + ", not " + name);
 }
 template OutsidePoints named(const std::string&, const std::string&);

@@ -130,6 +130,30 @@ def test_what_is_wrong_is_named(make, words, flat):
         assert word in str(caught.value)
 
 
+def test_scalars_of_a_wrong_type_are_named(flat):
+    points = flat.mesh.points
+    solution = flbc.solve(flat.cage, flat.mesh, method="harmonic")
+    for call, words in [
+        (lambda: flbc.mesh(flat.cage, vertices=3e3), "vertices must be an integer, not 3000.0"),
+        (lambda: flbc.sparsify(solution.weights, flat.cage, points, k=8.0), "k must be an integer"),
+        (lambda: flbc.make_cage(points, control_points=60.0), "control_points must be an integer"),
+        (lambda: solution.at(points, outside=3), "outside must be a name, not 3"),
+    ]:
+        with pytest.raises(flbc.OptionError, match=words):
+            call()
+    assert len(flbc.mesh(flat.cage, vertices=np.int64(300))) > 200
+
+
+def test_deform_takes_cages_and_stacks_of_poses(flat):
+    binding = flbc.bind(flat.mesh.points, None, flat.cage, domain=flat.mesh, method="harmonic")
+    poses = np.array([flat.cage.points, 2 * flat.cage.points])
+    for move in (binding.deform, lambda pose: flbc.deform(binding.weights, pose)):
+        moved = move(poses)
+        assert moved.shape == (2, *flat.mesh.points.shape)
+        assert (move(flat.cage) == moved[0]).all()
+        assert (move(poses[1]) == moved[1]).all()
+
+
 def test_unknown_options_are_named(flat):
     for call in (flbc.solve, flbc.Solver):
         with pytest.raises(TypeError, match="accuracy.*choose from.*tolerance"):

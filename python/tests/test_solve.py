@@ -90,6 +90,11 @@ def test_other_coordinates_refuse_what_they_do_not_use(flat, method):
     assert bound.report["method"] == method
 
 
+def test_all_methods_are_listed(flat):
+    with pytest.raises(flbc.OptionError, match="must be one of weights.*harmonic.*bbw, not foo"):
+        flbc.solve(flat.cage, flat.mesh, method="foo")
+
+
 def test_bounded_biharmonic_weights_are_bounded_and_do_not_reproduce(flat):
     weights = flbc.solve(flat.cage, flat.mesh, method="bbw").weights
     assert weights.min() >= 0 and weights.max() <= 1

@@ -54,8 +54,15 @@ TEST_F(CageCommand, SilhouettesOfPictures) {
   EXPECT_TRUE(report["fine"]);
   EXPECT_EQ(report["model"]["outside"], 0);
   EXPECT_LT(report["cage"]["measure"], 0.7 * kSize * kSize);
-  draw::write_png("full.png", kSize, kSize, [](int, int) { return 255; });
-  expect("cage full.png -o none.obj", 2, "full.png: no pixel is transparent");
+  const auto cage = slurp("cage.obj");
+  // A haze that nobody sees.
+  draw::write_png("hazy.png", kSize, kSize,
+                  [&](int x, int y) { return is_seen(x, kSize - 1 - y) ? 255 : 1 + (x + y) % 5; });
+  expect("cage hazy.png -q -o cage.obj", 0, "");
+  EXPECT_EQ(slurp("cage.obj"), cage);
+  draw::write_png("full.png", kSize, kSize, [](int x, int) { return 200 + x % 50; });
+  expect("cage full.png -o none.obj", 2,
+         "full.png: no pixel is transparent; the lowest alpha is 200 of 255");
   expect("cage " + file("no.png", "text") + " -o none.obj", 2, "no.png: ");
 }
 

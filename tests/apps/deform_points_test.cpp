@@ -96,6 +96,27 @@ TEST_F(DeformPoints, MovesArrays) {
   EXPECT_LT((io::read_weights("q.npy").dense() - moved(points_)).cwiseAbs().maxCoeff(), 1e-14);
 }
 
+// Weights of the points themselves need no mesh.
+TEST_F(DeformPoints, MovesPointsByTheirOwnWeights) {
+  const PointList<3> few = points_.leftCols(50);
+  for (const std::string extension : {"npy", "csv"}) {
+    const auto points = "few." + extension, moved_points = "moved." + extension;
+    io::write_weights(points, few);
+    expect("run " + tetrahedron() + ' ' + points + " --vertices 50 --pose pose.obj --force -o out");
+    EXPECT_LT(
+        (io::read_weights("out/deformed." + extension).dense() - moved(few)).cwiseAbs().maxCoeff(),
+        1e-6);
+    const std::string deform = "deform " + points + " --weights out/weights.npy --pose pose.obj ";
+    expect(deform + "--rest " + tetrahedron() + " -o " + moved_points);
+    EXPECT_LT((io::read_weights(moved_points).dense() - moved(few)).cwiseAbs().maxCoeff(), 1e-6);
+    expect(deform + "-o " + moved_points);
+    io::write_weights("others.npy", PointList<3>(0.9 * few));
+    expect("deform others.npy --weights out/weights.npy --pose pose.obj -o q.npy --rest " +
+               tetrahedron(),
+           2, "others.npy");
+  }
+}
+
 TEST_F(DeformPoints, KeepsAllOtherBytesOfPly) {
   write_ply("p.ply", points_);
   expect(deform("p.ply", "q.ply"));
@@ -183,12 +204,12 @@ TEST_F(DeformPoints, FailuresLeaveNoFile) {
   expect(deform("short.npy", "q.npy"), 2, "too short for 70000 points");
   expect(deform("p.npy", "p.npy"), 1);
   expect(deform("p.npy", "q.ply"), 1, ".npy");
-  expect("deform p.npy --weights w.npy --pose pose.obj -o q.npy", 1,
-         "points need --domain and --rest");
+  expect("deform p.npy --weights w.npy --pose pose.obj -o q.npy", 2, "70000");
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path("."))) {
     const auto name = entry.path().filename().string();
     EXPECT_TRUE(name[0] != 'q' && name[0] != '.') << name;
   }
+  expect(deform("out.npy", "q.npy") + "--outside keep", 0, "this is not checked");
   expect(deform("out.npy", "q.npy") + "--outside nearest");
   EXPECT_NEAR(io::read_weights("q.npy").dense()(2, 69999), 2 + 4.0 / 3 - 1.0 / 3, 1e-12);
 }

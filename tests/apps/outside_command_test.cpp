@@ -307,6 +307,25 @@ TEST_F(OutsideCommand, RefusesBeforeTheMesherStarts) {
   EXPECT_FALSE(std::filesystem::exists("out/domain.obj"));
 }
 
+TEST_F(OutsideCommand, AsksAboutUnitsAndAxes) {
+  const std::string cage = file("box.obj",
+                                "v 0 0 0\nv 4 0 0\nv 0 2 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\n"
+                                "f 2 3 4\nf 1 4 3\n");
+  const std::string solve = "solve box.obj --method meanvalue -o w.npy --model ";
+  const std::string faces = "f 1 2 3\n";
+  expect(solve + file("tiny.obj", "v 0.1 0.1 0.1\nv 0.2 0.1 0.1\nv 0.1 0.1 0.2\n" + faces), 0,
+         "tiny.obj: fills 0.00");
+  expect(solve + file("up.obj", "v 0.1 7 -0.1\nv 0.2 6 -0.1\nv 0.1 5 -0.2\n" + faces), 2,
+         "with y and z exchanged the model would fit");
+  const auto fits =
+      run(solve + file("fits.obj", "v 0.1 0.1 0.1\nv 1 0.1 0.1\nv 0.1 1 0.1\n" + faces));
+  EXPECT_EQ(fits.status, 0);
+  EXPECT_EQ(fits.errors.find("units"), std::string::npos);
+  const auto outside =
+      run(solve + file("out.obj", "v 0.1 0.1 0.1\nv 9 9 9\nv 0.1 1 0.1\n" + faces));
+  EXPECT_EQ(outside.errors.find("exchanged"), std::string::npos);
+}
+
 // Many files have vertices that belong to no face, such as those of lamps or of deleted parts.
 TEST_F(OutsideCommand, VerticesOfNoFaceMayBeOutside) {
   const std::string faces = "f 1 2 3\nf 1 3 4\n";
@@ -319,7 +338,8 @@ TEST_F(OutsideCommand, VerticesOfNoFaceMayBeOutside) {
     const std::string model =
         "v 1 1 0\nv 2 1 0\nv 2 2 " + depth + "\nv 1 2 " + depth + "\nv 90 0 0\n";
     const std::string solve = "solve cage.obj --method meanvalue -o w.npy --model ";
-    expect(solve + file("loose.obj", model + faces), 0, "1 of 5 vertices are outside the cage");
+    expect(solve + file("loose.obj", model + faces), 0,
+           "1 of 5 vertices belong to no face and are outside the cage");
     expect("deform loose.obj --weights w.npy --rest cage.obj --pose cage.obj -o same.obj");
     expect_piece(slurp("same.obj"), "v 90 0 0");
     expect(solve + file("used.obj", model + faces + "f 1 2 5\n"), 2, "1 of 5 vertices are outside");

@@ -291,6 +291,62 @@ TEST(CageLimitsTest, VolumesOfModels) {
   EXPECT_EQ(make(without_facet(box, 3), {}).volume_ratio, 0);
 }
 
+// The volume of a convex model is that of its hull.
+TEST(CageLimitsTest, ConvexModelsGetLittleMoreThanTheirHull) {
+  const Eigen::AngleAxisd turn(0.6, Vector<3>(1, 2, 0.5).normalized());
+  for (const double thickness : {1.0, 0.2, 0.05, 0.02, 0.005}) {
+    for (const bool is_turned : {false, true}) {
+      SCOPED_TRACE(thickness);
+      auto plate = box_cage<3>(Vector<3>(0, 0, 0), Vector<3>(1, 1, thickness));
+      if (is_turned) plate.points = turn.toRotationMatrix() * plate.points;
+      const auto made = make(plate, {});
+      EXPECT_LE(made.cage.size(), 16);
+      EXPECT_LE(made.volume_ratio, 1.1);
+      for (const Index count : {8, 20, 60}) {
+        CagingOptions options;
+        options.control_points = count;
+        EXPECT_LE(make(plate, options).volume_ratio, 1.1);
+      }
+    }
+  }
+  const auto rod = box_cage<3>(Vector<3>(0, 0, 0), Vector<3>(10, 1, 1));
+  EXPECT_LE(make(rod, {}).volume_ratio, 1.1);
+}
+
+// Points on a ball, and the triangles of their hull are not given.
+TEST(CageLimitsTest, RoundModelsGetLittleMoreThanTheirHull) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  PointList<3> points(3, 600);
+  for (double& x : points.reshaped()) x = normal(random);
+  points.colwise().normalize();
+  points.row(2) *= 0.4;
+  const double least = 0.4 * 4 / 3 * std::acos(-1.0) * 0.97;  // the hull has at least this volume
+  const double volume = measure_cage(make(Cage<3>{points, FacetList<3>(3, 0)}, {}).cage).measure;
+  EXPECT_LE(volume, 1.1 * least);
+  double previous = std::numeric_limits<double>::infinity();
+  for (const Index count : {8, 30, 100, 250}) {
+    CagingOptions options;
+    options.control_points = count;
+    const double own =
+        measure_cage(make(Cage<3>{points, FacetList<3>(3, 0)}, options).cage).measure;
+    EXPECT_LE(own, previous);
+    previous = own;
+  }
+}
+
+TEST(CageLimitsTest, FlatModelsGetAFlatBoxAndHaveNoVolume) {
+  const Cage<3> square{(PointList<3>(3, 4) << 0, 1, 1, 0, 0, 0, 1, 1, 0, 0.5, 0.5, 0).finished(),
+                       (FacetList<3>(3, 2) << 0, 0, 1, 2, 2, 3).finished()};
+  const auto plate = box_cage<3>(Vector<3>(0, 0, 0), Vector<3>(1, 1, 2e-3));
+  for (const auto& model : {square, plate}) {
+    const auto made = make(model, {});
+    EXPECT_LE(made.cage.size(), 16);
+    EXPECT_EQ(made.volume_ratio, 0);
+    EXPECT_LT(made.max_distance, 0.05);
+  }
+}
+
 // What is between them is not in the cage, so that each bends on its own.
 TEST(CageLimitsTest, LegsOnBothSidesOfTheMirrorPlaneStayApart) {
   auto model = box_cage<3>(Vector<3>(-0.3, 0.9, -0.15), Vector<3>(0.3, 1.6, 0.15));

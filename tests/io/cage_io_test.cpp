@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/io/cage_io.h"
 
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
 #include "flbc/cage_facts.h"
@@ -109,6 +113,48 @@ TEST(CageIo, PolygonsThatAreNotConvexAreCutInside) {
       soup.polygons = {{}, {n, n + 1, n + 2}};
       for (Index k = 0; k < n; ++k) soup.polygons[0].push_back((start + k) % n);
       EXPECT_NEAR(area_seen_from_above(soup), area + 0.5, 1e-12) << n << " from " << start;
+    }
+  }
+}
+
+std::set<std::set<Index>> undirected_triangles(const PolygonSoup& soup) {
+  std::set<std::set<Index>> result;
+  const auto cage = std::get<Cage<3>>(to_cage(soup, "file.obj"));
+  for (const auto& facet : cage.facets.colwise()) result.insert({facet[0], facet[1], facet[2]});
+  EXPECT_EQ(result.size(), cage.facets.cols());
+  return result;
+}
+
+TEST(CageIo, ReExportedPolygonsAreCutAlike) {
+  // Prisms on a square, a regular hexagon, a notched and a bent polygon. All diagonals of the sides
+  // are equal but for the digits of a file.
+  const std::vector<std::vector<Vector<2>>> grounds = {
+      {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+      {{2, 0}, {1, 1.732051}, {-1, 1.732051}, {-2, 0}, {-1, -1.732051}, {1, -1.732051}},
+      {{0, 0}, {4, 0}, {4, 2}, {2, 1}, {0, 2}},
+      {{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {0, 1}}};
+  for (const auto& ground : grounds) {
+    PolygonSoup soup;
+    soup.polygons.resize(2);
+    const auto n = static_cast<Index>(ground.size());
+    for (Index k = 0; k < 2 * n; ++k) {
+      soup.points.emplace_back(ground[k % n].x(), ground[k % n].y(),
+                               k < n ? 0 : 2 + 1e-6 * (k % 3));
+      soup.polygons[k / n].push_back(k);
+    }
+    std::reverse(soup.polygons[0].begin(), soup.polygons[0].end());
+    for (Index k = 0; k < n; ++k) {
+      soup.polygons.push_back({k, (k + 1) % n, n + (k + 1) % n, n + k});
+    }
+    const auto expected = undirected_triangles(soup);
+    for (int turn = 0; turn < 2 * n; ++turn) {
+      auto& polygons = soup.polygons;
+      for (auto& polygon : polygons) {
+        std::rotate(polygon.begin(), polygon.begin() + 1, polygon.end());
+        if (turn % 3 == 0) std::reverse(polygon.begin(), polygon.end());
+      }
+      std::rotate(polygons.begin(), polygons.begin() + 2, polygons.end());
+      EXPECT_EQ(undirected_triangles(soup), expected) << n << " corners, turn " << turn;
     }
   }
 }

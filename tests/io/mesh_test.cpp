@@ -282,6 +282,7 @@ TEST_F(MeshFile, MalformedMedit) {
   expect_malformed(
       "d.mesh",
       {{"", ":1: ", "MeshVersionFormatted"},
+       {"MFEM mesh v1.0\n", ":1: ", "MFEM; save it there by PrintVTU()"},
        {std::string("\0\0\x01\xff garbage", 12), ":1: ", "not a MEDIT text file"},
        {"MeshVersionFormatted", ":1: ", "the file ends where the version was expected"},
        {"MeshVersionFormatted 2\nDimension 2\n", ":2: ", "the dimension is 2, not 3"},
@@ -390,6 +391,8 @@ TEST_F(MeshFile, MalformedGmsh) {
   expect_malformed(
       "d.msh",
       {{"", ":1: ", "not a Gmsh file"},
+       {"$NOD\n4\n1 0 0 0\n", ":1: ", "version 1 is not supported; convert it by gmsh"},
+       {"4 1 4\n0 0 0 1\n", ":1: ", "FreeFem: save it there by savegmsh()"},
        {std::string("\0\0\x01\xff garbage", 12), ":1: ", "not a Gmsh file"},
        {"$MeshFormat\n", ":1: ", "the file ends before its version"},
        {"$MeshFormat\n4 0 8\n$EndMeshFormat\n", ":2: ", "version \"4\" is not supported"},

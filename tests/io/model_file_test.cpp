@@ -187,6 +187,39 @@ TEST_F(ModelFileTest, CornersOfStlMergeAsInOpenMesh) {
   EXPECT_EQ(rewritten<3>(file, points), expected);
 }
 
+// A program that divides by an area of zero writes them.
+TEST_F(ModelFileTest, AttributesThatAreNotFiniteAreMissing) {
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"a.obj",
+       "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn nan -nan(ind) nan\nvn 0 0 1\nvt inf 0\nvt 1 nan\n"
+       "f 1/1/1 2/2/2 3/1/2\n"},
+      {"a.off",
+       "STCNOFF\n3 1 0\n0 0 0 nan nan nan nan 0 0 1 nan 0\n1 0 0 0 0 1 1 0 0 1 0 0\n"
+       "0 1 0 0 0 1 1 0 0 1 0 0\n3 0 1 2\n"},
+      {"a.stl",
+       "solid\nfacet normal nan nan nan\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+       "vertex 0 1 0\nendloop\nendfacet\nendsolid\n"}};
+  for (const auto& [name, text] : files) {
+    SCOPED_TRACE(name);
+    const ModelFile file = open(name, text);
+    const auto& model = file.model();
+    EXPECT_EQ(model.soup.points.size(), 3U);
+    EXPECT_TRUE(model.attributes.normals.allFinite());
+    EXPECT_TRUE(model.attributes.texture_coordinates.allFinite());
+    EXPECT_TRUE(model.attributes.colors.allFinite());
+    const auto& others = model.others;
+    EXPECT_EQ(std::count(others.begin(), others.end(), "attributes that are not finite"), 1);
+    EXPECT_EQ(rewritten<3>(file, io::to_points<3>(model.soup, "")), text);
+  }
+}
+
+TEST_F(ModelFileTest, KeywordsOfStlInTwoWords) {
+  const auto file = open("a.stl",
+                         "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+                         "vertex 1 0 0\nvertex 0 1 0\nend loop\nend facet\nEnd Solid a\n");
+  EXPECT_EQ(file.model().soup.points.size(), 3U);
+}
+
 TEST_F(ModelFileTest, BinaryStlThatBeginsWithSolid) {
   write_stl("a.stl", true);
   auto bytes = content("a.stl");

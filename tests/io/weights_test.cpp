@@ -92,11 +92,13 @@ TEST_F(WeightsFile, RoundTripsAreBitEqual) {
 TEST_F(WeightsFile, CsvHasALinePerPoint) {
   write_weights(path("weights.csv"), small_weights());
   EXPECT_EQ(content("weights.csv"), "1,4\n2,5\n3,6\n");
-  make("weights.csv", "# by hand\r\n 1, 4\r\n2 ,5\n3 6");
+  make("weights.csv", "# by hand\r\n 1, 4\r\n2 ,5,\n3 6");
   EXPECT_EQ(read_weights(path("weights.csv")).dense(), small_weights());
   expect_malformed("weights.csv", {{"", ":1: ", "no numbers"},
                                    {"1,2\n3\n", ":2: ", "expected 2 numbers"},
                                    {"w_0,w_1\n1,2\n", ":1: ", "w_0"},
+                                   {"# a,,b\n1,,2\n1,,2\n", ":2: ", "column 2 is empty"},
+                                   {"1,2\r\n ,2\r\n", ":2: ", "column 1 is empty"},
                                    {"1,nan\n", ":1: ", "nan"}});
 }
 

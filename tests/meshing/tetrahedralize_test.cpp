@@ -64,6 +64,16 @@ TEST(TetrahedralizeTest, InwardOrientationDoesNotMatter) {
   expect_fills(cage, tetrahedralize(cage, vertices<3>(500)), 8);
 }
 
+TEST(TetrahedralizeTest, ATurnedCageGetsTheSameMesh) {
+  const auto cage = box_cage<3>(1);
+  auto turned = cage;
+  turned.facets.row(1).swap(turned.facets.row(2));
+  const auto one = tetrahedralize(cage, vertices<3>(500));
+  const auto other = tetrahedralize(turned, vertices<3>(500));
+  EXPECT_EQ(one.points, other.points);
+  EXPECT_EQ(one.cells, other.cells);
+}
+
 TEST(TetrahedralizeTest, CavitiesStayEmptyWhateverTheirOrientationAndOrder) {
   const Cage<3> box = box_cage<3>(1), cavity = box_cage<3>(0.5);
   const Cage<3> second = box_cage<3>(0.7, 0.9);

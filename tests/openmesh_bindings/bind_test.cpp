@@ -298,7 +298,42 @@ TYPED_TEST(Bind, VerticesOutsideStayIfTheyAreKept) {
     EXPECT_EQ(this->points(), rest);
     // It is bound, to where it is.
     EXPECT_EQ(openmesh::bind_new_vertices(this->model_), 0);
+    // Another cage may have moved it.
+    const typename TestFixture::Mesh::VertexHandle kept(kVertex);
+    auto moved = this->model_.point(kept);
+    moved[0] += static_cast<typename TestFixture::Mesh::Scalar>(0.5);
+    this->model_.set_point(kept, moved);
+    EXPECT_EQ(openmesh::deform(this->model_, this->random_pose(5)), 0);
+    EXPECT_EQ(this->model_.point(kept), moved);
+    openmesh::restore_rest(this->model_);
   }
+}
+
+TYPED_TEST(Bind, AKeptVertexAtTheOriginIsBound) {
+  auto cage = this->sample_.cage;
+  constexpr int kVertex = 11;
+  put_outside<TypeParam::kDim>(this->model_, cage, kVertex, 1);
+  const Vector<TypeParam::kDim> origin = this->points().col(kVertex);
+  for (const auto v : this->model_.vertices()) {
+    auto point = this->model_.point(v);
+    for (int d = 0; d < TypeParam::kDim; ++d) {
+      point[d] -= static_cast<typename TestFixture::Mesh::Scalar>(origin[d]);
+    }
+    this->model_.set_point(v, point);
+  }
+  cage.points.colwise() -= origin;
+  this->options_.outside = openmesh::OutsidePoints::kKeep;
+  openmesh::bind(this->model_, cage, this->options_);
+  EXPECT_TRUE(this->points().col(kVertex).isZero(0));
+  EXPECT_EQ(openmesh::deform(this->model_, cage), 0);
+  EXPECT_EQ(openmesh::bind_new_vertices(this->model_), 0);
+}
+
+TYPED_TEST(Bind, WeightsAreRefusedAfterClean) {
+  openmesh::bind(this->model_, this->sample_.cage, this->sample_.mesh, this->options_);
+  this->model_.clean();
+  expect_refused<InputError>("the mesh has 0 vertices, but weights of 49",
+                             [&] { openmesh::deform(this->model_, this->sample_.cage); });
 }
 
 // Its weights may be negative, so that they are not reduced with the others.

@@ -175,6 +175,10 @@ class Caging {
     if constexpr (Dim == 3) {
       is_closed_ = is_closed({points, facets});
       volume_ = solid_volume({points, facets}, is_closed_);
+      for (const auto& facet : facets.colwise()) {
+        thickness_ += facet_normal<3>(points(Eigen::all, facet)).norm() / 2;
+      }
+      thickness_ = is_closed_ && volume_ > 0 ? 2 * volume_ / thickness_ : 0;
     }
     whole_ = model;
     if (!plane_.is_there()) return;
@@ -184,6 +188,16 @@ class Caging {
   }
 
   ModelCage<Dim> make() {
+    const bool is_given = options_.control_points > 0;
+    const auto made = make_by_wrap();
+    if constexpr (Dim == 3) {
+      if (const auto convex = make_convex(made, is_given)) return *convex;
+    }
+    return made;
+  }
+
+ private:
+  ModelCage<Dim> make_by_wrap() {
     if (options_.control_points == 0) {
       if (const auto made = make_by_shape()) return *made;
     }
@@ -200,7 +214,6 @@ class Caging {
                      " control points encloses the model; allow more control points");
   }
 
- private:
   void report(CagingStage stage, double done = 0) const {
     if (options_.stage) options_.stage(stage, done);
   }
@@ -209,6 +222,8 @@ class Caging {
     WrapSize size = wrap_size<Dim>(control_points);
     size.alpha *= scale * size_;
     size.offset *= std::sqrt(scale) * size_;
+    // A thin model gets a closer wrap.
+    if (has_volume()) size.offset = std::min(size.offset, 0.4 * thickness_);
     if (options_.offset > 0) size.offset = options_.offset;
     return size;
   }
@@ -248,13 +263,12 @@ class Caging {
       // Edges no longer than the wrap is thick leave three rings at a limb; longer ones take fewer
       // control points. A model with thin limbs gets a finer wrap, unless it would take too many
       // control points: then it is boxed in.
-      constexpr double kUnlimited = std::numeric_limits<double>::infinity();
       const double most = 0.97 * kMaxCageVolume * volume_;
       options_.control_points = kMostByShape;
       std::map<Index, Cage<3>> wraps;
       for (const auto& [fineness, limit, edge] :
            {std::tuple(kUsualNumber<3>, most, 1.0), std::tuple(kUsualNumber<3>, most, 1.4),
-            std::tuple(kMostByShape, most, 1.4), std::tuple(kUsualNumber<3>, kUnlimited, 1.4)}) {
+            std::tuple(kMostByShape, most, 1.4), std::tuple(kUsualNumber<3>, kNoLimit, 1.4)}) {
         const auto size = size_at(fineness);
         const auto [surface, is_new] = wraps.try_emplace(fineness);
         if (is_new) surface->second = wrap_of(size);
@@ -271,7 +285,7 @@ class Caging {
   std::optional<ModelCage<3>> make_close(const Cage<3>& surface, double offset, double most_volume,
                                          double edge) const {
     constexpr double kGrowth = 1.3, kFreeVolume = 2, kConvex = 0.65;
-    constexpr Index kLeast = 40, kLeastOfConvex = 8;
+    constexpr Index kLeast = 40;
     const double volume = (plane_.is_there() ? 2 : 1) * volume_of(surface);
     if (!(volume > 0 && volume <= most_volume)) return {};
     auto limits = limits_;
@@ -295,7 +309,42 @@ class Caging {
 
   double hull_volume(const Cage<3>& surface) const {
     const auto whole = plane_.is_there() ? with_mirror_image(surface, plane_) : surface;
-    return flbc::hull_volume(whole.points);
+    return signed_measure<3>(convex_hull(whole.points), model_->box().center());
+  }
+
+  // From the convex hull instead of a wrap, if the model is convex and that is smaller without more
+  // control points, or if the other cage is much larger than the hull.
+  std::optional<ModelCage<3>> make_convex(const ModelCage<3>& other, bool is_given) {
+    constexpr double kMostOfHull = 1.095, kConvex = 0.9;
+    if (options_.offset > 0) return {};
+    const double measure = measure_cage(other.cage).measure;
+    const auto convex = convex_surface(whole_.points, size_at(kUsualNumber<3>).offset);
+    const auto& surface = convex.surface;
+    if (surface.facets.cols() == 0 || measure <= convex.hull_volume) return {};
+    const bool is_large = measure > kMostOfHull * convex.hull_volume;
+    if (!is_large && volume_ < kConvex * convex.hull_volume) return {};
+    if (!is_given) options_.control_points = kMostByShape;
+    if (!is_large) options_.control_points = std::min(options_.control_points, other.cage.size());
+    const auto made = [&](const std::optional<Cage<3>>& cage) -> std::optional<ModelCage<3>> {
+      if (!cage || measure_cage(*cage).measure >= measure) return {};
+      return describe(*cage, convex.offset);
+    };
+    // Symmetric without being halved.
+    if (surface.size() <= kFewOfConvex && is_sound(surface)) return made(surface);
+    auto close = limits_;
+    close.growth = kMostOfHull * convex.hull_volume / volume_of(surface);
+    for (const auto& limits : {close, CageLimits{}}) {
+      const auto start =
+          plane_.is_there() ? cut_half<3>(surface, plane_, 1e-3 * convex.offset) : surface;
+      for (const double edge : {convex.edge_length, kNoLimit}) {
+        auto own = limits;
+        own.lengths.assign(static_cast<std::size_t>(start.size()), edge);
+        const Index least = is_given ? options_.control_points : kLeastOfConvex;
+        if (const auto cage = made(reduced(start, convex.offset, least, own))) return cage;
+        if (edge == kNoLimit) break;
+      }
+    }
+    return {};
   }
 
   // Half a surface needs no facets in the plane, because the origin is in it too.
@@ -323,6 +372,9 @@ class Caging {
            find_self_intersections(cage, 1).empty() && model_->is_strictly_inside(cage);
   }
 
+  // Open and flat models have none to speak of.
+  bool has_volume() const { return thickness_ > kFlat * size_; }
+
   ModelCage<Dim> describe(const Cage<Dim>& cage, double offset) const {
     ModelCage<Dim> made{cage, offset, plane_.axis, plane_.position, distances(cage, *model_).mean};
     for (Index v = 0; v < cage.size(); ++v) {
@@ -331,12 +383,13 @@ class Caging {
     }
     made.max_valence = max_valence(cage);
     if constexpr (Dim == 3) {
-      if (volume_ > 0 && is_closed_) made.volume_ratio = measure_cage(cage).measure / volume_;
+      if (has_volume()) made.volume_ratio = measure_cage(cage).measure / volume_;
     }
     return made;
   }
 
-  static constexpr Index kMostByShape = 300;
+  static constexpr Index kMostByShape = 300, kLeastOfConvex = 8, kFewOfConvex = 16;
+  static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
   CagingOptions options_;
   double size_;
@@ -345,6 +398,7 @@ class Caging {
   Cage<Dim> whole_{};  // the model, with its mirror image if there is a plane
   double volume_ = 0;  // of the model, in 3D; an estimate if it is open
   bool is_closed_ = false;
+  double thickness_ = 0;  // the mean of a closed model, in 3D
   std::optional<Enclosure<Dim>> model_{};
 };
 

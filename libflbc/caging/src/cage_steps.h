@@ -14,8 +14,24 @@ namespace flbc {
 template <int Dim>
 Cage<Dim> simplified(const PointList<Dim>& points, const FacetList<Dim>& facets, double cell);
 
-//! The volume of the convex hull. \param points  not all in a plane
-double hull_volume(const PointList<3>& points);
+//! \param points  not all in a plane \return outward normals
+Cage<3> convex_hull(const PointList<3>& points);
+
+//! A model thinner than this, relative to its size, is flat: a mesh of its volume would have
+//! hundreds of thousands of cells.
+constexpr double kFlat = 3e-3;
+
+//! A closed surface close to a convex hull.
+struct ConvexSurface {
+  Cage<3> surface;  //!< with rings of points across a rod, so that it can bend
+  double hull_volume;
+  double edge_length;  //!< that a cage needs to bend where this has rings
+  double offset;       //!< about the distance from the hull
+};
+
+//! \param thickness  that the hull of points in a plane gets \return no facets if all points are on
+//! a line
+ConvexSurface convex_surface(const PointList<3>& points, double thickness);
 
 //! Volume of the solid that triangles bound, within about a percent. They may be open or intersect.
 //! Points count as inside if the signed crossings of a line with the triangles before them do not

@@ -114,13 +114,18 @@ Cage<Dim> cut_half(const Cage<Dim>& surface, const MirrorPlane& plane, double ne
   return Cut<Dim>(moved, plane).half();
 }
 
+template <int Dim>
+Cage<Dim> cut_along(const Cage<Dim>& surface, const MirrorPlane& plane) {
+  return Cut<Dim>(surface, plane).both();
+}
+
 // Facets are cut where the stretched part ends, because they would have to bend there. What is
 // between both ends is added at each of them, because it may touch neither.
 template <int Dim>
 Cage<Dim> Parting::part(const Cage<Dim>& shape) const {
   Cage<Dim> parted = shape;
   const double low = plane.position - nearest, high = plane.position + nearest;
-  for (const double end : {low, high}) parted = Cut<Dim>(parted, {plane.axis, end}).both();
+  for (const double end : {low, high}) parted = cut_along<Dim>(parted, {plane.axis, end});
   std::vector<FacetCorners<Dim>> between;
   for (const FacetCorners<Dim> corners : parted.facets.colwise()) {
     const auto places = parted.points.row(plane.axis)(corners).array();
@@ -175,6 +180,7 @@ template Cage<2> Parting::joined_half(const Cage<2>&) const;
 template Cage<3> Parting::joined_half(const Cage<3>&) const;
 FLBC_INSTANTIATE_FUNCTION(with_mirror_image)
 FLBC_INSTANTIATE_FUNCTION(cut_half)
+FLBC_INSTANTIATE_FUNCTION(cut_along)
 FLBC_INSTANTIATE_FUNCTION(join_halves)
 
 }  // namespace flbc

@@ -49,6 +49,10 @@ struct Parting {
 template <int Dim>
 Cage<Dim> cut_half(const Cage<Dim>& surface, const MirrorPlane& plane, double nearest);
 
+//! The surface with a point wherever an edge crosses the plane.
+template <int Dim>
+Cage<Dim> cut_along(const Cage<Dim>& surface, const MirrorPlane& plane);
+
 //! The closed surface with this half.
 template <int Dim>
 Cage<Dim> join_halves(const Cage<Dim>& half, const MirrorPlane& plane);

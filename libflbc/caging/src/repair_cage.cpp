@@ -163,6 +163,9 @@ RepairedCage<Dim> repaired_without_figures(const Cage<Dim>& cage, double& measur
   auto united = unite(std::move(before), measure);
   if (!was_closed) measure = 0;
   if (united) return std::move(*united);
+  if constexpr (Dim == 3) {
+    if (measure == 0) measure = solid_volume(repaired.cage, was_closed);
+  }
   wrap_closely(cage, left.front().message, repaired);
   return repaired;
 }

@@ -20,7 +20,8 @@ struct RepairedCage {
   bool is_wrapped = false;           //!< all facets are new, and each control point has the
                                      //!< number of the nearest original one
   double measure_before = 0;         //!< area (2D) or volume (3D) that the original bounds, as the
-                                     //!< union of its parts; 0: it is open
+                                     //!< union of its parts; 0: it is open, unless it
+                                     //!< is wrapped, where it is an estimate
   double max_distance = 0;           //!< of the new surface from the original one; 0: below 1e-6 of
                                      //!< cage size
   Index kept = 0;                    //!< original control points that are still there

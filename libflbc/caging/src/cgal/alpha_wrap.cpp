@@ -8,6 +8,7 @@
 #include <CGAL/alpha_wrap_3.h>
 
 #include "caging/cage_steps.h"
+#include "caging/cgal/to_cage.h"
 #include "caging/surface_tools.h"
 
 namespace flbc {
@@ -99,22 +100,6 @@ class Oracle {
  private:
   const Enclosure<3>& model_;
 };
-
-Cage<3> to_cage(const Surface& surface) {
-  Cage<3> cage{PointList<3>(3, surface.number_of_vertices()),
-               FacetList<3>(3, surface.number_of_faces())};
-  for (const auto vertex : surface.vertices()) {
-    const auto& p = surface.point(vertex);
-    cage.points.col(vertex.idx()) << p.x(), p.y(), p.z();
-  }
-  for (const auto face : surface.faces()) {
-    int k = 0;
-    for (const auto vertex : vertices_around_face(surface.halfedge(face), surface)) {
-      cage.facets(k++, face.idx()) = static_cast<Index>(vertex.idx());
-    }
-  }
-  return cage;
-}
 
 }  // namespace
 

@@ -2,6 +2,8 @@
 #include "flbc/io/formats.h"
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
@@ -89,11 +91,24 @@ std::string extensions_of(std::initializer_list<Content> contents) {
 }
 
 std::string conversion_hint(const std::string& path) {
-  constexpr const char* kOthers[] = {"fbx",  "blend", "dae",  "3ds", "abc", "usd",
-                                     "usda", "usdc",  "usdz", "x3d", "wrl", "max"};
-  const auto extension = extension_of(path);
-  if (std::find(std::begin(kOthers), std::end(kOthers), extension) == std::end(kOthers)) return {};
-  return "; convert it to .obj or .ply first, for example in Blender";
+  // Extensions between blanks, and what to do.
+  constexpr std::pair<std::string_view, const char*> kOthers[] = {
+      {" fbx blend dae 3ds abc usd usda usdc usdz x3d wrl max ",
+       "convert it to .obj or .ply first, for example in Blender"},
+      {" dxf svg ",
+       "import it into Blender, convert the curves to meshes, and export .obj; a drawing can also "
+       "be "
+       "saved as .png with a transparent background"},
+      {" spz splat ksplat sog ",
+       "export it as an uncompressed .ply first, for example in SuperSplat"},
+      {" gz bz2 xz zst zip 7z ", "unpack it first"}};
+  const auto extension = " " + extension_of(path) + " ";
+  for (const auto& [extensions, way_out] : kOthers) {
+    if (extension.size() > 2 && extensions.find(extension) != std::string_view::npos) {
+      return std::string("; ") + way_out;
+    }
+  }
+  return {};
 }
 
 const Format& format_of(const std::string& path, Content content, const char* action) {

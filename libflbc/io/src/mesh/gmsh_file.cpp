@@ -50,7 +50,18 @@ class GmshReader {
 
  private:
   void read_format() {
-    if (!reader_.next_line() || reader_.word() != "$MeshFormat") {
+    const std::string first(reader_.next_line() ? reader_.word() : "");
+    if (first == "$NOD") {
+      reader_.fail(
+          "Gmsh version 1 is not supported; convert it by gmsh OLD.msh -save -format msh2 -o "
+          "NEW.msh");
+    }
+    if (first.find_first_not_of("0123456789") == std::string::npos && !first.empty()) {
+      reader_.fail(
+          "not a Gmsh file; it looks like a mesh of FreeFem: save it there by savegmsh(), or in 3D "
+          "by savemesh() with a name that ends in .mesh");
+    }
+    if (first != "$MeshFormat") {
       reader_.fail("not a Gmsh file: the first line must be $MeshFormat");
     }
     if (!reader_.next_line()) reader_.fail("the file ends before its version");

@@ -55,7 +55,10 @@ void skip_section(TextReader& reader) {
 // \param read  reads the section of a keyword, or returns false to skip it
 template <class Read>
 void for_sections(TextReader& reader, const Read& read) {
-  if (!reader.next_line() || reader.word() != "MeshVersionFormatted") {
+  const std::string_view first = reader.next_line() ? reader.word() : "";
+  if (first == "MFEM")
+    reader.fail("not a MEDIT file, but one of MFEM; save it there by PrintVTU()");
+  if (first != "MeshVersionFormatted") {
     reader.fail("not a MEDIT text file: the first word must be MeshVersionFormatted");
   }
   reader.word_on_any_line("the version");

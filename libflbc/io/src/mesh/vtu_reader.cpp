@@ -171,9 +171,11 @@ class VtuReader {
     const std::int64_t kind = kinds_[cell];
     if (kind == (Dim == 2 ? kTriangle : kTetrahedronType)) return true;
     if (Dim == 2 ? contains(kKindsBelow2D, kind) : contains(kKindsBelow3D, kind)) return false;
-    fail_cell(cell, "VTK cells of type " + std::to_string(kind) + " are not supported; " +
-                        (Dim == 2 ? "they must be triangles (type 5)"
-                                  : "they must be tetrahedra with 4 points (type 10)"));
+    fail_cell(cell,
+              "VTK cells of type " + std::to_string(kind) + " are not supported; " +
+                  (Dim == 2 ? "they must be triangles (type 5)"
+                            : "they must be tetrahedra with 4 points (type 10); flbc deform "
+                              "--domain moves any cells if the points are raw appended data"));
   }
 
   void append_corners(Index cell, std::int64_t begin, std::int64_t end,

@@ -3,23 +3,42 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include <Eigen/Geometry>
 
 namespace flbc::io {
 namespace {
 
+using Polygon = std::vector<Index>;
+
+// The same for any first corner and orientation of a polygon: starts at the lowest number, and goes
+// on to the lower of its neighbors. Second: whether the orientation is the other one.
+std::pair<Polygon, bool> in_canonical_order(Polygon polygon) {
+  const Index lowest = *std::min_element(polygon.begin(), polygon.end());
+  std::pair<Polygon, bool> result;
+  for (const bool is_reversed : {false, true}) {
+    for (auto corner = polygon.begin(); corner != polygon.end(); ++corner) {
+      if (*corner != lowest) continue;
+      Polygon candidate(corner, polygon.end());
+      candidate.insert(candidate.end(), polygon.begin(), corner);
+      if (result.first.empty() || candidate < result.first) result = {candidate, is_reversed};
+    }
+    std::reverse(polygon.begin(), polygon.end());
+  }
+  return result;
+}
+
 // A polygon projected onto its best-fit plane.
 class PolygonCutter {
  public:
-  using Polygon = std::vector<Index>;
   using Triangle = Eigen::Matrix<Index, 3, 1>;
 
   PolygonCutter(const std::vector<Vector<3>>& points, const Polygon& polygon)
       : points_(points), rest_(polygon) {
-    const Vector<3>& origin = points[polygon[0]];
-    for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
-      normal_ += (points[polygon[k]] - origin).cross(points[polygon[k + 1]] - origin);
+    const Vector<3>& origin = points[rest_[0]];
+    for (std::size_t k = 1; k + 1 < rest_.size(); ++k) {
+      normal_ += (points[rest_[k]] - origin).cross(points[rest_[k + 1]] - origin);
     }
     normal_.stableNormalize();
   }
@@ -29,7 +48,9 @@ class PolygonCutter {
   std::vector<Triangle> cut() {
     std::vector<Triangle> triangles;
     if (is_convex()) {
-      if (rest_.size() == 4 && length(1, 3) < length(0, 2)) {
+      // Diagonals that are equal up to rounding in a file: the one at the lowest number.
+      constexpr double kShorter = 1 - 1e-5;
+      if (rest_.size() == 4 && length(1, 3) < kShorter * length(0, 2)) {
         std::rotate(rest_.begin(), rest_.begin() + 1, rest_.end());
       }
     } else {
@@ -102,9 +123,11 @@ class PolygonCutter {
 }  // namespace
 
 FacetList<3> cut_polygon(const std::vector<Vector<3>>& points, const std::vector<Index>& polygon) {
-  const auto triangles = PolygonCutter(points, polygon).cut();
+  const auto [ordered, is_reversed] = in_canonical_order(polygon);
+  const auto triangles = PolygonCutter(points, ordered).cut();
   FacetList<3> result(3, triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) result.col(t) = triangles[t];
+  if (is_reversed) result.row(1).swap(result.row(2));
   return result;
 }
 

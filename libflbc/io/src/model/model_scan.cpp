@@ -6,7 +6,7 @@
 
 namespace flbc::io {
 
-PlacedNumbers next_numbers(TextReader& reader, std::size_t size, int needed) {
+PlacedNumbers next_numbers(TextReader& reader, std::size_t size, int needed, TripleKind kind) {
   PlacedNumbers result;
   auto& places = result.places;
   for (int k = 0; k < 3; ++k) {
@@ -14,7 +14,7 @@ PlacedNumbers next_numbers(TextReader& reader, std::size_t size, int needed) {
     if (reader.has_word() || k < needed) {
       places[k] = {size - reader.bytes_left(), static_cast<std::uint32_t>(reader.peek().size()),
                    NumberForm::kText};
-      result.values[k] = reader.number();
+      result.values[k] = kind == TripleKind::kPoint ? reader.number() : reader.any_number();
     } else if (k > 0) {
       places[k] = {places[k - 1].begin + places[k - 1].size, 0, NumberForm::kText};
     }

@@ -63,7 +63,8 @@ struct PlacedNumbers {
 //! previous one.
 //! \param reader  of a file of `size` bytes
 //! \param needed  an error if there are fewer
-PlacedNumbers next_numbers(TextReader& reader, std::size_t size, int needed);
+//! \param kind  points must be finite
+PlacedNumbers next_numbers(TextReader& reader, std::size_t size, int needed, TripleKind kind);
 
 void add_sites(ModelScan& scan, const std::array<NumberPlace, 3>& places, TripleKind kind,
                Index index);

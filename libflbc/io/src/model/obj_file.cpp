@@ -105,6 +105,8 @@ class ObjReader {
     drop_dangling_references();
     model_.attributes.texture_coordinates = to_matrix<2>(texture_coordinates_);
     model_.attributes.normals = to_matrix<3>(normals_);
+    keep_finite<2>(model_, model_.attributes.texture_coordinates);
+    keep_finite<3>(model_, model_.attributes.normals);
     finish_colors();
     finish_materials();
     if (scan_.text.find('#') != std::string::npos) add_other(model_, "comments");
@@ -166,7 +168,7 @@ class ObjReader {
   // Coordinates (planar curves lack z), optionally followed by a weight, or by a color with or
   // without alpha.
   void read_vertex() {
-    const auto numbers = next_numbers(reader_, scan_.text.size(), 2);
+    const auto numbers = next_numbers(reader_, scan_.text.size(), 2, TripleKind::kPoint);
     add(numbers.places, TripleKind::kPoint, model_.soup.points.size());
     model_.soup.points.push_back(numbers.values);
     std::vector<double> others;
@@ -241,13 +243,13 @@ class ObjReader {
   }
 
   void read_texture_coordinate() {
-    const double u = reader_.number();
-    texture_coordinates_.emplace_back(u, reader_.has_word() ? reader_.number() : 0);
+    const double u = reader_.any_number();
+    texture_coordinates_.emplace_back(u, reader_.has_word() ? reader_.any_number() : 0);
     if (reader_.has_word()) add_other(model_, "third texture coordinates");
   }
 
   void read_normal() {
-    const auto numbers = next_numbers(reader_, scan_.text.size(), 3);
+    const auto numbers = next_numbers(reader_, scan_.text.size(), 3, TripleKind::kNormal);
     add(numbers.places, TripleKind::kNormal, normals_.size());
     normals_.push_back(numbers.values);
   }

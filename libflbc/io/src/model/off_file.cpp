@@ -46,6 +46,8 @@ class OffReader {
       reader_.fail_expected("the end of the file after the last face", reader_.word());
     }
     if (!reads_attributes_) return;
+    keep_finite<2>(model_, model_.attributes.texture_coordinates);
+    keep_finite<3>(model_, model_.attributes.normals);
     refer_to_vertices(model_);
     if (scan_.text.find('#') != std::string::npos) add_other(model_, "comments");
   }
@@ -86,12 +88,12 @@ class OffReader {
   }
 
   void read_vertex(Index v) {
-    const auto point = next_numbers(reader_, scan_.text.size(), 3);
+    const auto point = next_numbers(reader_, scan_.text.size(), 3, TripleKind::kPoint);
     model_.soup.points.push_back(point.values);
     if (!reads_attributes_) return;
     add_sites(scan_, point.places, TripleKind::kPoint, v);
     if (has_normals_) {
-      const auto normal = next_numbers(reader_, scan_.text.size(), 3);
+      const auto normal = next_numbers(reader_, scan_.text.size(), 3, TripleKind::kNormal);
       add_sites(scan_, normal.places, TripleKind::kNormal, v);
       model_.attributes.normals.col(v) = normal.values;
     }
@@ -100,7 +102,7 @@ class OffReader {
     while (reader_.has_word()) {
       const bool is_integer = reader_.peek().find_first_of(".eE") == std::string_view::npos;
       if (is_integer && num_integers == numbers.size()) ++num_integers;
-      numbers.push_back(reader_.number());
+      numbers.push_back(reader_.any_number());
     }
     if (has_texture_) {
       if (numbers.size() < 2) reader_.fail("expected texture coordinates after the coordinates");

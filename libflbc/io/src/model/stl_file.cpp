@@ -104,17 +104,19 @@ class StlScanner {
     std::size_t corners = 3;
     bool is_open = true;
     while (reader.next_line()) {
-      const std::string keyword = lower_case(reader.word());
+      std::string keyword = lower_case(reader.word());
+      if (keyword == "end")
+        keyword += lower_case(reader.word());  // some programs write "end solid"
       if ((keyword == "facet" || keyword == "endfacet") && corners < 3) {
         reader.fail("a facet has fewer than 3 vertices");
       }
       if (keyword == "facet") {
         reader.word();  // normal
-        begin_triangle(next_numbers(reader, scan_.text.size(), 0));
+        begin_triangle(next_numbers(reader, scan_.text.size(), 0, TripleKind::kFaceNormal));
         corners = 0;
       } else if (keyword == "vertex") {
         if (++corners > 3) reader.fail("a facet has more than 3 vertices");
-        auto numbers = next_numbers(reader, scan_.text.size(), 3);
+        auto numbers = next_numbers(reader, scan_.text.size(), 3, TripleKind::kPoint);
         for (int d = 0; d < 3; ++d) {
           const auto& place = numbers.places[d];
           numbers.values[d] =

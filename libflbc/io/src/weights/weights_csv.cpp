@@ -1,17 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Comma-separated values: a line per point with a number per control point, without a header.
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "flbc/errors.h"
 #include "text/text_reader.h"
 #include "text/text_writer.h"
 #include "weights/weights_formats.h"
 
 namespace flbc::io {
 
+namespace {
+
+// Commas become blanks, which part numbers as well. A cell without a number would shift those after
+// it. A comma at the end of a line is no cell.
+void remove_commas(const std::string& path, std::string& content) {
+  std::int64_t line = 1;
+  Index column = 1;
+  bool is_empty = true;
+  for (std::size_t k = 0; k < content.size(); ++k) {
+    char& c = content[k];
+    if (c == '#') {
+      k = std::min(content.find('\n', k), content.size()) - 1;
+    } else if (c == '\n') {
+      ++line;
+      column = 1;
+      is_empty = true;
+    } else if (c == ',') {
+      if (is_empty) {
+        throw InputError(path + ":" + std::to_string(line) + ": column " + std::to_string(column) +
+                         " is empty; a missing weight is written as 0");
+      }
+      c = ' ';
+      ++column;
+      is_empty = true;
+    } else if (c != ' ' && c != '\t' && c != '\r') {
+      is_empty = false;
+    }
+  }
+}
+
+}  // namespace
+
 SparseWeights read_csv(const std::string& path, std::string content) {
-  std::replace(content.begin(), content.end(), ',', ' ');
+  remove_commas(path, content);
   TextReader reader(path, std::move(content), {'#', false});
   std::vector<double> numbers;
   std::size_t columns = 0, rows = 0;

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/LU>
+
 #include "base/messages.h"
 #include "base/stopwatch.h"
 #include "cage/point_in_cage.h"
@@ -217,10 +219,22 @@ Patience ample_time(const Task& task, const Patience& patience) {
   return {std::min(patience.seconds, 5 + 20 * watch.lap() * std::max(1.0, ratio)), patience.poll};
 }
 
+// TetGen makes another mesh of a cage that is turned inward.
+Cage<3> outward(Cage<3> cage) {
+  double volume = 0;
+  for (const auto& facet : cage.facets.colwise()) {
+    const Eigen::Matrix3d corners = cage.points(Eigen::all, facet);
+    volume += (corners.colwise() - cage.points.col(0)).determinant();
+  }
+  if (volume < 0) cage.facets.row(1).swap(cage.facets.row(2));
+  return cage;
+}
+
 }  // namespace
 
-DomainMesh<3> tetrahedralize(const Cage<3>& cage, const MeshingOptions<3>& options) {
-  validate(cage);
+DomainMesh<3> tetrahedralize(const Cage<3>& given, const MeshingOptions<3>& options) {
+  validate(given);
+  const Cage<3> cage = outward(given);
   const PointList<3> points = collect_input_points(cage, options);
   const Patience patience{options.time_limit, options.poll};
   const Task task{cage, {points, cage.facets, find_cavities(cage, patience)}, options.vertices};

@@ -200,7 +200,14 @@ BindReport bind_to(Mesh& model, const Cage<Dim>& cage, const DomainMesh<Dim>* do
   } else {
     set_weights(model, binding.weights.dense(), options.weights, options.persistent);
   }
-  set_offsets(model, rows_of(binding.offsets), options.weights, options.persistent);
+  auto offsets = rows_of(binding.offsets);
+  // A vertex at the origin that stays there has an offset as well, unlike one that is added later.
+  for (std::size_t v = 0; v < offsets.size(); ++v) {
+    if (!binding.weights.has_weights(static_cast<Index>(v)) && is_unbound(offsets[v])) {
+      offsets[v][0] = std::numeric_limits<double>::denorm_min();
+    }
+  }
+  set_offsets(model, offsets, options.weights, options.persistent);
   set_rest_cage(model, cage.points, options.weights, options.persistent);
   keep_rest(model, options.weights, options.persistent);
   return std::move(binding.report);

@@ -64,6 +64,9 @@ template <class Block, class Scalar, int Dim>
 Index move_points(const Block& weights, const PointList<Dim>& control_points,
                   const RowBlock<double>* offsets, int threads, const PointsView<Scalar>& points);
 
+//! \throws InputError if the numbers of vertices and of rows of weights differ
+void require_vertices(std::size_t vertices, std::size_t rows);
+
 template <class Mesh>
 void update_normals(Mesh& mesh) {
   if constexpr (!std::is_same_v<Mesh, TetMesh> && kPointSize<Mesh> == 3) {
@@ -78,14 +81,16 @@ void update_normals(Mesh& mesh) {
 }  // namespace internal
 
 //! Moves mesh points to x = sum_i w_i c_i, plus the offset for points outside the cage at bind().
-//! For those that stay where they are, the offset is their position.
+//! Vertices that stay where they are (kKeep) are unchanged, so that several cages can move parts of
+//! a mesh: bind each with another name of the weights, and call this for each. No vertex may be in
+//! two of these cages.
 //! The current positions have no effect. The third coordinate of a planar mesh is unchanged.
 //! Vertices that were not bound, such as those that split() added after bind(), are unchanged; see
 //! bind_new_vertices().
 //! \param control_points  Dim x n
 //! \return number of vertices that were not bound
-//! \throws InputError if the mesh has no weights of this name, or the number of control points
-//! differs
+//! \throws InputError if the mesh has no weights of this name, the number of control points differs,
+//! or clean() has removed vertices but not their properties
 template <class Mesh, int Dim>
 Index deform(Mesh& mesh, const PointList<Dim>& control_points, const DeformOptions& options = {}) {
   static_assert(kPointSize<Mesh> >= Dim, "the points of this mesh have two coordinates");
@@ -94,6 +99,7 @@ Index deform(Mesh& mesh, const PointList<Dim>& control_points, const DeformOptio
       internal::find_property<Wide<double>>(mesh, internal::name_of_offset(options.weights));
   const auto* offsets = offset ? &offset->data_vector() : nullptr;
   const auto move = [&](const auto& weights) {
+    internal::require_vertices(mesh.n_vertices(), weights.size());
     return internal::move_points(weights, control_points, offsets, options.threads, points);
   };
   const auto* influences = internal::find_property<Influences>(mesh, options.weights);

@@ -11,7 +11,9 @@ namespace flbc::io {
 
 //! Triangulates a polygon. A convex quadrilateral is cut along its shorter diagonal, another convex
 //! polygon into a fan, and any other by ear clipping. Triangles keep the orientation of the
-//! polygon.
+//! polygon. The cut depends on the places and numbers of the vertices, but neither on which corner
+//! comes first nor on the orientation. Of two equal diagonals, the one at the lowest number is
+//! taken.
 //! \param points  coordinates of all vertices \param polygon  at least 3 vertices
 //! \return 3 x (number of corners - 2), vertex indices
 FacetList<3> cut_polygon(const std::vector<Vector<3>>& points, const std::vector<Index>& polygon);

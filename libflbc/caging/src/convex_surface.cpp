@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "caging/cage_steps.h"
+#include "caging/mirror_plane.h"
+#include "caging/surface_tools.h"
+
+namespace flbc {
+
+namespace {
+
+// Turned so that points extend least along x, and most along z.
+struct Frame {
+  Eigen::Matrix3d axes;  // columns
+  Vector<3> low, extent;
+
+  explicit Frame(const PointList<3>& points) {
+    const PointList<3> centered = points.colwise() - points.rowwise().mean();
+    axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(centered * centered.transpose())
+               .eigenvectors();
+    const PointList<3> turned = axes.transpose() * points;
+    low = turned.rowwise().minCoeff();
+    extent = turned.rowwise().maxCoeff() - low;
+  }
+};
+
+Vector<3> centroid(const Cage<3>& surface) {
+  const Vector<3> origin = surface.points.rowwise().mean();
+  Vector<3> sum = Vector<3>::Zero();
+  double volume = 0;
+  for (const auto& facet : surface.facets.colwise()) {
+    const Eigen::Matrix3d corners = surface.points(Eigen::all, facet).eval().colwise() - origin;
+    volume += corners.determinant();
+    sum += corners.determinant() * corners.rowwise().sum() / 4;
+  }
+  return origin + sum / volume;
+}
+
+double area_of(const Cage<3>& surface) {
+  double sum = 0;
+  for (const auto& facet : surface.facets.colwise()) {
+    sum += facet_normal<3>(surface.points(Eigen::all, facet)).norm() / 2;
+  }
+  return sum;
+}
+
+// A hull of fewer points, enlarged to enclose the hull; round models have thousands. \param center
+// inside of it
+Cage<3> coarser(const Cage<3>& hull, const Vector<3>& center) {
+  constexpr Index kMany = 1500;
+  if (hull.size() <= kMany) return hull;
+  auto coarse =
+      convex_hull(simplified<3>(hull.points, hull.facets, std::sqrt(area_of(hull) / kMany)).points);
+  const PointList<3> centered = coarse.points.colwise() - center;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> planes(coarse.facets.cols(), 3);  // x is 1 on a facet
+  for (Index f = 0; f < coarse.facets.cols(); ++f) {
+    const Eigen::Matrix3d corners = centered(Eigen::all, coarse.facets.col(f));
+    const Vector<3> normal = facet_normal<3>(corners);
+    planes.row(f) = normal.transpose() / normal.dot(corners.col(0));
+  }
+  double scale = 1;
+  for (const auto& point : hull.points.colwise()) {
+    scale = std::max(scale, (planes * (point - center)).maxCoeff());
+  }
+  coarse.points = (scale * centered).colwise() + center;
+  return coarse;
+}
+
+}  // namespace
+
+ConvexSurface convex_surface(const PointList<3>& points, double thickness) {
+  constexpr double kEnlarged = 1.01;
+  constexpr double kRod = 2.5;                       // relation of extents
+  constexpr double kSpacing = 1.4, kMostRings = 40;  // spacing relative to the width
+  constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+  const Frame frame(points);
+  const Vector<3>& extent = frame.extent;
+  if (!(extent.y() > kFlat * extent.z())) return {{}, 0, kNoLimit, 0};
+  PointList<3> solid = points;
+  if (!(extent.x() > kFlat * extent.z())) {
+    solid.resize(3, 2 * points.cols());
+    solid << points.colwise() + thickness / 2 * frame.axes.col(0),
+        points.colwise() - thickness / 2 * frame.axes.col(0);
+  }
+  ConvexSurface result{convex_hull(solid), 0, kNoLimit, 0};
+  auto& surface = result.surface;
+  const Vector<3> center = centroid(surface);
+  result.hull_volume = signed_measure<3>(surface, center);
+  surface = coarser(surface, center);
+  result.offset = (kEnlarged - 1) * result.hull_volume / area_of(surface);
+  surface.points = (kEnlarged * (surface.points.colwise() - center)).colwise() + center;
+  if (!(extent.z() > kRod * extent.y())) return result;
+  const double rings = std::min(std::floor(extent.z() / (kSpacing * extent.y())), kMostRings);
+  const double spacing = extent.z() / (rings + 1);
+  surface.points = frame.axes.transpose() * surface.points;
+  for (double ring = 1; ring <= rings; ++ring) {
+    surface = cut_along<3>(surface, {2, frame.low.z() + ring * spacing});
+  }
+  surface.points = frame.axes * surface.points;
+  result.edge_length = kSpacing * spacing;
+  return result;
+}
+
+}  // namespace flbc
