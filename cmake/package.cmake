@@ -94,7 +94,7 @@ if(TARGET flbc::openmesh)
     flbc_package(openmesh libflbc-openmesh${interface}
       "local barycentric coordinates of cages: bindings to OpenMesh" "${needs_core}")
   endif()
-  set(depends ${dev} ${needs_openmesh} libopenmesh-dev libtinygltf-dev)
+  set(depends ${dev} ${needs_openmesh} libopenmesh-dev)
   list(JOIN depends ", " depends)
   flbc_package(openmesh_dev libflbc-openmesh-dev
     "local barycentric coordinates of cages: development files for OpenMesh" "${depends}")

@@ -135,6 +135,7 @@ void add_compare_command(CLI::App& app, int& exit_status) {
   add_mesher_options(*command, a.meshing);
   command->callback([arguments, &exit_status] {
     const auto cage = load_cage(arguments->cage);
+    arguments->view.up = up_of(arguments->view.up, arguments->model);
     exit_status = std::visit([&](const auto& any) { return compare_in(any, *arguments); }, cage);
   });
 }

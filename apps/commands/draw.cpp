@@ -192,6 +192,7 @@ void add_draw_command(CLI::App& app, int&) {
   add_options(*command, *arguments);
   command->callback([arguments] {
     check_arguments(*arguments);
+    arguments->view.up = up_of(arguments->view.up, arguments->model);
     std::visit([&](const auto& cage) { draw_cage(cage, *arguments); }, load_cage(arguments->cage));
   });
 }

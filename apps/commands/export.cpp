@@ -229,7 +229,7 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
 
   auto options = arguments.options;
   options.edges = model.edges();
-  options.turn = turn_upright(up_axis(arguments.up, points));
+  options.turn = turn_upright(up_axis(up_of(arguments.up, arguments.model), points));
   options.cage_edges = view::as_facets(load_shown_cage<Dim>(arguments.cage).edges);
   const auto skin = naming(arguments.model, [&] {
     return gltf::export_skin(rest, points, weights, surface, options, animation);

@@ -232,6 +232,8 @@ int run_model(const CLI::App& command, RunArguments& arguments) {
 int run_command(const CLI::App& command, RunArguments& arguments) {
   check_arguments(arguments);
   arguments.settings.needs_domain = true;
+  const auto& settings = arguments.settings;
+  arguments.up = up_of(arguments.up, arguments.makes_cage ? settings.cage : settings.model);
   if (arguments.makes_cage) return run_model(command, arguments);
   refuse_unread_options(command, arguments.settings);
   auto& model = arguments.settings.model;

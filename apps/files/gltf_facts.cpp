@@ -60,15 +60,16 @@ Counts count(const GltfJson& gltf) {
     return parent.contains(name) ? parent.at(name) : none;
   };
   Counts counts;
-  std::set<std::size_t> positions;
+  std::set<std::size_t> positions, joints;  // skins may share theirs
   for (const auto& mesh : all(gltf, "meshes")) {
     for (const auto& primitive : mesh.at("primitives")) {
       count_triangles(gltf, primitive, positions, counts);
     }
   }
   for (const auto& skin : all(gltf, "skins")) {
-    counts.joints += skin.at("joints").size();
+    for (const auto& joint : skin.at("joints")) joints.insert(io::whole(joint));
   }
+  counts.joints = joints.size();
   for (const auto& animation : all(gltf, "animations")) {
     for (const auto& sampler : animation.at("samplers")) {
       const auto& times = gltf.at("accessors").at(io::whole(sampler.at("input")));
@@ -82,7 +83,7 @@ Counts count(const GltfJson& gltf) {
 
 bool is_gltf_file(const std::string& path) {
   const auto extension = io::extension_of(path);
-  return extension == "glb" || extension == "gltf";
+  return extension == "glb" || extension == "gltf" || extension == "vrm";
 }
 
 std::string describe_gltf(const std::string& path) {
@@ -91,7 +92,8 @@ std::string describe_gltf(const std::string& path) {
     const auto gltf = GltfJson::parse(json_of(bytes));
     const auto counts = count(gltf);
     Eigen::AlignedBox3d box;
-    for (const auto& point : io::read_polygons(path).points) box.extend(point);
+    const io::ModelFile file(path);
+    for (const auto& point : file.model().soup.points) box.extend(point);
     std::ostringstream text;
     text << path << ": glTF model of " << counts.vertices << " vertices, " << counts.triangles
          << " triangles\n";
@@ -102,6 +104,7 @@ std::string describe_gltf(const std::string& path) {
       text << "  skin of " << counts.joints << " joints, at most " << counts.influences
            << " influences per vertex\n";
     }
+    for (const auto& note : file.model().notes) text << "  " << note << '\n';
     if (counts.seconds > 0) text << "  animation of " << counts.seconds << " s\n";
     return text.str();
   } catch (const GltfJson::exception&) {

@@ -7,7 +7,7 @@
 
 namespace flbc::app {
 
-//! Whether a path ends in .glb or .gltf.
+//! Whether a path ends in .glb, .gltf, or .vrm.
 bool is_gltf_file(const std::string& path);
 
 //! Counts of vertices, triangles, joints, and influences, and the length of the animation, as lines

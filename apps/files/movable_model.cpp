@@ -131,6 +131,8 @@ MovableModel<Dim>::MovableModel(MovedFile file) : file_(std::move(file)) {
   }
   if (is_model_file(path)) {
     model_.emplace(path);
+    for (const auto& note : model_->model().notes)
+      std::cerr << "flbc: " << path << ": " << note << '\n';
     if (!is_rewritten(file_)) find_losses(model_->model());
     if (is_model_file(file_.output)) {
       points_ = io::to_points<Dim>(model_->model().soup, path);
@@ -149,6 +151,7 @@ template <int Dim>
 void MovableModel<Dim>::find_losses(io::Model model) {
   const bool replaces_colors = file_.shows_displacement && model.attributes.colors.cols() > 0;
   if (replaces_colors) model.attributes.colors.resize(3, 0);
+  if (file_.shows_displacement) model.gltf.reset();
   const auto lost = io::losses(model, file_.output);
   losses_.insert(losses_.end(), lost.begin(), lost.end());
   if (replaces_colors) losses_.emplace_back("colors (they show the displacement)");
@@ -195,7 +198,10 @@ void MovableModel<Dim>::write(const std::string& path, const PointList<Dim>& poi
   if (is_model_file(path)) {
     auto model = model_ ? model_->moved(points, jacobians)
                         : io::Model{io::to_polygons<Dim>({points, mesh_.cells})};
-    if (file_.shows_displacement) model.attributes.colors = colors_of(lengths, largest);
+    if (file_.shows_displacement) {
+      model.attributes.colors = colors_of(lengths, largest);
+      model.gltf.reset();  // its document has other colors
+    }
     return save(path, model);
   }
   std::vector<io::VertexField> fields;

@@ -12,7 +12,7 @@
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/splat_file.h"
-#include "gltf/surface.h"
+#include "model/surface.h"
 
 namespace flbc::app {
 

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "flbc/errors.h"
+#include "flbc/io/files.h"
 
 namespace flbc::app {
 namespace {
@@ -27,6 +28,12 @@ bool stands(const PointList<3>& points, int axis) {
 }
 
 }  // namespace
+
+UpAxis up_of(UpAxis up, const std::string& model) {
+  const auto extension = io::extension_of(model);
+  const bool is_gltf = extension == "glb" || extension == "gltf" || extension == "vrm";
+  return up == UpAxis::kAuto && is_gltf ? UpAxis::kY : up;
+}
 
 int up_axis(UpAxis up, const PointList<3>& points) {
   if (up != UpAxis::kAuto) return static_cast<int>(up);

@@ -2,6 +2,8 @@
 // Which axis of a model points up in pictures, pages, and exports.
 #pragma once
 
+#include <string>
+
 #include <Eigen/Core>
 
 #include "flbc/types.h"
@@ -9,6 +11,9 @@
 namespace flbc::app {
 
 enum class UpAxis { kX, kY, kZ, kAuto };
+
+//! kY for kAuto and a glTF file, in which y points up by definition; otherwise `up`.
+UpAxis up_of(UpAxis up, const std::string& model);
 
 //! The axis, 0 to 2. For kAuto the first of y, z, and x along which the model stands: the center of
 //! its vertices is above the bounding box of the lowest vertices (within 3% of the height), and

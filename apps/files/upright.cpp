@@ -41,7 +41,8 @@ CLI::Option* add_up_option(CLI::App& command, UpAxis& up) {
   return add_choice(
       command, "--up", {"x", "y", "z", "auto"},
       [&up](const std::string& word) { up = kAxes.at(word); },
-      "axis of a 3D model that points up (default: auto, by its lowest vertices)");
+      "axis of a 3D model that points up (default: auto: y for glTF, otherwise by its lowest "
+      "vertices)");
 }
 
 std::vector<CLI::Option*> add_view_options(CLI::App& command, ModelView& view) {

@@ -14,7 +14,7 @@
 #include "flbc/domain_mesh.h"
 #include "flbc/types.h"
 #include "gltf/skin.h"
-#include "gltf/surface.h"
+#include "model/surface.h"
 #include "poses/poses.h"
 #include "report/sparsify_report.h"
 #include "solve/solve_settings.h"

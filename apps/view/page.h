@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "flbc/sparse_weights.h"
-#include "gltf/surface.h"
+#include "model/surface.h"
 
 namespace flbc::view {
 

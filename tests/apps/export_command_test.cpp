@@ -4,6 +4,7 @@
 #include "support/command_line.h"
 #include "support/glb_file.h"
 #include "support/model_cages.h"
+#include "support/new_glb.h"
 
 namespace flbc::testing {
 namespace {
@@ -224,6 +225,159 @@ TEST_F(ExportCommand, AttributesOfOtherFormats) {
       ASSERT_TRUE(found.has(attribute)) << attribute;
       EXPECT_LT(distance(found.attribute(attribute), expected.attribute(attribute)), 1e-6);
     }
+  }
+}
+
+// Where the skin of a node puts its vertices if the control points move.
+Eigen::MatrixXd skinned(const GlbChunks& file, std::size_t number, const Eigen::MatrixXd& moves) {
+  const auto& json = file.json;
+  const auto& node = json["nodes"][number];
+  const auto& skin = json["skins"][node["skin"].get<std::size_t>()];
+  const auto& attributes =
+      json["meshes"][node["mesh"].get<std::size_t>()]["primitives"][0]["attributes"];
+  const auto positions = file.floats(attributes["POSITION"], 3);
+  const auto weights = file.floats(attributes["WEIGHTS_0"], 4);
+  const auto binds = file.floats(skin["inverseBindMatrices"], 16);
+  const auto joints = file.accessor(attributes["JOINTS_0"]);
+  const auto place = [&](const NewGlb::Json& owner) {
+    const auto numbers = owner["translation"].get<std::vector<double>>();
+    return Vector<3>(numbers[0], numbers[1], numbers[2]);
+  };
+  const auto root = place(json["nodes"][skin["skeleton"].get<std::size_t>()]);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3, positions.cols());
+  for (Eigen::Index v = 0; v < positions.cols(); ++v) {
+    for (Eigen::Index slot = 0; slot < 4; ++slot) {
+      const auto joint = static_cast<Eigen::Index>(joints[static_cast<std::size_t>(4 * v + slot)]);
+      if (joint >= moves.cols()) continue;
+      Eigen::Affine3d frame(Eigen::Matrix4d(binds.col(joint).cast<double>().reshaped(4, 4)));
+      const auto& own =
+          json["nodes"][skin["joints"][static_cast<std::size_t>(joint)].get<std::size_t>()];
+      frame = Eigen::Translation3d(root + place(own) + moves.col(joint)) * frame;
+      result.col(v) += weights(slot, v) * (frame * Vector<3>(positions.col(v).cast<double>()));
+    }
+  }
+  return result;
+}
+
+// Two small tetrahedra in the cage, which show the same mesh, and a line.
+NewGlb twins() {
+  NewGlb file(R"({"scene":0,"scenes":[{"name":"stage","nodes":[0,2]}],
+    "nodes":[{"name":"pair","children":[1],"mesh":0,"scale":[-0.15,0.15,0.15],
+              "translation":[0.4,0.1,0.1]},
+             {"name":"twin","mesh":0,"translation":[0,1.1,0],"rotation":[0,0,0.6,0.8]},
+             {"name":"eye","camera":0,"translation":[0,0,9]}],
+    "cameras":[{"type":"perspective","perspective":{"yfov":0.7,"znear":0.01}}],
+    "meshes":[{"name":"shape","primitives":[{"material":0},{"mode":1}]}],
+    "materials":[{"name":"leaf","alphaMode":"MASK","alphaCutoff":0.25,
+      "normalTexture":{"index":0,"texCoord":1},
+      "pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0.5,1],"baseColorTexture":{"index":0}},
+      "extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":0.125}}}],
+    "textures":[{"source":0}],"extensionsUsed":["KHR_materials_clearcoat"],
+    "animations":[{"channels":[{"sampler":0,"target":{"node":2,"path":"translation"}},
+      {"sampler":0,"target":{"node":0,"path":"translation"}}],"samplers":[{"input":6,"output":7}]}]
+    })");
+  const Eigen::MatrixXd corners = (Eigen::MatrixXd(3, 4) << 0, 1, 0, 0,  //
+                                   0, 0, 1, 0,                           //
+                                   0, 0, 0, 1)
+                                      .finished();
+  const auto faces = (Eigen::RowVectorXd(12) << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3).finished();
+  auto& attributes = file.primitive(0)["attributes"];
+  attributes["POSITION"] = file.add<float>(corners);
+  attributes["NORMAL"] = file.add<float>(Eigen::MatrixXd(Vector<3>::UnitX().replicate(1, 4)));
+  attributes["TANGENT"] =
+      file.add<float>(Eigen::MatrixXd(Eigen::Vector4d(0, 1, 0, -1).replicate(1, 4)));
+  attributes["TEXCOORD_0"] = file.add<float>(Eigen::MatrixXd::Random(2, 4));
+  attributes["TEXCOORD_1"] = file.add<float>(Eigen::MatrixXd::Random(2, 4));
+  file.primitive(0)["indices"] = file.add<std::uint16_t>(faces);
+  file.primitive(0, 1)["attributes"]["POSITION"] = 0;
+  file.add<float>(Eigen::RowVector2d(0, 1));
+  file.json["accessors"][6]["min"] = {0};
+  file.json["accessors"][6]["max"] = {1};
+  file.add<float>(Eigen::MatrixXd::Random(3, 2));
+  file.json["images"].push_back(
+      {{"bufferView", file.add_view("\x89PNG\r\n\x1a\nodd")}, {"mimeType", "image/png"}});
+  return file;
+}
+
+TEST_F(ExportCommand, DocumentsKeepWhatTheyHave) {
+  const auto original = twins();
+  const auto model = file("m.glb", original.glb());
+  const auto points = points_in<3>(model);
+  ASSERT_EQ(points.cols(), 8);
+  const auto result = expect_export(
+      model + " --weights " + linear_weights(points) + " --cage " + tetrahedron() + " --pose " +
+          tetrahedron("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.1 1.5\n", "pose.obj") + " -o s.glb",
+      0, "8 vertices");
+  EXPECT_NE(result.errors.find("animations of nodes"), std::string::npos) << result.errors;
+  const GlbChunks skin(slurp("s.glb"));
+  // All bytes are there, and the JSON but for what a skin takes.
+  EXPECT_EQ(skin.binary.substr(0, original.bytes.size()), original.bytes);
+  for (const char* list : {"materials", "textures", "images", "cameras", "extensionsUsed"}) {
+    EXPECT_EQ(skin.json[list], original.json[list]) << list;
+  }
+  EXPECT_EQ(skin.json["asset"], original.json["asset"]);
+  for (std::size_t k = 0; k < original.json["nodes"].size(); ++k) {
+    auto node = skin.json["nodes"][k];
+    node.erase("skin");
+    if (k == 1) node["mesh"] = 0;  // it has a copy
+    EXPECT_EQ(node, original.json["nodes"][k]);
+  }
+  EXPECT_EQ(skin.json["scenes"][0]["name"], "stage");
+  EXPECT_EQ(skin.json["animations"][0]["channels"].size(), 1U);
+  for (const std::size_t mesh : {0U, 1U}) {
+    const auto& primitive = skin.json["meshes"][mesh]["primitives"][0];
+    for (const auto& [name, accessor] :
+         original.json["meshes"][0]["primitives"][0]["attributes"].items()) {
+      EXPECT_EQ(primitive["attributes"][name], accessor) << name;
+    }
+    EXPECT_EQ(primitive["material"], 0);
+  }
+  // The cage moves both nodes as flbc deform moves the model.
+  Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(3, 4);
+  for (int step = 0; step < 2; ++step) {
+    if (step == 1) moves.col(3) << 0.2, 0.1, 0.5;
+    const Eigen::MatrixXd expected = points + moves.col(3) * points.row(2);
+    EXPECT_LT(distance(skinned(skin, 0, moves), expected.leftCols(4)), 1e-6);
+    EXPECT_LT(distance(skinned(skin, 1, moves), expected.rightCols(4)), 1e-6);
+  }
+}
+
+TEST_F(ExportCommand, PosesOfOldSkinsStay) {
+  auto original = twins();
+  original.json.erase("animations");
+  original.json["meshes"][0]["primitives"].erase(1);
+  original.json["scenes"][0]["nodes"] = {1, 2};
+  original.json["nodes"][1] = {{"mesh", 0}, {"skin", 0}, {"weights", {0.5}}};
+  original.json["nodes"][2] = {{"name", "bone"},
+                               {"translation", {0.3, 0.2, 0.1}},
+                               {"rotation", {0, 0, 0.6, 0.8}},
+                               {"scale", {0.2, 0.2, 0.2}}};
+  original.json["skins"] = {{{"joints", {2}}}};
+  auto& primitive = original.primitive(0);
+  primitive["targets"] = {
+      {{"POSITION", original.add<float>(Eigen::MatrixXd::Constant(3, 4, 0.5))}}};
+  primitive["attributes"]["JOINTS_0"] = original.add<std::uint8_t>(Eigen::MatrixXd::Zero(4, 4));
+  primitive["attributes"]["WEIGHTS_0"] =
+      original.add<float>(Eigen::MatrixXd(Eigen::Vector4d::UnitX().replicate(1, 4)));
+  const auto model = file("m.glb", original.glb());
+  const auto points = points_in<3>(model);
+  const auto result = expect_export(
+      model + " --weights " + linear_weights(points) + " --cage " + tetrahedron() + " -o s.glb", 0,
+      "4 vertices");
+  EXPECT_NE(result.errors.find("its own skins"), std::string::npos) << result.errors;
+  EXPECT_LT(distance(points_in<3>("s.glb"), points), 1e-6);
+  const GlbChunks skin(slurp("s.glb"));
+  EXPECT_EQ(skin.json["nodes"][2], original.json["nodes"][2]);
+  EXPECT_EQ(skin.json["nodes"][1]["weights"], original.json["nodes"][1]["weights"]);
+  // The other node with this mesh is not in the scene and keeps it.
+  EXPECT_EQ(skin.json["meshes"][0], original.json["meshes"][0]);
+  const auto& attributes = skin.json["meshes"][1]["primitives"][0]["attributes"];
+  const Eigen::Quaterniond turn(0.8, 0, 0, 0.6);
+  const auto normals = skin.floats(attributes["NORMAL"], 3),
+             tangents = skin.floats(attributes["TANGENT"], 4);
+  for (int v = 0; v < 4; ++v) {
+    EXPECT_LT((normals.col(v).cast<double>() - turn * Vector<3>::UnitX()).norm(), 1e-6);
+    EXPECT_LT((tangents.col(v).head<3>().cast<double>() - turn * Vector<3>::UnitY()).norm(), 1e-6);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "gltf/surface.h"
+#include "model/surface.h"
 
 #include <cmath>
 #include <map>

@@ -102,6 +102,16 @@ TEST_F(UpOption, SkinsTurnTheirRoot) {
   expect("export " + pyramid(2) + " -o s.py --up z", 1, "leave out --up");
 }
 
+// In glTF y points up, even if a model lies.
+TEST_F(UpOption, FilesThatKnowTheAxisAreNotTurned) {
+  expect("convert " + pyramid(2).substr(0, pyramid(2).find(' ')) + " -q -o lying.glb");
+  const auto rest = pyramid(2).substr(pyramid(2).find(' '));
+  expect("export lying.glb" + rest + " -q -o s.glb");
+  EXPECT_FALSE(GlbFile(slurp("s.glb")).root_joint().contains("rotation"));
+  expect("export lying.glb" + rest + " -q -o s.glb --up z");
+  EXPECT_TRUE(GlbFile(slurp("s.glb")).root_joint().contains("rotation"));
+}
+
 TEST_F(UpOption, PagesKnowTheAxis) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto up = "\"up\":" + std::to_string(axis);

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "flbc/cage.h"
+#include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/model_file.h"
 #include "fuzz/reader.h"
@@ -76,6 +77,18 @@ void require_faithful_writing(const io::ModelFile& file) {
   require(out.str() == file.text(), "vertices that stay leave the file as it was");
 }
 
+// Documents can be edited, or say why not.
+void require_edit(const io::ModelFile& file) {
+  std::ostringstream out;
+  const PointList<3> points = points_of(file.model().soup).array() + 0.5;
+  try {
+    file.write<3>(out, points);
+  } catch (const Error&) {
+    return;
+  }
+  require(out.str() != file.text(), "vertices have moved");
+}
+
 void require_cage(const io::PolygonSoup& soup) {
   const auto check = [](const auto& cage) {
     for (const auto& facet : cage.facets.colwise()) {
@@ -91,6 +104,7 @@ void read_model(const std::string& path) {
   require_soup(file.model().soup);
   require_attributes(file.model());
   require_faithful_writing(file);
+  if (file.model().gltf) require_edit(file);
   const auto soup = io::read_polygons(path);
   require(soup.points == file.model().soup.points && soup.polygons == file.model().soup.polygons,
           "cages are what models are");

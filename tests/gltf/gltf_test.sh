@@ -150,6 +150,17 @@ printf 'newmtl green\nKd 0 1 0\nd 0.5\nnewmtl dot\nmap_Kd dot.png\n' >look.mtl
 export_skin globe painted.obj cube.obj painted.glb -k 8 --pose cube.obj cube_pose.obj --fps 2
 check painted.glb --model painted.obj --pose 0 painted.obj --pose 0.5 globe.8.posed.obj --texture
 
+# ---- 3D: documents that get a cage --------------------------------------------------------------
+"$flbc" convert globe.obj -q -o globe.glb
+"$flbc" convert globe.glb -q -o cut.obj # of the same triangles, which decide the reduction
+cp globe.npy cut.npy
+prepare cut cut.obj cube.obj cube_pose.obj 4
+export_skin cut globe.glb cube.obj kept.glb -k 4 --pose cube.obj cube_pose.obj --fps 2
+check kept.glb --model cut.obj --pose 0 cut.obj --pose 0.5 cut.4.posed.obj --texture
+"$flbc" convert painted.obj -q -o source.glb
+export_skin globe source.glb cube.obj kept.glb -k 8 --pose cube.obj cube_pose.obj --fps 2
+check kept.glb --model painted.obj --pose 0 painted.obj --pose 0.5 globe.8.posed.obj --texture
+
 # ---- 2D: a sample, a mesh, and more joints than a byte can count ---------------------------------
 cage=$meshes/2d/figure_cage.obj
 pose=$meshes/2d/figure_cage_pose.obj

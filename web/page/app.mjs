@@ -143,8 +143,8 @@ class App {
   // What the module reads, of files that were dropped together.
   async modelOf(files) {
     const first = (kind) => files.find(({ name }) => kind.test(name));
-    const main = first(/\.(obj|ply|stl|off|glb|gltf)$/i) ?? first(/\.svg$/i) ?? first(kPicture);
-    if (!main) throw new Error(`${files[0].name}: unknown file format; drop a .glb, .gltf, .obj, .ply, .stl, .off, .svg, .png, or .jpg`);
+    const main = first(/\.(obj|ply|stl|off|glb|gltf|vrm)$/i) ?? first(/\.svg$/i) ?? first(kPicture);
+    if (!main) throw new Error(`${files[0].name}: unknown file format; drop a .glb, .gltf, .vrm, .obj, .ply, .stl, .off, .svg, .png, or .jpg`);
     const pictures = kPicture.test(main.name) ? [main] : files.filter(({ name }) => kPicture.test(name));
     const { obj, address: picture = "" } = pictures.length === 1 ? await decodePicture(pictures[0]) : {};
     const made = main === pictures[0] ? obj : /\.svg$/i.test(main.name) ? svgToObj(await main.text()) : null;

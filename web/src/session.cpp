@@ -27,8 +27,9 @@
 #include "flbc/rig.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
-#include "gltf/look.h"
 #include "gltf/skin.h"
+#include "model/gltf_edit.h"
+#include "model/gltf_writer.h"
 #include "solve/estimate.h"
 #include "solve/make_domain.h"
 #include "view/model_page.h"
@@ -509,15 +510,17 @@ class Work {
     return std::filesystem::path(name_).stem().string();
   }
   int up() const {
-    return app::up_axis(app::UpAxis::kAuto, points());
+    return app::up_axis(app::up_of(app::UpAxis::kAuto, file_), points());
   }
 
   // \param picture  data URI of a texture, or empty: that of the model's material
   view::PageContent<Dim> content(std::string picture) const {
-    const auto look = gltf::look_of(surface_);
-    if (picture.empty() && !look.pictures.empty()) {
-      const auto& [media_type, bytes] = look.pictures.front();
-      picture = app::data_uri(media_type, bytes);
+    std::vector<std::string> left_out;
+    for (const Index material : surface_.triangle_materials) {
+      if (!picture.empty()) break;
+      if (material < 0) continue;
+      const auto bytes = io::load_picture(surface_.materials[material], left_out);
+      if (!bytes.empty()) picture = app::data_uri(io::media_type_of(bytes), bytes);
     }
     return {title(),         name_, "weights.npy", kCageFile, shown_, points(), surface_,
             shown_weights(), {},    up(),          picture};

@@ -28,6 +28,7 @@ constexpr Format kFormats[] = {
     {"om", {read_om, nullptr, Attributes::kVertices}},  // OpenMesh writes it: flbc::openmesh
     {"glb", {read_gltf, write_glb, Attributes::kCorners}},
     {"gltf", {read_gltf, nullptr, Attributes::kCorners}},
+    {"vrm", {read_gltf, nullptr, Attributes::kCorners}},  // .glb of persons
     {"vtu", {}, kVtu<2>, kVtu<3>},
     {"mesh", {}, {}, {read_medit, write_medit, true}},
     {"node", {}, {}, kTetGen},

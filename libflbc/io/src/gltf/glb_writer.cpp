@@ -2,207 +2,255 @@
 #include "gltf/glb_writer.h"
 
 #include <algorithm>
-#include <fstream>  // missing in tiny_gltf.h
-#include <limits>
 #include <map>
-#include <sstream>
+#include <set>
 #include <vector>
 
 #include <Eigen/Geometry>
 
-#include "flbc/version.h"
-
-#include <tiny_gltf.h>
-#include <nlohmann/json.hpp>
-
-#include "gltf/glb_buffer.h"
+#include "model/following_normals.h"
+#include "model/gltf_edit.h"
+#include "model/gltf_json.h"
 
 namespace flbc::gltf {
 namespace {
 
+using Json = io::GltfJson;
+using io::GltfPart;
+
 // Length of joints drawn as bones, relative to cage size.
 constexpr float kBoneLength = 0.02F;
 
-// JSON must be UTF-8, but a file name may not be.
-std::string as_utf8(const std::string& name) {
-  using Json = nlohmann::json;
-  return Json::parse(Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
-}
-
-std::vector<double> to_doubles(const Eigen::Vector3f& point) {
+Json list_of(const Eigen::Vector3d& point) {
   return {point.x(), point.y(), point.z()};
 }
 
-// Adds the parts of the scene to the model of the library.
-class ModelBuilder {
+bool is_about_influences(const std::string& attribute) {
+  return attribute.compare(0, 7, "JOINTS_") == 0 || attribute.compare(0, 8, "WEIGHTS_") == 0;
+}
+
+// Adds skin, joints, and animation to a document.
+class SkinBuilder {
  public:
-  explicit ModelBuilder(const GlbScene& scene) : scene_(scene), buffer_(model_) {
-    model_.asset.version = "2.0";
-    model_.asset.generator = "flbc " FLBC_VERSION;
-    add_materials();
-    add_mesh();
-    add_joints();
+  SkinBuilder(const GlbScene& scene, std::vector<std::string>& left_out)
+      : scene_(scene),
+        left_out_(left_out),
+        edit_(scene.document ? io::GltfEdit(*scene.document) : io::GltfEdit()),
+        document_(edit_.document) {
+    if (scene.document) {
+      const auto missing = edit_.embed_pictures();
+      left_out_.insert(left_out_.end(), missing.begin(), missing.end());
+      drop_old_motion();
+      add_joints();
+      for (const auto& part : scene.document->parts) skin(part);
+      skin_others();
+    } else {
+      document_.append("nodes", {{"name", scene.name}, {"mesh", 0}, {"skin", 0}});
+      add_joints();
+      add_new_mesh();
+    }
     add_animation();
-    model_.scenes.emplace_back();
-    model_.scenes[0].name = "model";
-    model_.scenes[0].nodes = {kMeshNode, kCageNode};
-    model_.defaultScene = 0;
-    if (scene_.wire.cols() > 0) add_wire();
+    add_scenes();
   }
 
-  const tinygltf::Model& model() const { return model_; }
+  std::string glb() const { return document_.glb(); }
 
  private:
-  // Node indices.
-  static constexpr int kMeshNode = 0;
-  static constexpr int kCageNode = 1;
-  static constexpr int kFirstJoint = 2;
+  std::size_t num_nodes() const { return document_.json["nodes"].size(); }
 
-  void add_mesh() {
-    std::map<std::string, int> attributes;
-    attributes["POSITION"] = buffer_.add_attribute<float>(scene_.positions, true);
-    attributes["NORMAL"] = buffer_.add_attribute<float>(scene_.normals);
-    if (scene_.texture_coordinates.cols() > 0) {
-      attributes["TEXCOORD_0"] = buffer_.add_attribute<float>(scene_.texture_coordinates);
-    }
-    if (scene_.colors.cols() > 0) {
-      attributes["COLOR_0"] = buffer_.add_attribute<float>(scene_.colors);
-    }
-    if (scene_.sources.cols() > 0) {
-      attributes["_VERTEX"] = buffer_.add_attribute<float>(scene_.sources);
-    }
-    add_influences(attributes);
+  Json& list(const char* name) { return document_.json[name]; }
 
-    tinygltf::Mesh mesh;
-    mesh.name = as_utf8(scene_.name);
-    for (const auto& [material, triangles] : triangles_by_material()) {
-      tinygltf::Primitive primitive;
-      primitive.mode = TINYGLTF_MODE_TRIANGLES;
-      primitive.attributes = attributes;
-      primitive.indices = buffer_.add_indices(FacetList<3>(scene_.triangles(Eigen::all, triangles)),
-                                              scene_.positions.cols());
-      primitive.material = material;
-      mesh.primitives.push_back(primitive);
+  // ---------------------------------------------------------------------------- a document's
+  // motion
+
+  // Joints and skins of the model before it got its cage, and the animations that move them.
+  void drop_old_motion() {
+    std::set<std::size_t> meshes, moved;
+    for (const auto& part : scene_.document->parts) meshes.insert(part.node);
+    std::set<std::size_t> kept;
+    for (std::size_t k = 0; k < num_nodes(); ++k) {
+      auto& node = edit_.node(k);
+      if (!node.contains("skin")) continue;
+      const auto skin = io::whole(node["skin"]);
+      if (meshes.count(k) == 0) {
+        kept.insert(skin);
+        continue;
+      }
+      for (const auto joint : io::wholes(list("skins").at(skin), "joints")) moved.insert(joint);
+      node.erase("skin");
     }
-    add_skinned(mesh);
+    moved.insert(meshes.begin(), meshes.end());
+    add_ancestors(moved);
+    const bool has_skins = drop_skins(kept), has_animations = drop_animations(moved);
+    if (!has_skins && !has_animations) return;
+    left_out_.push_back(std::string("its own ") + (has_skins ? "skins" : "") +
+                        (has_skins && has_animations ? " and " : "") +
+                        (has_animations ? "animations of nodes" : "") +
+                        ", because the cage moves the model");
   }
 
-  // Adds a node with the skinned mesh. \return its index
-  int add_skinned(const tinygltf::Mesh& mesh) {
-    tinygltf::Node node;
-    node.name = mesh.name;
-    node.mesh = static_cast<int>(model_.meshes.size());
-    node.skin = 0;
-    model_.meshes.push_back(mesh);
-    model_.nodes.push_back(node);
-    return static_cast<int>(model_.nodes.size()) - 1;
-  }
-
-  // By index of the glTF materials.
-  std::map<int, std::vector<Index>> triangles_by_material() const {
-    std::map<int, std::vector<Index>> result;
-    const auto& materials = scene_.look.triangle_materials;
-    for (Index t = 0; t < static_cast<Index>(scene_.triangles.cols()); ++t) {
-      const Index material = materials.empty() ? -1 : materials[t];
-      result[material < 0 ? plain_material_ : material].push_back(t);
+  void add_ancestors(std::set<std::size_t>& nodes) {
+    for (bool is_complete = false; !is_complete;) {
+      is_complete = true;
+      for (std::size_t k = 0; k < num_nodes(); ++k) {
+        for (const auto child : io::wholes(edit_.node(k), "children")) {
+          if (nodes.count(child) > 0 && nodes.insert(k).second) is_complete = false;
+        }
+      }
     }
-    return result;
   }
 
-  // The cage edges, skinned by the control points, in a second scene that is not shown by default.
-  void add_wire() {
-    const auto count = scene_.joints.cols();
-    Eigen::MatrixXf joints = Eigen::MatrixXf::Zero(4, count);
-    Eigen::MatrixXf weights = joints;
-    for (Eigen::Index i = 0; i < count; ++i) joints(0, i) = static_cast<float>(i);
-    weights.row(0).setOnes();
-    tinygltf::Primitive primitive;
-    primitive.mode = TINYGLTF_MODE_LINE;
-    primitive.attributes["POSITION"] = buffer_.add_attribute<float>(scene_.joints, true);
-    primitive.attributes["JOINTS_0"] = buffer_.add_attribute<std::uint16_t>(joints);
-    primitive.attributes["WEIGHTS_0"] = buffer_.add_attribute<float>(weights);
-    primitive.indices = buffer_.add_indices(scene_.wire, count);
-    tinygltf::Mesh mesh;
-    mesh.name = "cage_wire";
-    mesh.primitives.push_back(primitive);
-    tinygltf::Scene both;
-    both.name = "model and cage";
-    both.nodes = {kMeshNode, kCageNode, add_skinned(mesh)};
-    model_.scenes.push_back(both);
+  bool drop_skins(const std::set<std::size_t>& kept) {
+    if (!document_.json.contains("skins")) return false;
+    const auto before = list("skins").size();
+    auto skins = Json::array();
+    std::map<std::size_t, std::size_t> number_of;
+    for (const auto skin : kept) {
+      number_of[skin] = skins.size();
+      skins.push_back(list("skins").at(skin));
+    }
+    for (auto& node : list("nodes")) {
+      if (node.contains("skin")) node["skin"] = number_of.at(io::whole(node["skin"]));
+    }
+    document_.json.erase("skins");
+    if (!skins.empty()) list("skins") = std::move(skins);
+    return kept.size() < before;
   }
 
-  void add_influences(std::map<std::string, int>& attributes) {
+  bool drop_animations(const std::set<std::size_t>& moved) {
+    if (!document_.json.contains("animations")) return false;
+    bool has_dropped = false;
+    auto animations = Json::array();
+    for (auto& animation : list("animations")) {
+      auto channels = Json::array();
+      for (auto& channel : animation.at("channels")) {
+        const auto& target = channel.at("target");
+        const bool moves = target.contains("node") && target.at("path") != "weights" &&
+                           moved.count(io::whole(target["node"])) > 0;
+        if (!moves) channels.push_back(channel);
+        has_dropped = has_dropped || moves;
+      }
+      animation["channels"] = std::move(channels);
+      if (!animation["channels"].empty()) animations.push_back(animation);
+    }
+    document_.json.erase("animations");
+    if (!animations.empty()) list("animations") = std::move(animations);
+    return has_dropped;
+  }
+
+  // -------------------------------------------------------------------------------------
+  // influences
+
+  void skin(const GltfPart& part) {
+    const auto& parts = scene_.document->parts;
+    // What another skin has posed is written in its pose.
+    const bool is_posed = std::any_of(parts.begin(), parts.end(), [&](const GltfPart& other) {
+      return other.node == part.node && other.is_skinned;
+    });
+    if (is_posed) pose(part);
+    const auto origin = Eigen::Affine3d(Eigen::Translation3d(scene_.origin));
+    edit_.node(part.node)["skin"] = skin_from(is_posed ? origin : part.frame(0));
     const auto& weights = scene_.weights;
+    auto influences = influences_of({weights.format, weights.joints(Eigen::all, part.points),
+                                     weights.numbers(Eigen::all, part.points)});
+    const auto count = static_cast<Eigen::Index>(part.points.size());
+    const Eigen::RowVectorXf sources =
+        Eigen::Map<const Eigen::Matrix<Index, 1, Eigen::Dynamic>>(part.points.data(), count)
+            .cast<float>();
+    influences["_VERTEX"] = document_.add_attribute(sources);
+    for (const auto number : part.primitives) set_influences(part, number, influences);
+  }
+
+  void pose(const GltfPart& part) {
+    io::GltfMotion motion{edit_.places(part), edit_.normals(part), {}, {}};
+    for (Eigen::Index k = 0; k < motion.places.cols(); ++k) {
+      const auto& frame = part.frame(static_cast<std::size_t>(k));
+      motion.places.col(k) = frame * Vector<3>(motion.places.col(k)) - scene_.origin;
+      motion.turns.emplace_back(frame.linear());
+      if (motion.normals.cols() > 0) {
+        motion.normals.col(k) =
+            io::transformed_normal(frame.linear(), Vector<3>(motion.normals.col(k)))
+                .stableNormalized();
+      }
+    }
+    motion.moves.assign(part.points.size(), true);
+    edit_.move(part, motion);
+  }
+
+  void set_influences(const GltfPart& part, std::size_t number, const Json& influences) {
+    auto& attributes = edit_.primitive(part, number)["attributes"];
+    auto kept = Json::object();
+    for (const auto& [name, accessor] : attributes.items()) {
+      if (!is_about_influences(name)) kept[name] = accessor;
+    }
+    kept.update(influences);
+    attributes = std::move(kept);
+  }
+
+  // Points and lines of a skinned mesh belong to the root, which no pose moves.
+  void skin_others() {
+    std::map<std::size_t, std::set<std::size_t>> done;
+    for (const auto& part : scene_.document->parts) {
+      done[part.node].insert(part.primitives.begin(), part.primitives.end());
+    }
+    for (const auto& [node, primitives] : done) {
+      const GltfPart part{node};
+      const auto mesh = io::whole(edit_.node(node).at("mesh"));
+      for (std::size_t p = 0; p < list("meshes").at(mesh).at("primitives").size(); ++p) {
+        if (primitives.count(p) > 0) continue;
+        const auto position = io::whole(edit_.primitive(part, p).at("attributes").at("POSITION"));
+        const auto count =
+            document_.json.at("accessors").at(position).at("count").get<Eigen::Index>();
+        JointWeights still;
+        still.joints.setZero(4, count);
+        still.numbers.setZero(4, count);
+        still.joints.row(0).setConstant(static_cast<std::uint16_t>(scene_.joints.cols()));
+        still.numbers.row(0).setOnes();
+        set_influences(part, p, influences_of(still));
+      }
+    }
+  }
+
+  Json influences_of(const JointWeights& weights) {
+    auto attributes = Json::object();
+    // The joint after the control points is the root.
+    const bool is_small = scene_.joints.cols() <= 256 && (weights.joints.array() < 256).all();
     for (Eigen::Index set = 0; set < weights.joints.rows() / 4; ++set) {
       const auto joints = weights.joints.middleRows(4 * set, 4);
-      const auto numbers = weights.numbers.middleRows(4 * set, 4);
       const auto suffix = std::to_string(set);
-      // The joint after the control points is the root.
-      const bool is_small = scene_.joints.cols() <= 256 && weights.joints.maxCoeff() < 256;
-      attributes["JOINTS_" + suffix] = is_small ? buffer_.add_attribute<std::uint8_t>(joints)
-                                                : buffer_.add_attribute<std::uint16_t>(joints);
-      attributes["WEIGHTS_" + suffix] = add_numbers(numbers);
+      attributes["JOINTS_" + suffix] =
+          is_small ? document_.add_accessor<std::uint8_t>(joints, io::kVertexTarget)
+                   : document_.add_accessor<std::uint16_t>(joints, io::kVertexTarget);
+      attributes["WEIGHTS_" + suffix] =
+          add_numbers(weights.numbers.middleRows(4 * set, 4), weights.format);
     }
+    return attributes;
   }
 
   template <class Matrix>
-  int add_numbers(const Matrix& numbers) {
-    if (scene_.weights.format == WeightFormat::kFloat) return buffer_.add_attribute<float>(numbers);
-    const int accessor = scene_.weights.format == WeightFormat::kUnsignedShort
-                             ? buffer_.add_attribute<std::uint16_t>(numbers)
-                             : buffer_.add_attribute<std::uint8_t>(numbers);
-    model_.accessors[accessor].normalized = true;
+  std::size_t add_numbers(const Matrix& numbers, WeightFormat format) {
+    if (format == WeightFormat::kFloat) return document_.add_attribute(numbers);
+    const auto accessor = format == WeightFormat::kUnsignedShort
+                              ? document_.add_accessor<std::uint16_t>(numbers, io::kVertexTarget)
+                              : document_.add_accessor<std::uint8_t>(numbers, io::kVertexTarget);
+    list("accessors")[accessor]["normalized"] = true;
     return accessor;
   }
 
-  // Without a material, viewers show polished metal. Double-sided, because models may be open, and
-  // flat models are.
-  static tinygltf::Material matt_material() {
-    tinygltf::Material material;
-    material.name = "model";
-    material.doubleSided = true;
-    material.pbrMetallicRoughness.metallicFactor = 0;
-    material.pbrMetallicRoughness.roughnessFactor = 0.8;
-    return material;
+  // ---------------------------------------------------------------------------------------- a mesh
+
+  void add_new_mesh() {
+    skin_from(Eigen::Affine3d(Eigen::Translation3d(scene_.origin)));
+    auto mesh =
+        io::add_mesh(document_, scene_.surface, scene_.positions, scene_.sources, left_out_);
+    const auto influences = influences_of(scene_.weights);
+    for (auto& primitive : mesh["primitives"]) primitive["attributes"].update(influences);
+    mesh["name"] = scene_.name;
+    document_.append("meshes", std::move(mesh));
   }
 
-  // The materials of the file, and one for triangles without a material.
-  void add_materials() {
-    const auto& look = scene_.look;
-    for (const auto& picture : look.pictures) {
-      tinygltf::Image image;
-      image.mimeType = picture.media_type;
-      image.bufferView = buffer_.add_bytes(picture.bytes.data(), picture.bytes.size(), 0);
-      tinygltf::Texture texture;
-      texture.source = static_cast<int>(model_.images.size());
-      texture.sampler = 0;
-      model_.images.push_back(image);
-      model_.textures.push_back(texture);
-    }
-    if (!look.pictures.empty()) {
-      tinygltf::Sampler repeating;
-      repeating.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
-      repeating.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
-      model_.samplers.push_back(repeating);
-    }
-    for (const auto& [given, picture] : look.materials) {
-      auto material = matt_material();
-      material.name = as_utf8(given.name);
-      auto& surface = material.pbrMetallicRoughness;
-      // A texture replaces the color, as intended by programs that write both.
-      const Vector<3> color = picture < 0 ? given.color : Vector<3>::Ones();
-      surface.baseColorFactor = {color[0], color[1], color[2], given.opacity};
-      surface.baseColorTexture.index = picture;
-      surface.roughnessFactor = given.roughness;
-      surface.metallicFactor = given.metallic;
-      if (given.opacity < 1) material.alphaMode = "BLEND";
-      model_.materials.push_back(material);
-    }
-    const auto& used = look.triangle_materials;
-    if (!used.empty() && std::find(used.begin(), used.end(), -1) == used.end()) return;
-    plain_material_ = static_cast<int>(model_.materials.size());
-    model_.materials.push_back(matt_material());
-  }
+  // ------------------------------------------------------------------------------------------
+  // joints
 
   // All control points are children of one joint at the center of the cage. Programs that draw
   // joints as bones give leaf joints the length of the shortest sibling, which is the helper joint.
@@ -211,90 +259,140 @@ class ModelBuilder {
     const Eigen::Vector3f low = scene_.joints.rowwise().minCoeff();
     const Eigen::Vector3f size = scene_.joints.rowwise().maxCoeff() - low;
     centre_ = low + size / 2;
-    tinygltf::Skin skin;
-    skin.name = "cage";
-    skin.skeleton = kCageNode;
+    cage_ = num_nodes();
     add_joint("cage", centre_, Eigen::Vector3f::Zero());
-    const Eigen::Vector3d place = scene_.origin + centre_.cast<double>();
-    model_.nodes[kCageNode].translation = {place.x(), place.y(), place.z()};
+    edit_.node(cage_)["translation"] = list_of(scene_.origin + centre_.cast<double>());
     if (!scene_.turn.isIdentity(0)) {
       const Eigen::Quaterniond turn(scene_.turn);
-      model_.nodes[kCageNode].rotation = {turn.x(), turn.y(), turn.z(), turn.w()};
+      edit_.node(cage_)["rotation"] = {turn.x(), turn.y(), turn.z(), turn.w()};
     }
+    auto children = Json::array();
     for (Eigen::Index i = 0; i < num_points; ++i) {
+      children.push_back(joint_node(i));
       add_joint("control_point_" + std::to_string(i), scene_.joints.col(i) - centre_, centre_);
-      skin.joints.push_back(joint_node(i));
     }
+    joints_ = children;
+    const auto helper = joint_node(num_points);
     add_joint("cage_end", Eigen::Vector3f(kBoneLength * size.norm(), 0, 0), centre_);
-    const int helper = joint_node(num_points);
-    model_.nodes[kCageNode].children = skin.joints;
-    model_.nodes[kCageNode].children.push_back(helper);
-    skin.joints.insert(skin.joints.end(), {kCageNode, helper});
-    skin.inverseBindMatrices = add_inverse_binds(skin.joints);
-    model_.skins.push_back(skin);
+    children.push_back(helper);
+    edit_.node(cage_)["children"] = std::move(children);
+    joints_.push_back(cage_);
+    joints_.push_back(helper);
   }
 
   // Appends a node. \param parent  position of its parent
   void add_joint(const std::string& name, const Eigen::Vector3f& place,
                  const Eigen::Vector3f& parent) {
-    tinygltf::Node joint;
-    joint.name = name;
-    joint.translation = to_doubles(place);
-    model_.nodes.push_back(joint);
+    document_.append("nodes", {{"name", name}, {"translation", list_of(place.cast<double>())}});
     places_.push_back(parent + place);
   }
 
-  // The inverse bind matrix of each joint.
-  int add_inverse_binds(const std::vector<int>& joints) {
-    Eigen::MatrixXf inverse_binds(16, joints.size());
-    for (std::size_t k = 0; k < joints.size(); ++k) {
-      Eigen::Matrix4f inverse_bind = Eigen::Matrix4f::Identity();
-      inverse_bind.col(3).head<3>() = -places_[joints[k] - kCageNode];
-      inverse_binds.col(static_cast<Eigen::Index>(k)) = inverse_bind.reshaped();
-    }
-    return buffer_.add_accessor<float>(inverse_binds, 0);
+  std::size_t joint_node(Eigen::Index joint) const {
+    return cage_ + 1 + static_cast<std::size_t>(joint);
   }
 
-  static int joint_node(Eigen::Index joint) { return kFirstJoint + static_cast<int>(joint); }
+  // \param frame  from the coordinates of a mesh to those of the cage \return the number of a skin
+  std::size_t skin_from(const Eigen::Affine3d& frame) {
+    const std::vector<double> key(frame.data(), frame.data() + 16);
+    const auto known = skins_.find(key);
+    if (known != skins_.end()) return known->second;
+    Eigen::MatrixXf inverse_binds(16, joints_.size());
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+      Eigen::Matrix4d inverse_bind = frame.matrix();
+      const auto& place = places_[joints_[k].get<std::size_t>() - cage_];
+      inverse_bind.col(3).head<3>() =
+          frame.translation() - scene_.origin - place.cast<double>().eval();
+      inverse_binds.col(static_cast<Eigen::Index>(k)) = inverse_bind.cast<float>().reshaped();
+    }
+    const auto binds = document_.add_accessor<float>(inverse_binds);
+    return skins_[key] = document_.append("skins", {{"name", "cage"},
+                                                    {"inverseBindMatrices", binds},
+                                                    {"skeleton", cage_},
+                                                    {"joints", joints_}});
+  }
 
   void add_animation() {
     if (scene_.channels.empty()) return;
-    tinygltf::Animation animation;
-    animation.name = "poses";
     const Eigen::Map<const Eigen::RowVectorXf> times(
         scene_.times.data(), static_cast<Eigen::Index>(scene_.times.size()));
-    const int input = buffer_.add_accessor<float>(times, 0, true);
+    const auto input = document_.add_accessor<float>(times, 0, true);
+    auto samplers = Json::array(), channels = Json::array();
     for (const Channel& moving : scene_.channels) {
-      tinygltf::AnimationSampler sampler;
-      sampler.input = input;
-      sampler.output = buffer_.add_accessor<float>(moving.translations.colwise() - centre_, 0);
-      sampler.interpolation = "LINEAR";
-      tinygltf::AnimationChannel channel;
-      channel.sampler = static_cast<int>(animation.samplers.size());
-      channel.target_node = joint_node(moving.joint);
-      channel.target_path = "translation";
-      animation.samplers.push_back(sampler);
-      animation.channels.push_back(channel);
+      const auto output = document_.add_accessor<float>(moving.translations.colwise() - centre_);
+      channels.push_back(
+          {{"sampler", samplers.size()},
+           {"target", {{"node", joint_node(moving.joint)}, {"path", "translation"}}}});
+      samplers.push_back({{"input", input}, {"interpolation", "LINEAR"}, {"output", output}});
     }
-    model_.animations.push_back(animation);
+    document_.append("animations",
+                     {{"name", "poses"}, {"channels", channels}, {"samplers", samplers}});
+  }
+
+  // ------------------------------------------------------------------------------------------
+  // scenes
+
+  void add_scenes() {
+    if (!scene_.document) {
+      document_.json["scene"] = 0;
+      document_.append("scenes", {{"name", "model"}, {"nodes", {0}}});
+    }
+    if (!document_.json.contains("scenes")) document_.append("scenes", {{"nodes", roots()}});
+    const auto shown = io::whole(document_.json, "scene", 0);
+    list("scenes").at(shown)["nodes"].push_back(cage_);
+    if (scene_.wire.cols() == 0) return;
+    auto nodes = list("scenes").at(shown)["nodes"];
+    nodes.push_back(add_wire());
+    document_.append("scenes", {{"name", "model and cage"}, {"nodes", nodes}});
+  }
+
+  Json roots() {
+    std::set<std::size_t> children;
+    for (const auto& node : list("nodes")) {
+      for (const auto child : io::wholes(node, "children")) children.insert(child);
+    }
+    auto result = Json::array();
+    for (std::size_t k = 0; k < cage_; ++k) {
+      if (children.count(k) == 0) result.push_back(k);
+    }
+    return result;
+  }
+
+  // The cage edges, skinned by the control points. \return the number of the node
+  std::size_t add_wire() {
+    const auto count = scene_.joints.cols();
+    JointWeights own;
+    own.joints.setZero(4, count);
+    own.numbers.setZero(4, count);
+    for (Eigen::Index i = 0; i < count; ++i) own.joints(0, i) = static_cast<std::uint16_t>(i);
+    own.numbers.row(0).setOnes();
+    auto attributes = influences_of(own);
+    attributes["POSITION"] = document_.add_attribute(scene_.joints, true);
+    constexpr int kLines = 1;
+    const Json primitive{{"mode", kLines},
+                         {"attributes", attributes},
+                         {"indices", document_.add_indices(scene_.wire, count)}};
+    const auto mesh = document_.append(
+        "meshes", {{"name", "cage_wire"}, {"primitives", Json::array({primitive})}});
+    const auto skin = skin_from(Eigen::Affine3d(Eigen::Translation3d(scene_.origin)));
+    return document_.append("nodes", {{"name", "cage_wire"}, {"mesh", mesh}, {"skin", skin}});
   }
 
   const GlbScene& scene_;
-  tinygltf::Model model_;
-  GlbBuffer buffer_;
-  int plain_material_ = -1;              // of triangles without a material
-  Eigen::Vector3f centre_;               // of the cage
-  std::vector<Eigen::Vector3f> places_;  // of the nodes from kCageNode on, at rest
+  std::vector<std::string>& left_out_;
+  io::GltfEdit edit_;
+  io::GltfDocument& document_;
+  Eigen::Vector3f centre_;                              // of the cage
+  std::size_t cage_ = 0;                                // node of the root joint
+  std::vector<Eigen::Vector3f> places_;                 // of the nodes from it on, at rest
+  Json joints_;                                         // nodes of all joints
+  std::map<std::vector<double>, std::size_t> skins_{};  // by the frame of their mesh
 };
 
 }  // namespace
 
-std::string encode_glb(const GlbScene& scene) {
-  const ModelBuilder builder(scene);
-  std::ostringstream file;
-  constexpr bool kIsPretty = false, kIsBinary = true;
-  tinygltf::TinyGLTF().WriteGltfSceneToStream(&builder.model(), file, kIsPretty, kIsBinary);
-  return file.str();
+std::string encode_glb(const GlbScene& scene, std::vector<std::string>& left_out) {
+  const auto make = [&] { return SkinBuilder(scene, left_out).glb(); };
+  return scene.document ? io::refusing_damage(scene.document->path, make) : make();
 }
 
 }  // namespace flbc::gltf

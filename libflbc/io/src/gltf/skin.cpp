@@ -122,22 +122,23 @@ Vector<Dim> origin_of(const PointList<Dim>& control_points, SkinFormat format) {
 template <int Dim>
 GlbScene make_scene(const PointList<Dim>& control_points, const PointList<Dim>& points,
                     const JointWeights& stored, const Surface& surface,
-                    const Animation<Dim>& animation, const Vector<Dim>& origin) {
+                    const Animation<Dim>& animation, const Vector<Dim>& origin,
+                    bool keeps_document) {
   const auto& sources = surface.sources;
-  GlbScene scene;
+  GlbScene scene{surface};
   scene.origin.head<Dim>() = origin;
-  scene.positions = to_floats<Dim>(points.colwise() - origin, "the model")(Eigen::all, sources);
-  scene.normals = surface.normals.cast<float>();
-  scene.texture_coordinates = surface.texture_coordinates.cast<float>();
-  scene.colors = surface.colors.cast<float>();
-  scene.triangles = surface.triangles;
-  scene.look = look_of(surface);
-  if (!is_identity(sources, points.cols()) && points.cols() <= kMaxExactFloat) {
-    const auto count = static_cast<Eigen::Index>(sources.size());
-    scene.sources = Eigen::Map<const RowVector>(sources.data(), count).cast<float>();
+  if (keeps_document) scene.document = surface.gltf;
+  if (scene.document) {
+    scene.weights = stored;
+  } else {
+    scene.positions = to_floats<Dim>(points.colwise() - origin, "the model")(Eigen::all, sources);
+    if (!is_identity(sources, points.cols()) && points.cols() <= kMaxExactFloat) {
+      const auto count = static_cast<Eigen::Index>(sources.size());
+      scene.sources = Eigen::Map<const RowVector>(sources.data(), count).cast<float>();
+    }
+    scene.weights = {stored.format, stored.joints(Eigen::all, sources),
+                     stored.numbers(Eigen::all, sources)};
   }
-  scene.weights = {stored.format, stored.joints(Eigen::all, sources),
-                   stored.numbers(Eigen::all, sources)};
   scene.joints = to_floats<Dim>(control_points.colwise() - origin, "the cage");
   scene.times.assign(animation.times.begin(), animation.times.end());
   scene.channels = channels_of(animation, scene.joints, origin);
@@ -201,17 +202,26 @@ ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<D
                              options.edges, weights, animation.poses, {options.max_influences});
   const auto stored = to_joint_weights(few, options.weight_format);
   const Vector<Dim> origin = origin_of(control_points, options.format);
-  auto scene = make_scene(control_points, points, stored, surface, animation, origin);
+  const bool is_usd = options.format == SkinFormat::kUsda;
+  auto scene = make_scene(control_points, points, stored, surface, animation, origin, !is_usd);
   scene.name = options.name;
   scene.turn = options.turn;
   scene.wire = options.cage_edges;
 
   ExportedSkin result;
-  result.content = options.format == SkinFormat::kUsda ? encode_usda(scene) : encode_glb(scene);
+  for (const auto& file : surface.missing_files) {
+    result.left_out.push_back("materials: " + file + " cannot be read");
+  }
+  result.content = is_usd ? encode_usda(scene) : encode_glb(scene, result.left_out);
   result.vertices = static_cast<Index>(surface.sources.size());
+  if (scene.document) {
+    result.vertices = 0;
+    for (const auto& part : scene.document->parts) {
+      result.vertices += static_cast<Index>(part.points.size());
+    }
+  }
   result.triangles = static_cast<Index>(surface.triangles.cols());
   result.joints = static_cast<Index>(control_points.cols());
-  result.left_out = scene.look.left_out;
   result.moving_joints = static_cast<Index>(scene.channels.size());
   measure(control_points, points, weights, stored, surface.sources, animation, origin, result);
   return result;

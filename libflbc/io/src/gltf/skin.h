@@ -12,7 +12,7 @@
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "gltf/joint_weights.h"
-#include "gltf/surface.h"
+#include "model/surface.h"
 
 namespace flbc::gltf {
 

@@ -99,6 +99,7 @@ void write_animation(std::ostream& text, const GlbScene& scene) {
 }
 
 void write_surface(std::ostream& text, const GlbScene& scene) {
+  const auto& surface = scene.surface;
   const auto slots = scene.weights.joints.rows();
   const Eigen::MatrixXf weights =
       (scene.weights.numbers / unit_of(scene.weights.format)).cast<float>();
@@ -110,20 +111,21 @@ void write_surface(std::ostream& text, const GlbScene& scene) {
   text << "    def Mesh \"surface\" (prepend apiSchemas = [\"SkelBindingAPI\"])\n    {\n"
        << "        uniform bool doubleSided = 1\n"
        << "        uniform token subdivisionScheme = \"none\"\n"
-       << "        int[] faceVertexCounts = " << repeated(scene.triangles.cols(), "3") << '\n'
-       << "        int[] faceVertexIndices = " << numbers(scene.triangles) << '\n'
+       << "        int[] faceVertexCounts = " << repeated(surface.triangles.cols(), "3") << '\n'
+       << "        int[] faceVertexIndices = " << numbers(surface.triangles) << '\n'
        << "        point3f[] points = " << columns(scene.positions) << '\n'
-       << "        normal3f[] normals = " << columns(scene.normals)
+       << "        normal3f[] normals = " << columns(surface.normals.cast<float>().eval())
        << " (interpolation = \"vertex\")\n";
-  if (scene.texture_coordinates.cols() > 0) {
-    Eigen::Matrix2Xf upwards = scene.texture_coordinates;  // glTF counts from the top
+  if (surface.texture_coordinates.cols() > 0) {
+    Eigen::Matrix2Xf upwards =
+        surface.texture_coordinates.cast<float>();  // glTF counts from the top
     upwards.row(1) = 1 - upwards.row(1).array();
     text << "        texCoord2f[] primvars:st = " << columns(upwards)
          << " (interpolation = \"vertex\")\n";
   }
-  if (scene.colors.cols() > 0) {
-    text << "        color3f[] primvars:displayColor = " << columns(scene.colors)
-         << " (interpolation = \"vertex\")\n";
+  if (surface.colors.cols() > 0) {
+    text << "        color3f[] primvars:displayColor = "
+         << columns(surface.colors.cast<float>().eval()) << " (interpolation = \"vertex\")\n";
   }
   text << "        int[] primvars:skel:jointIndices = " << numbers(joints) << per_vertex
        << "        float[] primvars:skel:jointWeights = " << numbers(weights) << per_vertex

@@ -1,190 +1,136 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes .glb: a mesh of triangles with all attributes, its materials, and their pictures.
-#include <cstdint>
-#include <map>
-#include <nlohmann/json.hpp>
-#include <ostream>
-#include <tuple>
+#include "model/gltf_writer.h"
 
-#include "flbc/errors.h"
-#include "flbc/io/cut_polygon.h"
+#include <map>
+#include <ostream>
+
 #include "flbc/io/files.h"
+#include "model/gltf_edit.h"
 #include "model/model_scan.h"
-#include "model/srgb.h"
-#include "text/bytes.h"
 
 namespace flbc::io {
 namespace {
 
-using Json = nlohmann::ordered_json;
-using Corner = std::tuple<Index, Index, Index>;  // point, texture coordinate, normal; -1 = none
-
-constexpr int kSingles = 5126, kIndices = 5125;
-
-class GlbWriter {
+// The materials of a surface in a document.
+class MaterialWriter {
  public:
-  explicit GlbWriter(const Model& model) : model_(model) {
-    collect_triangles();
-    json_ = {{"asset", {{"version", "2.0"}, {"generator", "flbc"}}},
-             {"scene", 0},
-             {"scenes", {{{"nodes", {0}}}}},
-             {"nodes", {{{"mesh", 0}}}}};
-    const auto attributes = add_attributes();
-    auto primitives = Json::array();
-    for (const auto& [material, corners] : triangles_) {
-      std::vector<std::uint32_t> indices;
-      for (const Corner& corner : corners) indices.push_back(number_of_[corner]);
-      Json primitive{{"attributes", attributes}, {"indices", add(indices, "SCALAR", kIndices, 1)}};
-      if (material >= 0) primitive["material"] = material;
-      primitives.push_back(std::move(primitive));
-    }
-    json_["meshes"] = {{{"primitives", std::move(primitives)}}};
-    for (const auto& material : model.materials) add_material(material);
-    json_["buffers"] = {{{"byteLength", binary_.size()}}};
-  }
+  MaterialWriter(GltfDocument& document, const gltf::Surface& surface,
+                 std::vector<std::string>& left_out)
+      : document_(document), surface_(surface), left_out_(left_out) {}
 
-  void write(std::ostream& out) const {
-    auto text = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    const auto word = [&](std::size_t number) {
-      char bytes[4];
-      put_number(static_cast<std::uint32_t>(number), bytes);
-      out.write(bytes, sizeof bytes);
-    };
-    out << "glTF";
-    word(2);
-    word(28 + text.size() + binary_.size());
-    word(text.size());
-    out << "JSON" << text;
-    word(binary_.size());
-    out.write("BIN\0", 4);
-    out << binary_;
+  //! \param number  in the surface, -1 = none \return the number in the document
+  std::size_t add(Index number) {
+    GltfJson surface{{"metallicFactor", 0}, {"roughnessFactor", 0.8}};
+    // Models may be open, and flat ones are.
+    GltfJson json{{"name", "model"}, {"doubleSided", true}};
+    if (number >= 0)
+      describe(surface_.materials.at(static_cast<std::size_t>(number)), json, surface);
+    json["pbrMetallicRoughness"] = std::move(surface);
+    return document_.append("materials", std::move(json));
   }
 
  private:
-  void collect_triangles() {
-    const auto& soup = model_.soup;
-    std::vector<Vector<3>> places;
-    for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
-      const auto& polygon = soup.polygons[f];
-      places.clear();
-      for (const Index point : polygon) places.push_back(soup.points[point]);
-      auto& corners =
-          triangles_[model_.polygon_materials.empty() ? -1 : model_.polygon_materials[f]];
-      const auto parts = cut_polygon(places);
-      for (const Index k : parts.reshaped()) {
-        const auto references = model_.attributes.corners.empty() ? CornerReferences()
-                                                                  : model_.attributes.corners[f][k];
-        corners.emplace_back(polygon[k], references.texture_coordinate, references.normal);
-        number_of_[corners.back()];
-      }
-    }
-    if (number_of_.empty()) throw InputError("a .glb file needs triangles, and the model has none");
-    std::uint32_t number = 0;
-    for (auto& entry : number_of_) entry.second = number++;
-  }
-
-  // \return the number of the accessor
-  template <class Number>
-  int add(const std::vector<Number>& numbers, const char* type, int component, std::size_t rows) {
-    const int view = add_view(numbers.data(), numbers.size() * sizeof(Number));
-    json_["accessors"].push_back({{"bufferView", view},
-                                  {"componentType", component},
-                                  {"count", numbers.size() / rows},
-                                  {"type", type}});
-    return static_cast<int>(json_["accessors"].size()) - 1;
-  }
-
-  int add_view(const void* data, std::size_t size) {
-    json_["bufferViews"].push_back(
-        {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", size}});
-    binary_.append(static_cast<const char*>(data), size);
-    binary_.resize((binary_.size() + 3) / 4 * 4);
-    return static_cast<int>(json_["bufferViews"].size()) - 1;
-  }
-
-  Json add_attributes() {
-    std::vector<float> points, normals, texture, colors;
-    const auto& attributes = model_.attributes;
-    const auto append = [](std::vector<float>& list, const auto& numbers) {
-      for (const double number : numbers) list.push_back(static_cast<float>(number));
-    };
-    for (const auto& entry : number_of_) {
-      const auto [point, texture_coordinate, normal] = entry.first;
-      append(points, model_.soup.points[point]);
-      if (attributes.normals.cols() > 0) {
-        Vector<3> direction = Vector<3>::UnitZ();
-        if (normal >= 0 && !attributes.normals.col(normal).isZero(0)) {
-          direction = attributes.normals.col(normal).normalized();
-        }
-        append(normals, direction);
-      }
-      if (attributes.texture_coordinates.cols() > 0) {
-        Vector<2> place = Vector<2>::Zero();
-        if (texture_coordinate >= 0) place = attributes.texture_coordinates.col(texture_coordinate);
-        append(texture, Vector<2>(place.x(), 1 - place.y()));
-      }
-      if (attributes.colors.cols() > 0) {
-        append(colors, Vector<3>(attributes.colors.col(point).unaryExpr(&to_linear)));
-      }
-    }
-    Json json{{"POSITION", add(points, "VEC3", kSingles, 3)}};
-    const auto places = Eigen::Map<const Eigen::Matrix3Xf>(points.data(), 3, points.size() / 3);
-    const Eigen::Vector3f low = places.rowwise().minCoeff(), high = places.rowwise().maxCoeff();
-    if (!low.allFinite() || !high.allFinite()) {
-      throw InputError("a coordinate is too large for single precision, which glTF has");
-    }
-    json_["accessors"][0]["min"] = {low.x(), low.y(), low.z()};
-    json_["accessors"][0]["max"] = {high.x(), high.y(), high.z()};
-    if (!normals.empty()) json["NORMAL"] = add(normals, "VEC3", kSingles, 3);
-    if (!texture.empty()) json["TEXCOORD_0"] = add(texture, "VEC2", kSingles, 2);
-    if (!colors.empty()) json["COLOR_0"] = add(colors, "VEC3", kSingles, 3);
-    return json;
-  }
-
-  void add_material(const Material& material) {
-    const auto& color = material.color;
-    Json surface{{"baseColorFactor", {color[0], color[1], color[2], material.opacity}},
-                 {"metallicFactor", material.metallic},
-                 {"roughnessFactor", material.roughness}};
-    const int picture = add_picture(material);
-    if (picture >= 0) {
-      // It replaces the color, as intended by programs that write both.
-      if (material.picture.empty()) surface["baseColorFactor"] = {1, 1, 1, material.opacity};
-      surface["baseColorTexture"] = {{"index", picture}};
-    }
-    Json json{{"name", material.name}, {"doubleSided", true}, {"pbrMetallicRoughness", surface}};
+  void describe(const Material& material, GltfJson& json, GltfJson& surface) {
+    json["name"] = material.name;
+    const int texture = surface_.texture_coordinates.cols() > 0 ? texture_of(material) : -1;
+    // The texture of a .mtl file replaces the color, as intended by programs that write both.
+    const bool is_replaced = texture >= 0 && material.picture.empty();
+    const Vector<3> color = is_replaced ? Vector<3>::Ones() : material.color;
+    surface = {{"baseColorFactor", {color[0], color[1], color[2], material.opacity}},
+               {"metallicFactor", material.metallic},
+               {"roughnessFactor", material.roughness}};
+    if (texture >= 0) surface["baseColorTexture"] = {{"index", texture}};
     if (material.opacity < 1) json["alphaMode"] = "BLEND";
-    json_["materials"].push_back(std::move(json));
+    if (material.alpha_cutoff <= 0) return;
+    json["alphaMode"] = "MASK";
+    json["alphaCutoff"] = material.alpha_cutoff;
   }
 
-  // \return the number of the texture, -1 if there is none that can be read
-  int add_picture(const Material& material) {
+  // \return the number of the texture, -1 if there is none
+  int texture_of(const Material& material) {
     if (material.texture.empty()) return -1;
-    std::string bytes = material.picture;
-    try {
-      if (bytes.empty()) bytes = read_file(material.texture);
-    } catch (const IoError&) {
-      return -1;
+    const auto [known, is_new] = textures_.emplace(material.texture, -1);
+    if (!is_new) return known->second;
+    const auto bytes = load_picture(material, left_out_);
+    if (bytes.empty()) return -1;
+    constexpr int kLinear = 9729, kMipmaps = 9987;
+    if (!document_.json.contains("samplers")) {
+      document_.append("samplers", {{"magFilter", kLinear}, {"minFilter", kMipmaps}});
     }
-    const bool is_png = bytes.compare(1, 3, "PNG") == 0;
-    json_["images"].push_back({{"bufferView", add_view(bytes.data(), bytes.size())},
-                               {"mimeType", is_png ? "image/png" : "image/jpeg"}});
-    json_["textures"].push_back({{"source", json_["images"].size() - 1}});
-    return static_cast<int>(json_["textures"].size()) - 1;
+    const auto image = document_.append(
+        "images", {{"bufferView", document_.add_view(bytes)}, {"mimeType", media_type_of(bytes)}});
+    const auto texture = document_.append("textures", {{"sampler", 0}, {"source", image}});
+    return known->second = static_cast<int>(texture);
   }
 
-  const Model& model_;
-  Json json_;
-  std::string binary_;
-  std::map<Index, std::vector<Corner>> triangles_;  // by material
-  std::map<Corner, std::uint32_t> number_of_;
+  GltfDocument& document_;
+  const gltf::Surface& surface_;
+  std::vector<std::string>& left_out_;
+  std::map<std::string, int> textures_;
 };
 
 }  // namespace
 
+std::string load_picture(const Material& material, std::vector<std::string>& left_out) {
+  if (material.texture.empty()) return {};
+  try {
+    auto bytes = material.picture.empty() ? read_file(material.texture) : material.picture;
+    const auto type = media_type_of(bytes);
+    if (type == "image/png" || type == "image/jpeg") return bytes;
+    left_out.push_back("the picture " + material.texture + ": glTF has .png and .jpg only");
+  } catch (const IoError& error) {
+    left_out.push_back(std::string("a picture: ") + error.what());
+  }
+  return {};
+}
+
+GltfJson add_mesh(GltfDocument& document, const gltf::Surface& surface,
+                  const Eigen::Matrix3Xf& positions, const Eigen::RowVectorXf& sources,
+                  std::vector<std::string>& left_out) {
+  GltfJson attributes{{"POSITION", document.add_attribute(positions, true)}};
+  const auto add = [&](const char* name, const auto& columns) {
+    if (columns.cols() > 0) attributes[name] = document.add_attribute(columns);
+  };
+  add("NORMAL", surface.normals);
+  add("TEXCOORD_0", surface.texture_coordinates);
+  add("COLOR_0", surface.colors);
+  add("_VERTEX", sources);
+  std::map<Index, std::vector<Index>> triangles;  // by material
+  for (Index t = 0; t < static_cast<Index>(surface.triangles.cols()); ++t) {
+    triangles[surface.triangle_materials.empty() ? -1 : surface.triangle_materials[t]].push_back(t);
+  }
+  MaterialWriter materials(document, surface, left_out);
+  auto primitives = GltfJson::array();
+  for (const auto& [material, numbers] : triangles) {
+    const FacetList<3> some = surface.triangles(Eigen::all, numbers);
+    primitives.push_back({{"attributes", attributes},
+                          {"indices", document.add_indices(some, positions.cols())},
+                          {"material", materials.add(material)}});
+  }
+  return {{"primitives", std::move(primitives)}};
+}
+
 void write_glb(std::ostream& out, const Model& model) {
-  GlbWriter(model).write(out);
+  if (model.gltf) {
+    out << moved_gltf(model);
+    return;
+  }
+  auto surface = gltf::surface_of_model<3>(model);
+  if (model.attributes.normals.cols() == 0) surface.normals.resize(3, 0);
+  Eigen::Matrix3Xf positions(3, static_cast<Eigen::Index>(surface.sources.size()));
+  for (Eigen::Index v = 0; v < positions.cols(); ++v) {
+    positions.col(v) = model.soup.points[surface.sources[v]].cast<float>();
+  }
+  if (!positions.allFinite()) {
+    throw InputError("a coordinate is too large for single precision, which glTF has");
+  }
+  GltfDocument document;
+  std::vector<std::string> left_out;
+  document.json["scene"] = 0;
+  document.append("scenes", {{"nodes", {0}}});
+  document.append("nodes", {{"mesh", 0}});
+  document.append("meshes", add_mesh(document, surface, positions, {}, left_out));
+  out << document.glb();
 }
 
 }  // namespace flbc::io

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <ostream>
-#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -16,6 +14,7 @@
 #include "flbc/io/files.h"
 #include "formats/format_table.h"
 #include "model/following_normals.h"
+#include "model/gltf_edit.h"
 #include "text/bytes.h"
 #include "text/text_writer.h"
 
@@ -166,36 +165,6 @@ PointList<3> in_space(const PolygonSoup& soup, const PointList<Dim>& points) {
   return result;
 }
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-// Coordinates and normals in the frames of a file.
-class FramedNumbers {
- public:
-  FramedNumbers(const ModelScan& file, const PointList<3>& points, const PointList<3>& normals)
-      : file_(file), points_(points), normals_(normals) {
-    for (const auto& frame : file.frames) to_file_.push_back(frame.inverse());
-  }
-
-  //! \return none if the vertex or normal has not changed
-  std::optional<double> value(const Site& site) const {
-    const std::size_t frame = site.frame - 1;
-    if (site.kind == TripleKind::kPoint) {
-      const Vector<3> point = points_.col(site.index);
-      if (point == file_.model.soup.points[site.index]) return {};
-      return (to_file_[frame] * point)[site.axis];
-    }
-    const Vector<3> normal = normals_.col(site.index);
-    if (normal == file_.model.attributes.normals.col(site.index)) return {};
-    return (file_.frames[frame].linear().transpose() * normal).normalized()[site.axis];
-  }
-
- private:
-  const ModelScan& file_;
-  const PointList<3>& points_;
-  const PointList<3>& normals_;
-  std::vector<Eigen::Affine3d> to_file_;
-};
-
 template <class Matrix>
 bool are_single(const Matrix& numbers) {
   return numbers.template cast<float>().template cast<double>() == numbers;
@@ -255,17 +224,13 @@ void ModelFile::write(std::ostream& out, const PointList<Dim>& points,
                       const Eigen::MatrixXd& jacobians) const {
   const auto& file = content_->file;
   if (!file.fixed.empty()) throw InputError(file.fixed);
-  if (file.finish == nullptr) return write_numbers(out, points, jacobians);
-  std::ostringstream bytes;
-  write_numbers(bytes, points, jacobians);
-  const auto result = bytes.str();
-  out << (result == file.text ? result : file.finish(result));
-}
-
-template <int Dim>
-void ModelFile::write_numbers(std::ostream& out, const PointList<Dim>& points,
-                              const Eigen::MatrixXd& jacobians) const {
-  const auto& file = content_->file;
+  if (file.model.gltf) {
+    const auto model = this->moved(points, jacobians);
+    const bool is_same = model.soup.points == file.model.soup.points &&
+                         model.attributes.normals == file.model.attributes.normals;
+    out << (is_same ? file.text : moved_gltf(model));
+    return;
+  }
   const auto moved = in_space(file.model.soup, points);
   FollowingNormals::Turned turned;
   if (Dim == 3) turned = content_->turned(moved, jacobians);
@@ -280,17 +245,10 @@ void ModelFile::write_numbers(std::ostream& out, const PointList<Dim>& points,
     write_number(writer, place.form, after);
     done = place.begin + place.size;
   };
-  const FramedNumbers framed(file, moved, turned.normals);
   for (const Site& site : file.sites) {
     const int d = site.axis;
     const Index k = site.index;
-    if (site.frame > 0) {
-      if (Dim == 2 && site.kind != TripleKind::kPoint) continue;
-      if (const auto value = framed.value(site)) {
-        if (site.kind == TripleKind::kPoint) check_coordinate(site.place, k, d, *value);
-        replace(site.place, kUnknown, *value);
-      }
-    } else if (site.kind == TripleKind::kPoint && d < Dim) {
+    if (site.kind == TripleKind::kPoint && d < Dim) {
       check_coordinate(site.place, k, d, moved(d, k));
       replace(site.place, file.model.soup.points[k][d], moved(d, k));
     } else if (site.kind == TripleKind::kNormal && Dim == 3) {
@@ -325,6 +283,7 @@ std::vector<std::string> losses(const Model& model, const std::string& path) {
   const auto& [points, polygons, polylines] = model.soup;
   const auto& attributes = model.attributes;
   auto phrases = model.others;
+  if (is_gltf && model.gltf) return {};  // the document stays
   const auto add_if = [&](bool is_lost, const char* phrase) {
     if (is_lost) phrases.emplace_back(phrase);
   };

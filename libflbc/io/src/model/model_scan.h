@@ -10,8 +10,6 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include "flbc/io/model.h"
 #include "text/text_reader.h"
 
@@ -37,20 +35,16 @@ struct Site {
   TripleKind kind;
   std::uint8_t axis;  //!< which of the three
   Index index;        //!< of the vertex, normal or polygon
-  std::uint16_t frame =
-      0;  //!< 0: as in the model; otherwise the number of ModelScan::frames, from 1
 };
 
 enum class Extent : std::uint8_t { kGeometry, kEverything };
 
 struct ModelScan {
-  std::string text{};                     //!< the whole file
-  Model model{};                          //!< its content
-  PointList<3> face_normals{};            //!< 3 x number of polygons, or empty
-  std::vector<Site> sites{};              //!< in the order of the file
-  std::vector<Eigen::Affine3d> frames{};  //!< from coordinates in the file to those of the model
-  std::string fixed{};                    //!< why the file cannot be rewritten; empty if it can
-  std::string (*finish)(std::string bytes) = nullptr;  //!< completes a file with other coordinates
+  std::string text{};           //!< the whole file
+  Model model{};                //!< its content
+  PointList<3> face_normals{};  //!< 3 x number of polygons, or empty
+  std::vector<Site> sites{};    //!< in the order of the file; none for glTF, which has documents
+  std::string fixed{};          //!< why the file cannot be rewritten; empty if it can
 };
 
 //! Three numbers in a row.
@@ -103,9 +97,6 @@ void read_ply(const std::string& path, Extent extent, ModelScan& scan);
 void read_stl(const std::string& path, Extent extent, ModelScan& scan);
 void read_om(const std::string& path, Extent extent, ModelScan& scan);
 void read_gltf(const std::string& path, Extent extent, ModelScan& scan);
-
-//! A .glb file whose description of its points has their bounds.
-std::string with_bounds_of_points(std::string bytes);
 
 //! Reads these materials from a .mtl file. \return false if it cannot be read
 bool read_mtl(const std::string& path, std::vector<Material>& materials);

@@ -3,6 +3,7 @@
 //! Content of model files, independent of their format.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,7 +44,10 @@ struct Material {
   double metallic = 0;                         //!< in [0, 1]
   std::string texture{};                       //!< path of the color texture; empty for none
   std::string picture{};                       //!< its bytes, if they are in the file of the model
+  double alpha_cutoff = 0;  //!< above 0: where the alpha of the texture is below, nothing is shown
 };
+
+struct GltfSource;  // a document of which only flbc::io knows the parts
 
 //! A surface with attributes.
 struct Model {
@@ -51,11 +55,14 @@ struct Model {
   //! If the file has vertex attributes, column v belongs to vertex v.
   SurfaceAttributes attributes{};
   std::vector<std::string> others{};  //!< other content of the file, as phrases for messages
+  std::vector<std::string> notes{};   //!< what the reader does not support, for messages
   bool is_text = true;  //!< whether the file is text, for formats with a binary variant
   //! From .obj with .mtl files, and from .ply with a comment "TextureFile".
   std::vector<Material> materials{};
   std::vector<Index> polygon_materials{};    //!< by polygon, -1 = none; empty if all have none
   std::vector<std::string> missing_files{};  //!< material files that could not be read
+  //! The document of a .glb or .gltf file, which results keep; without it they are written anew.
+  std::shared_ptr<const GltfSource> gltf{};
 };
 
 //! Texture coordinates as vertex attributes.

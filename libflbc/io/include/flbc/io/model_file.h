@@ -23,8 +23,8 @@ PolygonSoup read_polygons(const std::string& path);
 class ModelFile {
  public:
   //! Reads .obj, .off (also COFF, NOFF, STOFF headers), .ply, .stl, .om (OpenMesh, up to version
-  //! 2.2), .glb or .gltf (2.0, uncompressed). Coincident corners of .stl files and vertices of glTF
-  //! are merged into one vertex; vertices are numbered by first occurrence.
+  //! 2.2), .glb, .vrm, or .gltf (2.0, uncompressed). Coincident corners of .stl files and vertices
+  //! of glTF are merged into one vertex; vertices are numbered by first occurrence.
   //! \throws IoError; InputError naming file and line, byte or element; OptionError for another
   //! extension
   explicit ModelFile(const std::string& path);
@@ -46,7 +46,8 @@ class ModelFile {
   //! coordinates have enough digits to read the same numbers back; binary coordinates keep the
   //! precision of the file. In 2D, z and normals are unchanged. In 3D, normals rotate with their
   //! polygons: rigidly where these move rigidly, and an area-weighted mean normal remains one.
-  //! Custom and inward normals stay custom and inward.
+  //! Custom and inward normals stay custom and inward. In .glb files tangents and morph targets
+  //! turn as the triangles around their vertices do.
   //! \param jacobians  if not empty, 9 x P Jacobians at the vertices (flbc/gradients.h): normals are
   //! then multiplied by the inverse transpose of the mean Jacobian of their vertices, and keep
   //! their lengths
@@ -61,10 +62,6 @@ class ModelFile {
   Model moved(const PointList<Dim>& points, const Eigen::MatrixXd& jacobians = {}) const;
 
  private:
-  template <int Dim>
-  void write_numbers(std::ostream& out, const PointList<Dim>& points,
-                     const Eigen::MatrixXd& jacobians) const;
-
   struct Content;
   std::unique_ptr<const Content> content_;
 };

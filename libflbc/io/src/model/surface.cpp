@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "gltf/surface.h"
+#include "model/surface.h"
 
 #include <algorithm>
 #include <array>
@@ -184,7 +184,7 @@ Surface surface_of_model(const io::Model& model) {
   }
   if (corners.empty()) {
     throw InputError("its " + std::to_string(soup.polygons.size()) +
-                     " polygons contain no triangle, but a skin needs a surface");
+                     " polygons contain no triangle, but glTF and USD need a surface");
   }
   if (Dim == 2) turn_counterclockwise(soup, corners);
 
@@ -193,6 +193,7 @@ Surface surface_of_model(const io::Model& model) {
   surface.triangle_materials = std::move(triangle_materials);
   surface.materials = model.materials;
   surface.missing_files = model.missing_files;
+  surface.gltf = model.gltf;
   add_texture_and_colors(attributes, vertices, surface);
   if (Dim == 2) {
     surface.normals = Vector<3>::UnitZ().replicate(1, vertices.size());

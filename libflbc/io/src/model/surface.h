@@ -3,6 +3,8 @@
 // A model vertex with two texture coordinates becomes two vertices.
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "flbc/io/model.h"
@@ -20,7 +22,8 @@ struct Surface {
   PointList<3> colors{};               //!< 3 x S, optional, linear, in [0, 1]
   std::vector<Index> triangle_materials{};  //!< by triangle, -1 = none; empty if all have none
   std::vector<io::Material> materials{};
-  std::vector<std::string> missing_files{};  //!< material files that could not be read
+  std::vector<std::string> missing_files{};      //!< material files that could not be read
+  std::shared_ptr<const io::GltfSource> gltf{};  //!< as of io::Model
 };
 
 //! The polygons of a model, cut into triangles. Missing normals are computed as angle-weighted

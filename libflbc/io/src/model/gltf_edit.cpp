@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/gltf_edit.h"
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "flbc/io/files.h"
+#include "model/following_normals.h"
+#include "model/gltf_json.h"
+
+namespace flbc::io {
+namespace {
+
+constexpr int kBase = -1;  // in place of a morph target
+
+// How space turns and stretches around each point: the area-weighted mean over its triangles, as
+// the difference from the identity, which is exactly 0 where nothing moves.
+std::vector<Eigen::Matrix3d> changes_of_space(const PolygonSoup& soup,
+                                              const std::vector<Vector<3>>& before) {
+  std::vector<Eigen::Matrix3d> sums(before.size(), Eigen::Matrix3d::Zero());
+  std::vector<double> areas(before.size(), 0);
+  const auto edges_of = [](const std::vector<Index>& triangle, const auto& points) {
+    Eigen::Matrix3d edges;
+    edges.col(0) = points[triangle[1]] - points[triangle[0]];
+    edges.col(1) = points[triangle[2]] - points[triangle[0]];
+    edges.col(2) = edges.col(0).cross(edges.col(1)).stableNormalized();
+    return edges;
+  };
+  for (const auto& triangle : soup.polygons) {
+    const auto rest = edges_of(triangle, before);
+    const double area = rest.determinant();
+    const Eigen::Matrix3d change = (edges_of(triangle, soup.points) - rest) * rest.inverse();
+    if (!(area > 0) || !change.allFinite()) continue;
+    for (const Index point : triangle) {
+      sums[point] += area * change;
+      areas[point] += area;
+    }
+  }
+  for (std::size_t v = 0; v < sums.size(); ++v) {
+    if (areas[v] > 0) sums[v] /= areas[v];
+  }
+  return sums;
+}
+
+// The vertices of the model in its file.
+std::vector<Vector<3>> points_of(GltfEdit& edit, const GltfSource& source, std::size_t count) {
+  std::vector<Vector<3>> points(count, Vector<3>::Zero());
+  for (const auto& part : source.parts) {
+    const auto places = edit.places(part);
+    for (std::size_t k = 0; k < part.points.size(); ++k) {
+      const Vector<3> place = places.col(static_cast<Eigen::Index>(k));
+      points.at(static_cast<std::size_t>(part.points[k])) = part.frame(k) * place;
+    }
+  }
+  return points;
+}
+
+// \param before  the points of the model in its file \param changes  of space around them
+GltfMotion motion_of(GltfEdit& edit, const GltfPart& part, const Model& model,
+                     const std::vector<Vector<3>>& before,
+                     const std::vector<Eigen::Matrix3d>& changes) {
+  GltfMotion motion{edit.places(part), edit.normals(part), {}, {}};
+  for (std::size_t k = 0; k < part.points.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    const Index v = part.points[k];
+    const Eigen::Matrix3d local = part.frame(k).linear();
+    bool moves = model.soup.points[v] != before[v] || !changes[v].isZero(0);
+    if (motion.normals.cols() > 0) {
+      const Vector<3> normal = model.attributes.normals.col(part.first + column);
+      const Vector<3> rest = transformed_normal(local, Vector<3>(motion.normals.col(column)));
+      moves = moves || (normal != rest && rest.allFinite());
+      if (moves) motion.normals.col(column) = (local.transpose() * normal).stableNormalized();
+    }
+    motion.moves.push_back(moves);
+    motion.turns.push_back(Eigen::Matrix3d::Identity());
+    if (!moves) continue;
+    const Eigen::Affine3d to_file = part.frame(k).inverse();
+    if (!to_file.matrix().allFinite()) {
+      edit.document.fail("joints press vertex " + std::to_string(v) +
+                         " flat, so it cannot move; write another format");
+    }
+    motion.places.col(column) = to_file * model.soup.points[v];
+    motion.turns.back() += to_file.linear() * changes[v] * local;
+  }
+  return motion;
+}
+
+}  // namespace
+
+std::string media_type_of(const std::string& picture) {
+  constexpr std::pair<std::string_view, const char*> kSignatures[] = {
+      {"\x89PNG\r\n\x1a\n", "image/png"},
+      {"\xff\xd8\xff", "image/jpeg"},
+      {"\xabKTX 20", "image/ktx2"}};
+  for (const auto& [signature, type] : kSignatures) {
+    if (picture.compare(0, signature.size(), signature) == 0) return type;
+  }
+  return picture.compare(0, 4, "RIFF") == 0 && picture.compare(8, 4, "WEBP") == 0 ? "image/webp"
+                                                                                  : "";
+}
+
+GltfEdit::GltfEdit(const GltfSource& source) : document(source.path, read_file(source.path)) {
+  part_meshes(source);
+  find_users();
+}
+
+// Nodes that show the same mesh get one each, as their vertices move in different ways.
+void GltfEdit::part_meshes(const GltfSource& source) {
+  std::set<std::size_t> parts, taken;
+  for (const auto& part : source.parts) parts.insert(part.node);
+  for (std::size_t k = 0; k < document.json["nodes"].size(); ++k) {
+    if (node(k).contains("mesh") && parts.count(k) == 0) taken.insert(whole(node(k)["mesh"]));
+  }
+  for (const auto k : parts) {
+    const auto mesh = whole(node(k).at("mesh"));
+    if (taken.insert(mesh).second) continue;
+    auto copy = document.json["meshes"].at(mesh);
+    node(k)["mesh"] = document.append("meshes", std::move(copy));
+  }
+}
+
+void GltfEdit::find_users() {
+  const auto& meshes = document.json["meshes"];
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const auto& primitives = meshes[m].at("primitives");
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      auto lists = primitives[p].value("targets", GltfJson::array());
+      lists.push_back(primitives[p].at("attributes"));
+      for (std::size_t t = 0; t < lists.size(); ++t) {
+        const int target = t + 1 < lists.size() ? static_cast<int>(t) : kBase;
+        for (const auto& [name, number] : lists[t].items()) {
+          const auto& accessor = document.json["accessors"].at(whole(number));
+          if (!accessor.contains("bufferView")) continue;
+          users_[{whole(accessor["bufferView"]), whole(accessor, "byteOffset", 0)}].push_back(
+              {m, p, target, name});
+        }
+      }
+    }
+  }
+}
+
+GltfJson& GltfEdit::primitive(const GltfPart& part, std::size_t number) {
+  const auto mesh = whole(node(part.node).at("mesh"));
+  return document.json["meshes"].at(mesh).at("primitives").at(number);
+}
+
+Eigen::MatrixXd GltfEdit::places(const GltfPart& part) {
+  auto columns =
+      document.morphed(node(part.node), primitive(part, part.primitives[0]), "POSITION", 3);
+  if (columns.cols() != static_cast<Eigen::Index>(part.points.size())) {
+    document.fail("the file has changed since it was read");
+  }
+  return columns;
+}
+
+Eigen::MatrixXd GltfEdit::normals(const GltfPart& part) {
+  return document.morphed(node(part.node), primitive(part, part.primitives[0]), "NORMAL", 3);
+}
+
+GltfJson& GltfEdit::attributes(const GltfPart& part, std::size_t number, int target) {
+  auto& owner = primitive(part, number);
+  return target == kBase ? owner["attributes"]
+                         : owner["targets"].at(static_cast<std::size_t>(target));
+}
+
+bool GltfEdit::can_replace(const GltfPart& part, int target, const char* name,
+                           std::size_t accessor) const {
+  const auto& description = document.json["accessors"].at(accessor);
+  if (!description.contains("bufferView") || description.contains("sparse") ||
+      whole(description.at("componentType")) != kGltfFloat) {
+    return false;
+  }
+  const auto mesh = whole(document.json["nodes"].at(part.node).at("mesh"));
+  const auto found =
+      users_.find({whole(description["bufferView"]), whole(description, "byteOffset", 0)});
+  return found != users_.end() &&
+         std::all_of(found->second.begin(), found->second.end(), [&](const User& user) {
+           return user.mesh == mesh && user.target == target && user.name == name &&
+                  std::count(part.primitives.begin(), part.primitives.end(), user.primitive) > 0;
+         });
+}
+
+void GltfEdit::set(const GltfPart& part, int target, const char* name,
+                   const Eigen::MatrixXd& columns) {
+  if (!columns.cast<float>().allFinite()) {
+    document.fail(
+        "a vertex would have a coordinate that is not finite or too large for the single "
+        "precision of the file");
+  }
+  auto accessor = whole(attributes(part, part.primitives[0], target).at(name));
+  if (can_replace(part, target, name, accessor)) return document.replace(accessor, columns);
+  accessor = document.add_attribute(columns, std::string_view(name) == "POSITION");
+  for (const auto number : part.primitives) attributes(part, number, target)[name] = accessor;
+}
+
+void GltfEdit::move(const GltfPart& part, const GltfMotion& motion) {
+  const auto count = motion.places.cols();
+  const auto moving = [&](Eigen::Index k) { return motion.moves[static_cast<std::size_t>(k)]; };
+  const auto turn = [&](Eigen::Index k) { return motion.turns[static_cast<std::size_t>(k)]; };
+  const auto base = [&](const char* name, int rows) {
+    const auto& list = attributes(part, part.primitives[0], kBase);
+    if (!list.contains(name)) return Eigen::MatrixXd();
+    auto columns = document.numbers(whole(list[name]), rows);
+    if (columns.cols() < count) document.fail(std::string("a mesh has too few numbers in ") + name);
+    return columns;
+  };
+  auto positions = base("POSITION", 3), normals = base("NORMAL", 3), tangents = base("TANGENT", 4);
+  const auto weights = document.morph_weights(node(part.node));
+  const auto targets = primitive(part, part.primitives[0]).value("targets", GltfJson::array());
+  bool has_morphed_normals = false;
+  for (std::size_t t = 0; t < std::min(weights.size(), targets.size()); ++t) {
+    has_morphed_normals |= weights[t] != 0 && targets[t].contains("NORMAL") && normals.cols() > 0;
+  }
+  for (Eigen::Index k = 0; k < count; ++k) {
+    if (!moving(k)) continue;
+    positions.col(k) = motion.places.col(k);
+    if (has_morphed_normals) {
+      normals.col(k) = transformed_normal(turn(k), Vector<3>(normals.col(k)));
+    } else if (normals.cols() > 0) {
+      normals.col(k) = motion.normals.col(k);
+    }
+    if (tangents.cols() == 0) continue;
+    Vector<3> tangent = turn(k) * tangents.col(k).head<3>();
+    if (normals.cols() > 0) tangent -= tangent.dot(normals.col(k)) * normals.col(k);
+    if (tangent.stableNorm() > 0) tangents.col(k).head<3>() = tangent.stableNormalized();
+    if (turn(k).determinant() < 0) tangents(3, k) *= -1;
+  }
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    const auto target = static_cast<int>(t);
+    const double weight = t < weights.size() ? weights[t] : 0;
+    for (const char* name : {"POSITION", "NORMAL", "TANGENT"}) {
+      if (!targets[t].contains(name)) continue;
+      auto columns = document.numbers(whole(targets[t][name]), 3);
+      if (columns.cols() != count) document.fail("a morph target has another number of vertices");
+      for (Eigen::Index k = 0; k < count; ++k) {
+        if (!moving(k)) continue;
+        const Vector<3> offset = columns.col(k);
+        columns.col(k) =
+            *name == 'N' ? transformed_normal(turn(k), offset) : Vector<3>(turn(k) * offset);
+        if (*name == 'P') positions.col(k) -= weight * columns.col(k);
+      }
+      set(part, target, name, columns);
+    }
+  }
+  set(part, kBase, "POSITION", positions);
+  if (normals.cols() > 0) set(part, kBase, "NORMAL", normals);
+  if (tangents.cols() > 0) set(part, kBase, "TANGENT", tangents);
+}
+
+std::vector<std::string> GltfEdit::embed_pictures() {
+  std::vector<std::string> missing;
+  if (!document.json.contains("images")) return missing;
+  for (auto& image : document.json["images"]) {
+    const auto uri = image.value("uri", "data:");
+    if (uri.compare(0, 5, "data:") == 0) continue;
+    try {
+      const auto bytes = document.content_of(uri);
+      const auto type = media_type_of(bytes);
+      if (type.empty()) {
+        missing.push_back("the picture " + document.file_of(uri) + ": glTF has .png and .jpg only");
+        continue;
+      }
+      image.erase("uri");
+      image["mimeType"] = type;
+      image["bufferView"] = document.add_view(bytes);
+    } catch (const IoError& error) {
+      missing.push_back(std::string("a picture: ") + error.what());
+    }
+  }
+  return missing;
+}
+
+std::string moved_gltf(const Model& model) {
+  const auto& source = *model.gltf;
+  return refusing_damage(source.path, [&] {
+    GltfEdit edit(source);
+    if (extension_of(source.path) == "gltf") edit.embed_pictures();
+    const auto before = points_of(edit, source, model.soup.points.size());
+    const auto changes = changes_of_space(model.soup, before);
+    for (const auto& part : source.parts) {
+      const auto motion = motion_of(edit, part, model, before, changes);
+      if (std::count(motion.moves.begin(), motion.moves.end(), true) > 0) edit.move(part, motion);
+    }
+    return edit.document.glb();
+  });
+}
+
+}  // namespace flbc::io

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Edits the document of a model. What is not edited keeps its bytes.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "flbc/io/model.h"
+#include "model/gltf_document.h"
+
+namespace flbc::io {
+
+//! New places of the vertices of a part, in its file.
+struct GltfMotion {
+  Eigen::MatrixXd places{};              //!< 3 x V, with the default weights of morph targets
+  Eigen::MatrixXd normals{};             //!< 3 x V of length 1, alike; no columns if there are none
+  std::vector<Eigen::Matrix3d> turns{};  //!< of directions such as tangents
+  std::vector<bool> moves{};             //!< whether a vertex changes
+};
+
+class GltfEdit {
+ public:
+  GltfEdit() = default;  //!< of an empty document
+  //! Reads the file again. \throws InputError, IoError
+  explicit GltfEdit(const GltfSource& source);
+
+  GltfJson& node(std::size_t number) { return document.json["nodes"].at(number); }
+  GltfJson& primitive(const GltfPart& part, std::size_t number);
+
+  //! The vertices of the file and their normals, with default weights of morph targets.
+  Eigen::MatrixXd places(const GltfPart& part);
+  Eigen::MatrixXd normals(const GltfPart& part);
+
+  //! Replaces positions, normals, tangents, and morph targets.
+  void move(const GltfPart& part, const GltfMotion& motion);
+
+  //! Puts pictures from other files into the document. \return those that cannot be read
+  std::vector<std::string> embed_pictures();
+
+  GltfDocument document;
+
+ private:
+  using Place = std::pair<std::size_t, std::size_t>;  // buffer view and offset
+  struct User {
+    std::size_t mesh, primitive;
+    int target;  // of morph targets; -1 = none
+    std::string name;
+  };
+
+  void part_meshes(const GltfSource& source);
+  void find_users();
+  GltfJson& attributes(const GltfPart& part, std::size_t primitive, int target);
+  void set(const GltfPart& part, int target, const char* name, const Eigen::MatrixXd& columns);
+  bool can_replace(const GltfPart& part, int target, const char* name, std::size_t accessor) const;
+
+  std::map<Place, std::vector<User>> users_;  // of numbers
+};
+
+//! The .glb file of a model that was read from such a file, with its vertices and normals moved.
+std::string moved_gltf(const Model& model);
+
+//! "image/png", "image/jpeg", "image/webp", or "image/ktx2"; empty for other bytes.
+std::string media_type_of(const std::string& picture);
+
+}  // namespace flbc::io
