@@ -66,8 +66,9 @@ TEST_IN_2D_AND_3D(MakeDomainTest, TooFewVerticesBecomeTheFewest) {
 TEST_IN_2D_AND_3D(MakeDomainTest, ChecksTheWholeCageAndCanBeCanceled) {
   const auto cage = make_sample<Dim>(Shape::kBox, 1).cage;
   Meshers<Dim> meshers{{{"a", fails<InputError, Dim>("thin")}, {"b", makes<Dim>(1)}}};
-  EXPECT_THROW(make_domain<Dim>(cage, {}, meshers, [] { throw std::out_of_range("stop"); }),
-               std::out_of_range);
+  MeshingOptions<Dim> cancelled;
+  cancelled.poll = [] { throw std::out_of_range("stop"); };
+  EXPECT_THROW(make_domain<Dim>(cage, cancelled, meshers), std::out_of_range);
   meshers.check = [&](const Cage<Dim>& given) {
     EXPECT_EQ(given.points, cage.points);
     throw InputError("crosses itself");

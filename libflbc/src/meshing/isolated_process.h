@@ -59,8 +59,11 @@ class ByteSource {
 
 //! How a parent waits.
 struct Patience {
-  double seconds;                //!< time limit, > 0
-  std::function<void()> poll{};  //!< called every 0.1 s; what it throws ends child and wait
+  Patience(double seconds, std::function<void()> poll = {})  // NOLINT: a time limit alone is one
+      : seconds(seconds), poll(std::move(poll)) {}
+
+  double seconds;              //!< time limit, > 0
+  std::function<void()> poll;  //!< called every 0.1 s; what it throws ends child and wait
 };
 
 //! Runs `work` in a forked child with a copy of the memory of the parent. Its output is discarded,

@@ -2,6 +2,7 @@
 #include "meshing/tetgen/tetgen_run.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <new>
@@ -30,7 +31,19 @@ REAL* copy_of(const PointList<3>& points) {
   return copy;
 }
 
+// In an order that does not depend on that in a file, because the mesh depends on it.
+std::vector<std::array<int, 3>> in_order(const FacetList<3>& triangles) {
+  std::vector<std::array<int, 3>> ordered;
+  for (const auto& triangle : triangles.colwise()) {
+    auto& corners = ordered.emplace_back(std::array<int, 3>{triangle[0], triangle[1], triangle[2]});
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  }
+  std::sort(ordered.begin(), ordered.end());
+  return ordered;
+}
+
 void fill_facets(const FacetList<3>& triangles, tetgenio& io) {
+  const auto ordered = in_order(triangles);
   io.numberoffacets = static_cast<int>(triangles.cols());
   io.facetlist = new tetgenio::facet[triangles.cols()];
   for (Index t = 0; t < triangles.cols(); ++t) {
@@ -41,7 +54,8 @@ void fill_facets(const FacetList<3>& triangles, tetgenio& io) {
     tetgenio::init(&facet.polygonlist[0]);
     facet.polygonlist[0].numberofvertices = 3;
     facet.polygonlist[0].vertexlist = new int[3];
-    for (int k = 0; k < 3; ++k) facet.polygonlist[0].vertexlist[k] = triangles(k, t);
+    for (int k = 0; k < 3; ++k)
+      facet.polygonlist[0].vertexlist[k] = ordered[static_cast<std::size_t>(t)][k];
   }
 }
 
