@@ -183,7 +183,7 @@ TEST_F(IsolatedProcessTest, RunsFromSeveralThreadsDoNotMix) {
   }
 }
 
-TEST(IsolatedProcessTest, WhatPollThrowsEndsTheChild) {
+TEST_F(IsolatedProcessTest, WhatPollThrowsEndsTheChild) {
   int calls = 0;
   const auto poll = [&] {
     if (++calls == 3) throw std::runtime_error("cancelled");
