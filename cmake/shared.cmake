@@ -58,7 +58,7 @@ function(flbc_list_exports namespace headers)
   set(exports "${exports}" PARENT_SCOPE)
 endfunction()
 
-set(exports)
+set(exports "    _ZN4flbc3abi*;\n")  # types.h
 file(GLOB core libflbc/include/flbc/*.h libflbc/caging/include/flbc/*.h)
 foreach(name IN LISTS shared_inside)
   list(APPEND core ${PROJECT_SOURCE_DIR}/libflbc/src/${name}.h)
