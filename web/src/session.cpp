@@ -223,7 +223,7 @@ class Work {
     if (name == "repairCage") return repair_cage();
     if (name == "setCage") return set_cage({pose(), matrix_in<FacetList<Dim>>(given["facets"])});
     if (name == "makeMesh") return make_mesh(options(), report);
-    if (name == "setMesh") return set_mesh(mesh(), {});
+    if (name == "setMesh") return set_mesh(mesh(), {}, outside_points());
     if (name == "setSolution") {
       return set_solution(
           mesh(), weights_in(given, cage_.size()),
@@ -334,10 +334,10 @@ class Work {
   // ----------------------------------------------------------------------------- mesh and weights
 
   val make_mesh(const Json& options, const Report& report) {
-    outside_points();  // refuses before the mesher starts
+    const auto outside = outside_points();  // refuses before the mesher starts
     report("filling the cage", 0);
     auto made = app::make_domain<Dim>({cage_, kCageFile, options.value("vertices", 0)});
-    set_mesh(std::move(made.mesh), {});
+    set_mesh(std::move(made.mesh), {}, outside);
     const auto& mesh = rig_->mesh();
     // Twice the time of the native program.
     const auto estimate = app::estimate_solve(Dim, cage_.size(), mesh.num_vertices(), {});
@@ -348,10 +348,10 @@ class Work {
   }
 
   // \param options  of the solver
-  val set_mesh(DomainMesh<Dim> mesh, const Json& options) {
+  val set_mesh(DomainMesh<Dim> mesh, const Json& options, OutsidePoints outside) {
     BindOptions binding;
     binding.solver = solver_options(options);
-    binding.outside = outside_points();
+    binding.outside = outside;
     binding.observer.progress = [this](const Progress& progress) {
       show_progress(progress);
       return true;
@@ -420,7 +420,7 @@ class Work {
   }
 
   val set_solution(DomainMesh<Dim> mesh, SparseWeights weights, const Json& options) {
-    set_mesh(std::move(mesh), options);
+    set_mesh(std::move(mesh), options, outside_points());
     solver_given_ = options;
     rig_->set_solution({std::move(weights), {}});
     return val::undefined();
@@ -470,9 +470,9 @@ class Work {
   }
 
   SparseWeights harmonic() {
-    const auto solution = compute_coordinates(cage_, rig().mesh(), Coordinates::kHarmonic);
-    const auto placement = place_points(cage_, rig_->mesh(), points(), rig_->options().outside);
-    return weights_at(cage_, rig_->mesh(), solution.weights, placement);
+    rig().weights_of_points();  // places the points
+    const auto solution = compute_coordinates(cage_, rig_->mesh(), Coordinates::kHarmonic);
+    return weights_at(cage_, rig_->mesh(), solution.weights, rig_->placement());
   }
 
   PointList<Dim> posed(const PointList<Dim>& control_points) {
