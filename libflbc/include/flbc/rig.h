@@ -69,6 +69,8 @@ class Rig {
   Binding<Dim> bind();
 
  private:
+  Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindOptions& options);
+
   SparseWeights reduced(const Placement<Dim>& placement, const SparseWeights& weights) const;
   SparseWeights reduced_inside(const std::vector<Index>& outside);
 

@@ -53,17 +53,22 @@ PointList<Dim> offsets_of(const PointList<Dim>& points, const Placement<Dim>& pl
 }  // namespace
 
 template <int Dim>
-Rig<Dim>::Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindOptions& options,
-              const Meshers<Dim>& meshers)
+Rig<Dim>::Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindOptions& options)
     : cage_(std::move(cage)),
       points_(std::move(points)),
       edges_(std::move(edges)),
       options_(options) {
-  const ThreadScope threads(options_.solver.threads);
   require_model<Dim>(points_, edges_);
   require_valid<Dim>(options_);
   validate(cage_);
-  require_inside(cage_, points_, options_);  // before the mesher starts
+  require_inside(cage_, points_, options_);  // before a mesher starts
+}
+
+template <int Dim>
+Rig<Dim>::Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindOptions& options,
+              const Meshers<Dim>& meshers)
+    : Rig(std::move(cage), std::move(points), std::move(edges), options) {
+  const ThreadScope threads(options_.solver.threads);
   const Stopwatch watch;
   MeshingOptions<Dim> meshing;
   meshing.vertices = options_.vertices;
@@ -78,15 +83,8 @@ Rig<Dim>::Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindO
 template <int Dim>
 Rig<Dim>::Rig(Cage<Dim> cage, DomainMesh<Dim> domain, PointList<Dim> points, EdgeList edges,
               const BindOptions& options)
-    : cage_(std::move(cage)),
-      mesh_(std::move(domain)),
-      points_(std::move(points)),
-      edges_(std::move(edges)),
-      options_(options) {
-  require_model<Dim>(points_, edges_);
-  require_valid<Dim>(options_);
-  validate(cage_);
-  require_inside(cage_, points_, options_);
+    : Rig(std::move(cage), std::move(points), std::move(edges), options) {
+  mesh_ = std::move(domain);
   normalize_and_validate(mesh_);
 }
 
