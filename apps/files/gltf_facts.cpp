@@ -81,11 +81,6 @@ Counts count(const GltfJson& gltf) {
 
 }  // namespace
 
-bool is_gltf_file(const std::string& path) {
-  const auto extension = io::extension_of(path);
-  return extension == "glb" || extension == "gltf" || extension == "vrm";
-}
-
 std::string describe_gltf(const std::string& path) {
   const auto bytes = io::read_file(path);
   try {

@@ -5,10 +5,15 @@
 
 #include <string>
 
+#include "flbc/io/files.h"
+
 namespace flbc::app {
 
 //! Whether a path ends in .glb, .gltf, or .vrm.
-bool is_gltf_file(const std::string& path);
+inline bool is_gltf_file(const std::string& path) {
+  const auto extension = io::extension_of(path);
+  return extension == "glb" || extension == "gltf" || extension == "vrm";
+}
 
 //! Counts of vertices, triangles, joints, and influences, and the length of the animation, as lines
 //! for a terminal. \throws IoError, InputError

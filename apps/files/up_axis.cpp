@@ -6,8 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "files/gltf_facts.h"
 #include "flbc/errors.h"
-#include "flbc/io/files.h"
 
 namespace flbc::app {
 namespace {
@@ -30,9 +30,7 @@ bool stands(const PointList<3>& points, int axis) {
 }  // namespace
 
 UpAxis up_of(UpAxis up, const std::string& model) {
-  const auto extension = io::extension_of(model);
-  const bool is_gltf = extension == "glb" || extension == "gltf" || extension == "vrm";
-  return up == UpAxis::kAuto && is_gltf ? UpAxis::kY : up;
+  return up == UpAxis::kAuto && is_gltf_file(model) ? UpAxis::kY : up;
 }
 
 int up_axis(UpAxis up, const PointList<3>& points) {

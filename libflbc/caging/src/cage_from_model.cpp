@@ -175,10 +175,7 @@ class Caging {
     if constexpr (Dim == 3) {
       is_closed_ = is_closed({points, facets});
       volume_ = solid_volume({points, facets}, is_closed_);
-      for (const auto& facet : facets.colwise()) {
-        thickness_ += facet_normal<3>(points(Eigen::all, facet)).norm() / 2;
-      }
-      thickness_ = is_closed_ && volume_ > 0 ? 2 * volume_ / thickness_ : 0;
+      thickness_ = is_closed_ && volume_ > 0 ? 2 * volume_ / area_of(points, facets) : 0;
     }
     whole_ = model;
     if (!plane_.is_there()) return;

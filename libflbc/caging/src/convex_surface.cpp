@@ -41,21 +41,14 @@ Vector<3> centroid(const Cage<3>& surface) {
   return origin + sum / volume;
 }
 
-double area_of(const Cage<3>& surface) {
-  double sum = 0;
-  for (const auto& facet : surface.facets.colwise()) {
-    sum += facet_normal<3>(surface.points(Eigen::all, facet)).norm() / 2;
-  }
-  return sum;
-}
-
 // A hull of fewer points, enlarged to enclose the hull; round models have thousands. \param center
 // inside of it
 Cage<3> coarser(const Cage<3>& hull, const Vector<3>& center) {
   constexpr Index kMany = 1500;
   if (hull.size() <= kMany) return hull;
-  auto coarse =
-      convex_hull(simplified<3>(hull.points, hull.facets, std::sqrt(area_of(hull) / kMany)).points);
+  auto coarse = convex_hull(
+      simplified<3>(hull.points, hull.facets, std::sqrt(area_of(hull.points, hull.facets) / kMany))
+          .points);
   const PointList<3> centered = coarse.points.colwise() - center;
   Eigen::Matrix<double, Eigen::Dynamic, 3> planes(coarse.facets.cols(), 3);  // x is 1 on a facet
   for (Index f = 0; f < coarse.facets.cols(); ++f) {
@@ -92,7 +85,7 @@ ConvexSurface convex_surface(const PointList<3>& points, double thickness) {
   const Vector<3> center = centroid(surface);
   result.hull_volume = signed_measure<3>(surface, center);
   surface = coarser(surface, center);
-  result.offset = (kEnlarged - 1) * result.hull_volume / area_of(surface);
+  result.offset = (kEnlarged - 1) * result.hull_volume / area_of(surface.points, surface.facets);
   surface.points = (kEnlarged * (surface.points.colwise() - center)).colwise() + center;
   if (!(extent.z() > kRod * extent.y())) return result;
   const double rings = std::min(std::floor(extent.z() / (kSpacing * extent.y())), kMostRings);

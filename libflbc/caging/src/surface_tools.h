@@ -63,6 +63,14 @@ Vector<Dim> facet_normal(const Eigen::Matrix<double, Dim, Dim>& corners) {
   }
 }
 
+inline double area_of(const PointList<3>& points, const FacetList<3>& facets) {
+  double sum = 0;
+  for (const auto& facet : facets.colwise()) {
+    sum += facet_normal<3>(points(Eigen::all, facet)).norm() / 2;
+  }
+  return sum;
+}
+
 //! Finds boxes on one side of a facet without exact arithmetic. Few boxes near a cage meet the
 //! planes of its facets, but many are within the boxes around the facets.
 template <int Dim>

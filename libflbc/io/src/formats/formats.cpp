@@ -97,9 +97,8 @@ std::string conversion_hint(const std::string& path) {
       {" fbx blend dae 3ds abc usd usda usdc usdz x3d wrl max ",
        "convert it to .obj or .ply first, for example in Blender"},
       {" dxf svg ",
-       "import it into Blender, convert the curves to meshes, and export .obj; a drawing can also "
-       "be "
-       "saved as .png with a transparent background"},
+       "import it into Blender, convert the curves to meshes, and export .obj; a drawing can "
+       "also be saved as .png with a transparent background"},
       {" spz splat ksplat sog ",
        "export it as an uncompressed .ply first, for example in SuperSplat"},
       {" gz bz2 xz zst zip 7z ", "unpack it first"}};

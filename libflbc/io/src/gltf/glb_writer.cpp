@@ -60,8 +60,7 @@ class SkinBuilder {
 
   Json& list(const char* name) { return document_.json[name]; }
 
-  // ---------------------------------------------------------------------------- a document's
-  // motion
+  // ---------------------------------------- motion of a document
 
   // Joints and skins of the model before it got its cage, and the animations that move them.
   void drop_old_motion() {
@@ -138,8 +137,7 @@ class SkinBuilder {
     return has_dropped;
   }
 
-  // -------------------------------------------------------------------------------------
-  // influences
+  // ---------------------------------------- influences
 
   void skin(const GltfPart& part) {
     const auto& parts = scene_.document->parts;
@@ -249,8 +247,7 @@ class SkinBuilder {
     document_.append("meshes", std::move(mesh));
   }
 
-  // ------------------------------------------------------------------------------------------
-  // joints
+  // ---------------------------------------- joints
 
   // All control points are children of one joint at the center of the cage. Programs that draw
   // joints as bones give leaf joints the length of the shortest sibling, which is the helper joint.
@@ -328,8 +325,7 @@ class SkinBuilder {
                      {{"name", "poses"}, {"channels", channels}, {"samplers", samplers}});
   }
 
-  // ------------------------------------------------------------------------------------------
-  // scenes
+  // ---------------------------------------- scenes
 
   void add_scenes() {
     if (!scene_.document) {

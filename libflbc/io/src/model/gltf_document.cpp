@@ -143,7 +143,7 @@ void GltfDocument::merge_buffers(std::string binary_chunk) {
 }
 
 std::string GltfDocument::file_of(const std::string& uri) const {
-  return beside(path_, percent_decoded(uri));
+  return path_next_to(path_, percent_decoded(uri));
 }
 
 std::string GltfDocument::content_of(const std::string& uri) const {

@@ -102,7 +102,7 @@ void read_gltf(const std::string& path, Extent extent, ModelScan& scan);
 bool read_mtl(const std::string& path, std::vector<Material>& materials);
 
 //! Path of a file that is named in another file, relative to its directory.
-std::string beside(const std::string& path, const std::string& name);
+std::string path_next_to(const std::string& path, const std::string& name);
 
 //! The remaining words on a line: a name that may contain blanks.
 std::string rest_of_line(TextReader& reader);

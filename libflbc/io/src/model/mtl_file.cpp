@@ -77,13 +77,13 @@ void read_property(TextReader& reader, std::string_view keyword, const std::stri
     read_share(reader, material.metallic);
   } else if (keyword == "map_Kd") {
     const auto name = picture_name(reader);
-    if (!name.empty()) material.texture = beside(path, name);
+    if (!name.empty()) material.texture = path_next_to(path, name);
   }
 }
 
 }  // namespace
 
-std::string beside(const std::string& path, const std::string& name) {
+std::string path_next_to(const std::string& path, const std::string& name) {
   return (std::filesystem::path(path).parent_path() / name).string();
 }
 

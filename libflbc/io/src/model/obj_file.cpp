@@ -160,7 +160,7 @@ class ObjReader {
     polygon_materials_.resize(model_.soup.polygons.size(), material_);
     model_.polygon_materials = std::move(polygon_materials_);
     for (const auto& name : material_files_) {
-      const auto file = beside(path_, name);
+      const auto file = path_next_to(path_, name);
       if (!read_mtl(file, model_.materials)) model_.missing_files.push_back(file);
     }
   }

@@ -74,7 +74,7 @@ class PlyScanner {
     if (!reader_.texture_file().empty()) {
       auto& material = model_.materials.emplace_back();
       material.name = "texture";
-      material.texture = beside(path_, reader_.texture_file());
+      material.texture = path_next_to(path_, reader_.texture_file());
       model_.polygon_materials.assign(model_.soup.polygons.size(), 0);
     }
   }
