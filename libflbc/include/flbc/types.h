@@ -48,6 +48,8 @@ struct EigenAlignment {
   static const char is_not_that_of_libflbc;
 };
 
+extern template struct EigenAlignment<EIGEN_MAX_ALIGN_BYTES, EIGEN_MALLOC_ALREADY_ALIGNED != 0>;
+
 [[gnu::used]] static const char* const kEigenAlignment =
     &EigenAlignment<EIGEN_MAX_ALIGN_BYTES,
                     EIGEN_MALLOC_ALREADY_ALIGNED != 0>::is_not_that_of_libflbc;

@@ -4,9 +4,10 @@
 #ifdef __GNUC__
 namespace flbc::abi {
 
-template <>
-const char EigenAlignment<EIGEN_MAX_ALIGN_BYTES,
-                          EIGEN_MALLOC_ALREADY_ALIGNED != 0>::is_not_that_of_libflbc = 0;
+template <int max_align_bytes, bool malloc_already_aligned>
+const char EigenAlignment<max_align_bytes, malloc_already_aligned>::is_not_that_of_libflbc = 0;
+
+template struct EigenAlignment<EIGEN_MAX_ALIGN_BYTES, EIGEN_MALLOC_ALREADY_ALIGNED != 0>;
 
 }  // namespace flbc::abi
 #endif
