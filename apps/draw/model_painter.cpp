@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -63,6 +64,16 @@ bool is_hidden(const Raster& surface, const ModelScene& scene, const Vector<3>& 
   return surface.hides(pixel_of(scene, place), scene.view.toward.dot(place) + tolerance);
 }
 
+// Samples that are hidden in the end need no color then.
+std::vector<Index> nearest_first(const FacetList<3>& triangles, const Eigen::VectorXd& nearness) {
+  std::vector<Index> order(triangles.cols());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](Index f, Index g) {
+    return nearness[triangles(0, f)] > nearness[triangles(0, g)];
+  });
+  return order;
+}
+
 Raster painted_surface(const Canvas& canvas, const ModelScene& scene, Color plain) {
   const auto& points = scene.place.points;
   const PointList<3> normals = corner_normals(scene);
@@ -70,7 +81,7 @@ Raster painted_surface(const Canvas& canvas, const ModelScene& scene, Color plai
   PointList<2> pixels(2, points.cols());
   for (Eigen::Index p = 0; p < points.cols(); ++p) pixels.col(p) = pixel_of(scene, points.col(p));
   Raster raster = canvas.raster_for(pixels);
-  for (Index f = 0; f < scene.model.triangles.cols(); ++f) {
+  for (const Index f : nearest_first(scene.model.triangles, nearness)) {
     const auto t = scene.model.triangles.col(f);
     const Index a = t[0], b = t[1], c = t[2];
     raster.fill({pixels.col(a), pixels.col(b), pixels.col(c)},

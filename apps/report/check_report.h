@@ -57,10 +57,9 @@ CheckReport<Dim> check_cage(const Cage<Dim>& cage, const std::string& file);
 //! Adds the facts about weights. \param place  the mesh that has them, or points anywhere, with
 //! fewer facts \param more  further arguments of check_weights()
 //! \throws InputError if the sizes do not belong together, or the mesh does not belong to the cage
-template <int Dim, class Place, class... More>
-void check_weights_of(CheckReport<Dim>& report, const Place& place, const SparseWeights& weights,
-                      More... more) {
-  report.weights = check_weights(report.cage, place, weights, more...);
+template <int Dim, class Place>
+void check_weights_of(CheckReport<Dim>& report, const Place& place, const SparseWeights& weights) {
+  report.weights = check_weights(report.cage, place, weights);
   report.violations = find_violations(*report.weights);
 }
 

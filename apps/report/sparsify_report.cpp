@@ -20,9 +20,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of either kind.
-constexpr int kRandomPoses = 20;
-
 Json norms_json(const ErrorNorms& norms) {
   return {{"rms", norms.rms}, {"max", norms.max}};
 }

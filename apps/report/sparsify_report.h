@@ -27,6 +27,9 @@ void add_reduction_option(CLI::App& command, std::string& reduction);
 std::string reduction_for(const std::string& asked, const std::string& points_file,
                           const EdgeList& edges);
 
+//! Over so many the error of a reduction is measured, where none are given.
+constexpr int kRandomPoses = 20;
+
 //! Weights before and after, and what they are measured with. All kept by reference.
 template <int Dim>
 struct SparsifiedWeights {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The steps of flbc run that make what engines take: few influences, and a skin.
-#include <cmath>
 #include <filesystem>
 
 #include "files/load.h"
@@ -8,6 +7,7 @@
 #include "flbc/cage.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
+#include "flbc/poses.h"
 #include "flbc/quality.h"
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
@@ -46,19 +46,12 @@ SparseWeights reduce(const Run<Dim>& run, const std::string& method,
 }
 
 // Relative to the size, over the poses given or else over smooth random ones.
-ErrorNorms deformation_error_in(const Json& errors) {
-  const auto& poses = errors["deformation"]["poses"];
-  if (poses.empty()) {
-    const auto& smooth = errors["deformation"]["smooth"];
-    return {smooth["rms"], smooth["max"]};
-  }
-  ErrorNorms all;
-  for (const auto& pose : poses) {
-    all.rms += std::pow(pose["rms"].get<double>(), 2);
-    all.max = std::max(all.max, pose["max"].get<double>());
-  }
-  all.rms = std::sqrt(all.rms / static_cast<double>(poses.size()));
-  return all;
+template <int Dim>
+ErrorNorms error_of_reduction(const Run<Dim>& run, const std::vector<PointList<Dim>>& given) {
+  const auto& poses = given.empty() ? smooth_poses(run.cage.points, kRandomPoses) : given;
+  const auto error = deformation_error(poses, run.weights(), run.reduced);
+  const double size = bounding_box_diagonal<Dim>(run.shape().points);
+  return size > 0 ? ErrorNorms{error.rms / size, error.max / size} : error;
 }
 
 std::string facts_of(const SparseWeights& before, const SparseWeights& after,
@@ -151,17 +144,10 @@ void reduce_influences(Run<Dim>& run) {
   const auto method = reduction_for(run.arguments.reduction, file, shape.edges);
   run.reduced = naming(file, [&] { return reduce(run, method, poses); });
   run.moved = by_weights<Dim>(run.reduced, run.cage.points, shape.points);
-  std::vector<std::string> pose_files;
-  for (const auto& pose : run.poses()) pose_files.push_back(pose.name);
 
   const auto& before = run.weights();
   const auto& after = run.reduced;
-  const auto errors = [&] {
-    const ProgressBar bar(run.arguments.quiet, "measuring the error of fewer influences");
-    return errors_json<Dim>(
-        {run.cage.points, shape.points, shape.edges, before, after, poses, pose_files});
-  }();
-  const auto error = deformation_error_in(errors);
+  const auto error = error_of_reduction(run, poses);
   run.folder.add(kSparseWeights, facts_of(before, after, error, poses.size()),
                  [&](const std::string& path) { io::write_weights(path, after); });
 
@@ -175,8 +161,7 @@ void reduce_influences(Run<Dim>& run) {
                             {"before", weights_json(kWeights, size_of_file(kWeights), before,
                                                     run.cage.points, run.attached())},
                             {"after", weights_json(kSparseWeights, size_of_file(kSparseWeights),
-                                                   after, run.cage.points, run.attached())},
-                            {"error", errors}};
+                                                   after, run.cage.points, run.attached())}};
 }
 
 template <int Dim>

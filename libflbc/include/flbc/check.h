@@ -37,8 +37,8 @@ struct MeshCheck {
   Extreme<Dim> highest_maximum;     //!< as for minima
   double total_variation = 0;       //!< sum_s sum_i A_s |grad w_i|, in units of the mesh^(Dim - 1)
   double harmonic_total_variation = 0;  //!< of harmonic coordinates on this mesh
-  //! What local coordinates minimize, sum_s sum_i phi_s^i A_s |grad w_i|, with phi = kSquare. 0 if
-  //! it was not asked for, and for meshes of several parts, because each part has its own phi.
+  //! What local coordinates minimize, sum_s sum_i phi_s^i A_s |grad w_i|, with phi = kSquare. 0
+  //! for meshes of several parts, because each part has its own phi.
   double weighted_variation = 0;
   double harmonic_weighted_variation = 0;  //!< of harmonic coordinates on this mesh
   double gradient_jump = 0;                //!< see gradient_jump() in quality.h
@@ -88,12 +88,11 @@ WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const PointList<Dim>& poin
 //! \param cage  has passed validate()
 //! \param domain  valid domain mesh of the cage
 //! \param weights  of V points
-//! \param with_weighted_variation  it needs all distances within the mesh, which take longest
 //! \throws InputError if sizes do not match or the mesh does not fill the cage (see
 //! boundary_values); SolverError if the harmonic coordinates for comparison fail
 template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
-                               const SparseWeights& weights, bool with_weighted_variation = true);
+                               const SparseWeights& weights);
 
 //! Changes of the angles between neighboring faces of a surface in a pose, in degrees: creases that
 //! a deformation makes.

@@ -118,7 +118,7 @@ double weighted_variation(const LbcProblem<Dim>& problem, const SparseWeights& w
 template <int Dim>
 MeshCheck<Dim> check_on_mesh(LbcProblem<Dim> problem, const DomainMesh<Dim>& domain,
                              const SparseWeights& weights, const WeightMatrix& dense,
-                             double mean_influences, bool with_weighted_variation) {
+                             double mean_influences) {
   const auto interior = problem.boundary.interior_vertices();
   MeshCheck<Dim> check;
   check.interior_vertices = static_cast<Index>(interior.size());
@@ -133,7 +133,7 @@ MeshCheck<Dim> check_on_mesh(LbcProblem<Dim> problem, const DomainMesh<Dim>& dom
   check.harmonic_total_variation = total_variation(domain, harmonic);
   check.gradient_jump = gradient_jump(problem, weights);
   check.harmonic_gradient_jump = gradient_jump(problem, harmonic);
-  if (with_weighted_variation && count_parts(domain) == 1) {
+  if (count_parts(domain) == 1) {
     set_phi(problem, DistanceScheme::kSquare);
     check.weighted_variation = weighted_variation(problem, weights);
     check.harmonic_weighted_variation = weighted_variation(problem, harmonic);
@@ -324,15 +324,15 @@ WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const PointList<Dim>& poin
 
 template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
-                               const SparseWeights& weights, bool with_weighted_variation) {
+                               const SparseWeights& weights) {
   validate(domain);
   check_size(weights, cage.size(), domain.num_vertices());
   auto problem = make_geometry(cage, domain);  // which may have several parts
   const auto dense = weights.dense();
   auto check =
       check_at_points(cage, domain.points, dense, to_known_weights(problem.boundary), false);
-  check.mesh = check_on_mesh(std::move(problem), domain, weights, dense,
-                             check.quality.mean_influences, with_weighted_variation);
+  check.mesh =
+      check_on_mesh(std::move(problem), domain, weights, dense, check.quality.mean_influences);
   return check;
 }
 
@@ -340,7 +340,7 @@ WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& dom
   template WeightCheck<Dim> check_weights(const Cage<Dim>&, const PointList<Dim>&,  \
                                           const SparseWeights&);                    \
   template WeightCheck<Dim> check_weights(const Cage<Dim>&, const DomainMesh<Dim>&, \
-                                          const SparseWeights&, bool);
+                                          const SparseWeights&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE
