@@ -54,27 +54,39 @@ EdgeGraph::EdgeGraph(const PointList<Dim>& points, const SparseWeights& weights,
       masses_[a] += weight * (points.col(a) - points.col(b)).squaredNorm() / 2;
     }
   }
-  color();
+  color(make_blocks());
 }
 
-// Greedy coloring: every point gets the first color that no neighbor has.
-void EdgeGraph::color() {
-  const auto count = static_cast<Index>(representatives_.size());
-  std::vector<Index> color_of(count, -1), taken_by;
-  for (Index a = 0; a < count; ++a) {
+std::vector<EdgeGraph::Block> EdgeGraph::make_blocks() const {
+  constexpr std::size_t kBlock = 128;  // points: their weights fit into the cache of a core
+  std::vector<Block> blocks;
+  for (Index a = 0; a < static_cast<Index>(representatives_.size()); ++a) {
     const auto neighbours = neighbours_of(a);
     if (neighbours.first == neighbours.last) continue;
-    for (const auto& neighbour : neighbours) {
-      if (color_of[neighbour.point] >= 0) taken_by[color_of[neighbour.point]] = a;
+    if (blocks.empty() || blocks.back().size() == kBlock) blocks.emplace_back();
+    blocks.back().push_back(a);
+  }
+  return blocks;
+}
+
+// Greedy coloring: every block gets the first color that no neighbor has.
+void EdgeGraph::color(const std::vector<Block>& blocks) {
+  std::vector<std::size_t> block_of(representatives_.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    for (const Index a : blocks[b]) block_of[a] = b;
+  }
+  std::vector<std::size_t> color_of(blocks.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    std::vector<bool> is_taken(colors_.size() + 1, false);
+    for (const Index a : blocks[b]) {
+      for (const auto& neighbour : neighbours_of(a)) {
+        if (block_of[neighbour.point] < b) is_taken[color_of[block_of[neighbour.point]]] = true;
+      }
     }
-    const auto free =
-        std::find_if(taken_by.begin(), taken_by.end(), [&](Index point) { return point != a; });
-    color_of[a] = static_cast<Index>(free - taken_by.begin());
-    if (color_of[a] == static_cast<Index>(colors_.size())) {
-      taken_by.push_back(-1);
-      colors_.emplace_back();
-    }
-    colors_[color_of[a]].push_back(a);
+    color_of[b] = static_cast<std::size_t>(std::find(is_taken.begin(), is_taken.end(), false) -
+                                           is_taken.begin());
+    if (color_of[b] == colors_.size()) colors_.emplace_back();
+    colors_[color_of[b]].push_back(blocks[b]);
   }
 }
 

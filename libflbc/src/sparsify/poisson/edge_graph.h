@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points and their neighbors, colored for parallel passes whose results do not depend on the
+// Points and their neighbors, in blocks for parallel passes whose results do not depend on the
 // number of threads.
 #pragma once
 
@@ -33,16 +33,21 @@ class EdgeGraph {
   //! The sum of k_e |edge|^2 / 2 over the edges of a point, its share of area or volume.
   double mass(Index point) const { return masses_[point]; }
 
-  //! The representatives with neighbors, in groups that contain no neighbors.
-  const std::vector<std::vector<Index>>& colors() const { return colors_; }
+  //! Consecutive representatives with neighbors. If close points have close numbers, a pass through
+  //! a block finds most of what it needs in the cache.
+  using Block = std::vector<Index>;
+
+  //! The blocks by color. No two blocks of a color contain neighbors.
+  const std::vector<std::vector<Block>>& colors() const { return colors_; }
 
  private:
-  void color();
+  std::vector<Block> make_blocks() const;
+  void color(const std::vector<Block>& blocks);
 
   std::vector<Index> representatives_;
   VertexItems<Neighbour> neighbours_;
   std::vector<double> masses_;
-  std::vector<std::vector<Index>> colors_;
+  std::vector<std::vector<Block>> colors_;
 };
 
 }  // namespace flbc

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "base/instantiate.h"
@@ -13,6 +15,7 @@
 #include "base/stage_progress.h"
 #include "flbc/non_negative.h"
 #include "flbc/types.h"
+#include "mesh/hilbert_order.h"
 #include "polytope/scaling.h"
 #include "sparsify/point_sparsifier.h"
 #include "sparsify/poisson/edge_graph.h"
@@ -34,6 +37,29 @@ void gather(const Eigen::Ref<const Eigen::VectorXd>& column, PointWeights& weigh
   weights.support = positive_entries(column);
   weights.values.clear();
   for (const Index i : weights.support) weights.values.push_back(column[i]);
+}
+
+SparseWeights in_order(const SparseWeights& weights, const std::vector<Index>& order) {
+  std::vector<std::int64_t> starts{0};
+  std::vector<std::uint32_t> control_points;
+  std::vector<double> values;
+  starts.reserve(order.size() + 1);
+  control_points.reserve(weights.control_points().size());
+  values.reserve(weights.values().size());
+  for (const Index p : order) {
+    const auto begin = weights.starts()[p], end = weights.starts()[p + 1];
+    const auto* numbers = weights.control_points().data();
+    control_points.insert(control_points.end(), numbers + begin, numbers + end);
+    values.insert(values.end(), weights.values().data() + begin, weights.values().data() + end);
+    starts.push_back(static_cast<std::int64_t>(values.size()));
+  }
+  return {weights.num_control_points(), std::move(starts), std::move(control_points),
+          std::move(values)};
+}
+
+EdgeList renumbered(EdgeList edges, const std::vector<Index>& number_of) {
+  for (auto& ends : edges.ends) ends = {number_of[ends[0]], number_of[ends[1]]};
+  return edges;
 }
 
 // Over-relaxes if no control point was removed, but at most half the way to zero, so that none is
@@ -108,7 +134,7 @@ class PoissonDescent {
   }
 
   // Starts with one influence more than allowed, which lets neighbors agree on which one to drop:
-  // the first visit of a point removes the excess. The points of the first color choose their
+  // the first visit of a point removes the excess. Points that are not neighbors choose their
   // influences, and the others get those of a neighbor.
   void start() {
     const auto num_points = static_cast<Index>(points_.cols());
@@ -122,16 +148,24 @@ class PoissonDescent {
     const auto make_work = [&] {
       return typename PointSparsifier<Dim>::Workspace(control_points_);
     };
-    std::vector<char> started(num_points), changed(num_points);
-    for (const auto& color : graph_.colors()) {
-      const auto begin = [&](Index k, auto& work) {
-        const Index point = color[k];
-        progress.add(1);
-        changed[point] = start_like_neighbor(point, started, work) || start_alone(point, work);
-        moments_.col(point) = moments_of(weights_[point]);
-      };
-      parallel_for_chunks(static_cast<Index>(color.size()), 64, make_work, begin);
-      for (const Index point : color) started[point] = true;
+    std::vector<Start> starts(num_points, Start::kNone);
+    std::vector<char> changed(num_points);
+    const auto begin = [&](Index point, auto& work) {
+      progress.add(1);
+      const auto neighbours = graph_.neighbours_of(point);
+      const bool chooses = std::none_of(neighbours.begin(), neighbours.end(), [&](const auto& one) {
+        return starts[one.point] == Start::kChosen;
+      });
+      const bool is_taken = !chooses && start_like_neighbor(point, starts, work);
+      starts[point] = is_taken ? Start::kTaken : Start::kChosen;
+      changed[point] = is_taken || start_alone(point, work);
+      moments_.col(point) = moments_of(weights_[point]);
+    };
+    for (const auto& blocks : graph_.colors()) {
+      parallel_for_chunks(static_cast<Index>(blocks.size()), 1, make_work,
+                          [&](Index b, auto& work) {
+                            for (const Index point : blocks[b]) begin(point, work);
+                          });
     }
     // If all differences are 0 there is nothing to gain, but influences may have to be removed.
     std::fill(open_.begin(), open_.end(), false);
@@ -175,6 +209,8 @@ class PoissonDescent {
   }
 
  private:
+  enum class Start : char { kNone, kTaken, kChosen };  // influences of a neighbor, or its own
+
   struct Workspace {
     Workspace(const Eigen::MatrixXd& metric, const PointList<Dim>& control_points)
         : selection(Metric(metric), control_points),
@@ -204,7 +240,7 @@ class PoissonDescent {
 
   // Takes the best support of the neighbors that have started, as with_one_more() would choose one.
   // \return false if there is none, or no need
-  bool start_like_neighbor(Index point, const std::vector<char>& started,
+  bool start_like_neighbor(Index point, const std::vector<Start>& starts,
                            typename PointSparsifier<Dim>::Workspace& work) {
     if (options_.threshold > 0 || projected_.count(point) <= options_.max_influences) return false;
     auto& qp = work.selection.qp();
@@ -212,7 +248,7 @@ class PoissonDescent {
     PointWeights& best = weights_[point];
     best.cost = std::numeric_limits<double>::infinity();
     for (const auto& neighbour : graph_.neighbours_of(point)) {
-      if (!started[neighbour.point]) continue;
+      if (starts[neighbour.point] == Start::kNone) continue;
       const auto& support = weights_[neighbour.point].support;
       if (support == best.support || !qp.solve(support, best.cost, work.best)) continue;
       if (work.best.cost < best.cost) best = work.best;
@@ -265,23 +301,25 @@ class PoissonDescent {
     return work.get();
   }
 
-  // Processes color by color. Points of one color are independent, so order and threads have no
+  // Processes color by color. Blocks of one color are independent, so order and threads have no
   // effect.
   bool sweep() {
     std::atomic<bool> changes{false};
     LoopProgress progress(static_cast<Index>(points_.cols()));
     const auto make_work = [&] { return workspace(); };
-    for (const auto& color : graph_.colors()) {
-      const auto visit = [&](Index k, Workspace* work) {
-        const Index point = color[k];
-        progress.add(1);
-        if (!open_[point] || fixed_[point]) return;
-        open_[point] = false;
-        if (!improve(point, *work)) return;
-        changes = true;
-        for (const auto& neighbour : graph_.neighbours_of(point)) open_[neighbour.point] = true;
-      };
-      parallel_for_chunks(static_cast<Index>(color.size()), 16, make_work, visit);
+    const auto visit = [&](Index point, Workspace& work) {
+      progress.add(1);
+      if (!open_[point] || fixed_[point]) return;
+      open_[point] = false;
+      if (!improve(point, work)) return;
+      changes = true;
+      for (const auto& neighbour : graph_.neighbours_of(point)) open_[neighbour.point] = true;
+    };
+    for (const auto& blocks : graph_.colors()) {
+      parallel_for_chunks(static_cast<Index>(blocks.size()), 1, make_work,
+                          [&](Index b, Workspace* work) {
+                            for (const Index point : blocks[b]) visit(point, *work);
+                          });
     }
     return changes;
   }
@@ -427,8 +465,16 @@ SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const Poin
     return project_non_negative(control_points, points, given);  // checks the input
   }();
   const auto energy = make_poisson_energy<Dim>(control_points, points, edges, poses);
-  const EdgeGraph graph(points, given, edges);
-  PoissonDescent<Dim> descent(energy, graph, control_points, points, given, projected, options);
+  // Close points get close numbers, so that they share cache lines.
+  const auto order = spatial_order<Dim>(points);
+  std::vector<Index> place(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = static_cast<Index>(k);
+  const PointList<Dim> sorted_points = points(Eigen::all, order);
+  const auto sorted_given = in_order(given, order);
+  const auto sorted_projected = in_order(projected, order);
+  const EdgeGraph graph(sorted_points, sorted_given, renumbered(edges, place));
+  PoissonDescent<Dim> descent(energy, graph, control_points, sorted_points, sorted_given,
+                              sorted_projected, options);
   {
     const StagePart part(kStart / 2, kStart);
     descent.start();
@@ -436,7 +482,7 @@ SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const Poin
   const StagePart part(kStart, 1);
   descent.run();
   return SparseWeights::of(given.num_control_points(), given.num_points(),
-                           [&](Index a) { return descent.weights_of(a); });
+                           [&](Index a) { return descent.weights_of(place[a]); });
 }
 
 template <int Dim>
