@@ -70,7 +70,7 @@ class PoissonDescent {
   PoissonDescent(const PoissonEnergy& energy, const EdgeGraph& graph,
                  const PointList<Dim>& control_points, const PointList<Dim>& points,
                  const SparseWeights& given, const SparseWeights& projected,
-                 const SparsifyOptions& options)
+                 const SparsifyOptions& options, const PointMasks& masks)
       : energy_(energy),
         graph_(graph),
         control_points_(control_points),
@@ -78,6 +78,7 @@ class PoissonDescent {
         given_(given),
         projected_(projected),
         options_(options),
+        masks_(masks),
         sparsifier_(control_points, options),
         stiffness_(points.cols()),
         fixed_(points.cols()),
@@ -214,6 +215,7 @@ class PoissonDescent {
     for (const auto& neighbour : graph_.neighbours_of(point)) {
       if (!started[neighbour.point]) continue;
       const auto& support = weights_[neighbour.point].support;
+      if (!masks_.permits(point, support)) continue;
       if (support == best.support || !qp.solve(support, best.cost, work.best)) continue;
       if (work.best.cost < best.cost) best = work.best;
     }
@@ -381,6 +383,7 @@ class PoissonDescent {
       const auto& support = weights_[neighbour.point].support;
       // A point without weights does not move; see project_non_negative().
       if (support.empty() || static_cast<Index>(support.size()) > options_.max_influences) continue;
+      if (!masks_.permits(point, support)) continue;
       const auto& may_enter = work.may_enter;
       if (options_.threshold > 0 &&
           !std::includes(may_enter.begin(), may_enter.end(), support.begin(), support.end())) {
@@ -398,6 +401,7 @@ class PoissonDescent {
   const SparseWeights& given_;
   const SparseWeights& projected_;
   SparsifyOptions options_;
+  const PointMasks& masks_;
   PointSparsifier<Dim> sparsifier_;
   std::vector<double> stiffness_;  // per point: the sum of k_ab and pin m_a
   std::vector<char> fixed_;
@@ -415,20 +419,23 @@ class PoissonDescent {
 
 template <int Dim>
 SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                                const EdgeList& edges, const SparseWeights& given,
+                                const EdgeList& edges, const SparseWeights& weights,
                                 const std::vector<PointList<Dim>>& poses,
                                 const SparsifyOptions& options) {
   validate(edges, points.cols());
   validate<Dim>(options);
   const StageScope scope(options.progress);
   constexpr double kStart = 0.3;  // share of the time
+  const auto masks = masks_of(options, weights);
   const auto projected = [&] {
     const StagePart part(0, kStart / 2);
-    return project_non_negative(control_points, points, given);  // checks the input
+    return project_non_negative(control_points, points, weights, {}, masks);  // checks the input
   }();
+  const auto& given = masks.empty() ? weights : projected;  // masked influences never enter
   const auto energy = make_poisson_energy<Dim>(control_points, points, edges, poses);
-  const EdgeGraph graph(points, given, edges);
-  PoissonDescent<Dim> descent(energy, graph, control_points, points, given, projected, options);
+  const EdgeGraph graph(points, given, edges, masks);
+  PoissonDescent<Dim> descent(energy, graph, control_points, points, given, projected, options,
+                              masks);
   {
     const StagePart part(kStart / 2, kStart);
     descent.start();
