@@ -7,13 +7,14 @@ Proves, without flbc, by how much the objective of weights can exceed its minimu
 
 The objective of weights w is the sum over cells s and control points i of
 A_s (phi_s^i |grad w_i| + epsilon / 2 |grad w_i|^2), A_s the measure of the cell. It is minimized
-over all weights that are at least 0, sum to 1, reproduce each vertex, and have the given values on
-the boundary. For any vectors q_s^i, the objective of all such weights is at least
+over all weights that are at least 0, sum to 1, reproduce each vertex, have the given values on the
+boundary, and are 0 for the masked pairs of vertices and control points. For any vectors q_s^i, the objective of all such weights is at least
 
     sum_v sum_i w_i(v) D_i(v) - C,  D_i(v) = sum of A_s q_s^i . grad(hat function of v),
     C = sum of A_s max(|q_s^i| - phi_s^i, 0)^2 / (2 epsilon); if epsilon = 0, q is cut to phi.
 
-At an interior vertex x, the sum over i is at least min_i D_i - y . (c_i - x) for any y.
+At an interior vertex x, the sum over i is at least min_i D_i - y . (c_i - x) for any y, where the
+minimum leaves masked control points out.
 
 Rounding: geometry is computed in extended precision. A sum counts as wrong by (terms + 20) 2^-52
 times the sum of absolute values, more than all its operations can be.
@@ -38,17 +39,21 @@ def margin(terms, magnitude):
 def read(path):
     with np.load(path, allow_pickle=False) as file:
         data = {name: file[name] for name in file.files}
+    data.setdefault("masked", np.zeros((0, 2), int))  # files of earlier versions
     n, d = data["control_points"].shape
     vertices, cells = len(data["points"]), len(data["cells"])
     shapes = {"control_points": (n, d), "points": (vertices, d), "cells": (cells, d + 1),
               "weights": (vertices, n), "phi": (cells, n), "flux": (cells, d, n),
-              "multipliers": (vertices, d), "smoothness": (), "claimed": (2,)}
+              "multipliers": (vertices, d), "smoothness": (), "claimed": (2,),
+              "masked": (len(data["masked"]), 2)}
     require(d in (2, 3) and data["facets"].shape[1:] == (d,), "no cage in 2D or 3D")
     for name, shape in shapes.items():
         require(data[name].shape == shape and np.isfinite(data[name]).all(),
                 f"{name} is not a finite array of shape {shape}")
     for name, end in (("facets", n), ("cells", vertices)):
         require(0 <= data[name].min() <= data[name].max() < end, f"{name} is out of range")
+    require((data["masked"] >= 0).all() and (data["masked"] < (vertices, n)).all(),
+            "masked is out of range")
     require(data["phi"].min() >= 0 and data["smoothness"] >= 0, "phi or smoothness is negative")
     return data
 
@@ -80,6 +85,7 @@ def check_weights(data, is_boundary):
     weights, control_points = data["weights"], data["control_points"]
     require(weights.min() >= 0, "a weight is negative")
     require(abs(weights.sum(1) - 1).max() < TOLERANCE, "weights do not sum to 1")
+    require((weights[tuple(data["masked"].T)] == 0).all(), "a masked weight is not 0")
     error = abs(weights @ control_points - data["points"]).max()
     require(error < TOLERANCE * np.ptp(control_points, 0).max(), "weights do not reproduce a vertex")
     facets = [set(facet) for facet in data["facets"].tolist()]
@@ -116,7 +122,10 @@ def lower_bound(data, measures, gradients, is_boundary):
     costs, slack, y = (a[~is_boundary] for a in (costs, slack, data["multipliers"]))
     products = y[:, None] * (data["control_points"] - data["points"][~is_boundary][:, None])
     rounding = margin(8, abs(products).sum(2) + abs(costs))
-    terms = np.append(known, (costs - slack - products.sum(2) - rounding).min(1))
+    is_masked = np.zeros(data["weights"].shape, bool)
+    is_masked[tuple(data["masked"].T)] = True
+    values = np.where(is_masked[~is_boundary], np.inf, costs - slack - products.sum(2) - rounding)
+    terms = np.append(known, values.min(1))
     return terms.sum() - margin(terms.size, abs(terms).sum()) - conjugate
 
 
@@ -132,6 +141,8 @@ def main(path):
     require(bound >= claimed[1] - CLAIM * value, f"the bound is {bound}, not {claimed[1]}")
     gap = max(value - bound, 0)
     print(f"objective {value:.9g}, lower bound {bound:.9g}")
+    if len(data["masked"]) > 0:
+        print(f"{len(data['masked'])} weights at {len(set(data['masked'][:, 0]))} vertices are masked")
     print(f"objective at most {100 * gap / value:.3g}% above the optimum: proved")
     if data["smoothness"] > 0:
         slope = 2 * gap / float(data["smoothness"]) / measures.sum() / data["weights"].shape[1]

@@ -9,6 +9,7 @@
 
 #include "commands/commands.h"
 #include "files/load.h"
+#include "files/locality_file.h"
 #include "files/movable_model.h"
 #include "files/upright.h"
 #include "flbc/bounding_box.h"
@@ -105,6 +106,7 @@ struct ExportArguments {
   std::string model;
   std::string weights;
   std::string cage;
+  std::string locality;
   std::vector<std::string> poses;
   std::string keyframes;
   double frames_per_second = 0;  // 0 = 24, or one second for a single pose
@@ -142,10 +144,13 @@ void check_arguments(ExportArguments& arguments) {
 // Vertex groups of Blender, as a program.
 template <int Dim>
 void write_vertex_groups(const Cage<Dim>& rest, const PointList<Dim>& points, const EdgeList& edges,
-                         const SparseWeights& weights, const ExportArguments& arguments) {
+                         const SparseWeights& weights, const std::vector<flbc::Mask>& masks,
+                         const ExportArguments& arguments) {
+  SparsifyOptions limits{arguments.options.max_influences};
+  limits.masks = masks;
   const auto few = naming(arguments.model, [&] {
     return reduce_influences<Dim>(rest.points, attached_points(rest, points, weights), edges,
-                                  weights, {}, {arguments.options.max_influences});
+                                  weights, {}, limits);
   });
   const auto script = blender_script<Dim>(rest.points, few);
   write_text(arguments.output, script);
@@ -157,7 +162,8 @@ void write_vertex_groups(const Cage<Dim>& rest, const PointList<Dim>& points, co
 
 void check_files(const ExportArguments& arguments, const CageFiles& poses) {
   auto inputs = files_of_model(arguments.model);
-  inputs.insert(inputs.end(), {arguments.weights, arguments.cage, arguments.keyframes});
+  inputs.insert(inputs.end(),
+                {arguments.weights, arguments.cage, arguments.keyframes, arguments.locality});
   inputs.insert(inputs.end(), poses.paths.begin(), poses.paths.end());
   require_distinct(inputs, {arguments.output});
 }
@@ -223,11 +229,13 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
   check_sizes(weights, rest.cols(), points.cols(), files);
   check_reproduction(weights, cage.cage(), points, files);
   if (!arguments.quiet) warn_outside(weights, cage.cage(), points, arguments.model);
+  auto options = arguments.options;
+  options.masks = load_locality_inside(arguments.locality, cage.cage(), points, arguments.model);
   if (io::extension_of(arguments.output) == "py") {
-    return write_vertex_groups<Dim>(cage.cage(), points, model.edges(), weights, arguments);
+    return write_vertex_groups<Dim>(cage.cage(), points, model.edges(), weights, options.masks,
+                                    arguments);
   }
 
-  auto options = arguments.options;
   options.edges = model.edges();
   options.turn = turn_upright(up_axis(up_of(arguments.up, arguments.model), points));
   options.cage_edges = view::as_facets(load_shown_cage<Dim>(arguments.cage).edges);
@@ -291,6 +299,7 @@ void add_export_command(CLI::App& app, int&) {
       ->add_option("-o,--output", a.output,
                    "skin: .glb, .usda, or .py for vertex groups in Blender")
       ->required();
+  add_locality_option(*command, a.locality);
   add_up_option(*command, a.up);
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {

@@ -228,9 +228,20 @@ int run_model(const CLI::App& command, RunArguments& arguments) {
   return std::visit(run_in_cage, load_model_facets(file));
 }
 
+// An axis that was named applies to the weights as well.
+void mirror_weights(RunArguments& arguments) {
+  const auto symmetry = arguments.caging.symmetry;
+  if (symmetry == CageSymmetry::kNone || symmetry == CageSymmetry::kAuto) return;
+  if (arguments.settings.model.empty() && !arguments.makes_cage) {
+    throw OptionError("--symmetric: no model is given; leave out this option");
+  }
+  arguments.settings.mirror_axis = static_cast<int>(symmetry) - static_cast<int>(CageSymmetry::kX);
+}
+
 // \return the exit status
 int run_command(const CLI::App& command, RunArguments& arguments) {
   check_arguments(arguments);
+  mirror_weights(arguments);
   arguments.settings.needs_domain = true;
   const auto& settings = arguments.settings;
   arguments.up = up_of(arguments.up, arguments.makes_cage ? settings.cage : settings.model);
@@ -266,7 +277,10 @@ void add_shapes(CLI::App& command, RunArguments& a) {
           "maximum number of control points for --auto-cage (default: depends on the shape)")
       ->check(refuse_vertex_count)
       ->needs(makes_cage);
-  add_symmetric_option(command, a.caging.symmetry)->needs(makes_cage)->group(kMore);
+  add_symmetric_option(command, a.caging.symmetry,
+                       ". An axis also makes weights of mirrored model vertices exactly alike, in "
+                       "given cages too")
+      ->group(kMore);
 }
 
 void add_rare_options(CLI::App& command, RunArguments& a, CLI::Option* poses) {

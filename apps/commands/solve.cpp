@@ -38,7 +38,7 @@ void check_outputs(const SolveArguments& arguments) {
   require_writable(arguments.gradients, {io::Content::kWeights});
   require_writable(arguments.certificate, "npz");
   if (arguments.report != "-") require_writable(arguments.report, "json");
-  require_distinct({settings.cage, settings.domain, settings.model},
+  require_distinct({settings.cage, settings.domain, settings.model, settings.locality},
                    {arguments.output, arguments.save_domain, arguments.gradients,
                     arguments.certificate, arguments.report});
 }

@@ -9,6 +9,7 @@
 
 #include "commands/commands.h"
 #include "files/load.h"
+#include "files/locality_file.h"
 #include "files/movable_model.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
@@ -38,6 +39,7 @@ struct SparsifyArguments {
   std::string output;
   std::vector<std::string> poses;
   std::string report;
+  std::string locality;
   std::string reduction = kAutomatic;
   bool quiet = false;
   SparsifyOptions options;
@@ -47,7 +49,8 @@ void check_files(const SparsifyArguments& arguments) {
   require_writable(arguments.output, {io::Content::kWeights});
   if (arguments.report != "-") require_writable(arguments.report, "json");
   auto inputs = arguments.poses;
-  inputs.insert(inputs.end(), {arguments.weights, arguments.cage, arguments.points});
+  inputs.insert(inputs.end(),
+                {arguments.weights, arguments.cage, arguments.points, arguments.locality});
   require_distinct(inputs, {arguments.output, arguments.report});
 }
 
@@ -91,12 +94,14 @@ std::uintmax_t size_of_file(const std::string& path) {
 }
 
 template <int Dim>
-SparseWeights make_sparse(const PointList<Dim>& control_points, const ConnectedPoints<Dim>& model,
+SparseWeights make_sparse(const Cage<Dim>& cage, const ConnectedPoints<Dim>& model,
                           const SparseWeights& weights, const std::vector<PointList<Dim>>& poses,
                           const std::string& method, const SparsifyArguments& arguments) {
   const std::string stage = "reducing influences";
   ProgressBar bar(arguments.quiet, stage);
   auto options = arguments.options;
+  options.masks = load_locality_inside(arguments.locality, cage, model.points, arguments.points);
+  const auto& control_points = cage.points;
   options.progress = [&](double done) { bar.show(stage, done); };
   if (method == kPoisson) {
     return reduce_by_poisson<Dim>(control_points, model.points, model.edges, weights, poses,
@@ -115,7 +120,7 @@ void sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments)
   const ConnectedPoints<Dim> attached{attached_points(cage, model.points, before), model.edges};
   const auto start = std::chrono::steady_clock::now();
   const auto after = naming(arguments.points, [&] {
-    return make_sparse<Dim>(cage.points, attached, before, poses, method, arguments);
+    return make_sparse<Dim>(cage, attached, before, poses, method, arguments);
   });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   Json report{{"method", method},
@@ -168,6 +173,7 @@ void add_sparsify_command(CLI::App& app, int&) {
   add_reduction_option(*command, a.reduction);
   command->add_option("-o,--output", a.output, std::string("sparse weights: ") + kWeightFormats)
       ->required();
+  add_locality_option(*command, a.locality);
   command
       ->add_option(
           "--pose", a.poses,

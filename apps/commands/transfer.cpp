@@ -6,6 +6,7 @@
 
 #include "commands/commands.h"
 #include "files/load.h"
+#include "files/locality_file.h"
 #include "files/model_facets.h"
 #include "flbc/bounding_box.h"
 #include "flbc/io/mesh_io.h"
@@ -27,6 +28,7 @@ struct TransferArguments {
   std::string output;
   double limit = 0.02;  // of the size of the model
   OutsidePoints outside = OutsidePoints::kFail;
+  std::string locality;
   bool quiet = false;
 };
 
@@ -35,9 +37,9 @@ void check_arguments(const TransferArguments& arguments) {
     throw OptionError("give --from (a model that has these weights) or --domain (a mesh)");
   }
   require_writable(arguments.output, {io::Content::kWeights});
-  require_distinct(
-      {arguments.weights, arguments.cage, arguments.from, arguments.domain, arguments.to},
-      {arguments.output});
+  require_distinct({arguments.weights, arguments.cage, arguments.from, arguments.domain,
+                    arguments.to, arguments.locality},
+                   {arguments.output});
 }
 
 // New weights, and how they came about.
@@ -61,8 +63,15 @@ Transferred<Dim> from_domain(const Cage<Dim>& cage, const SparseWeights& weights
       placing<Dim>(arguments.to, [&] { return place_points(cage, domain, to, arguments.outside); });
   const double size = bounding_box_diagonal(cage.points);
   if (!arguments.quiet) warn_outside(placement, size, arguments.to);
-  return {weights_at(cage, domain, weights, placement), placement.points,
-          describe(placement, size)};
+  auto transferred = weights_at(cage, domain, weights, placement);
+  if (!arguments.locality.empty()) {
+    const auto masks = load_locality(arguments.locality, cage, to, arguments.to);
+    transferred = naming(arguments.locality, [&] {
+      return enforce_masks(cage, placement, transferred,
+                           place_masks(cage, domain, placement, masks));
+    });
+  }
+  return {std::move(transferred), placement.points, describe(placement, size)};
 }
 
 template <int Dim>
@@ -77,7 +86,10 @@ Transferred<Dim> from_model(const Cage<Dim>& cage, const SparseWeights& weights,
   const double size = bounding_box_diagonal(from.points);
   Eigen::VectorXd distances;
   auto transferred = naming(arguments.to, [&] {
-    return transfer_weights(cage.points, from, weights, to, arguments.limit * size, &distances);
+    const PointMasks masks(load_locality_inside(arguments.locality, cage, to, arguments.to),
+                           cage.size(), static_cast<Index>(to.cols()));
+    return transfer_weights(cage.points, from, weights, to, arguments.limit * size, &distances,
+                            masks);
   });
   std::ostringstream facts;
   facts << "; at most " << 100 * distances.maxCoeff() / size << "% of the size away from "
@@ -127,6 +139,7 @@ void add_transfer_command(CLI::App& app, int&) {
   add_choice(*command, "--outside", a.outside,
              "method for vertices outside the cage, as in flbc solve (default: fail)")
       ->needs(domain);
+  add_locality_option(*command, a.locality);
   command->add_option("-o,--output", a.output, std::string("new weights: ") + kWeightFormats)
       ->required();
   command->add_flag("-q,--quiet", a.quiet, "print only errors");

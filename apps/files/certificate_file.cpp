@@ -110,6 +110,7 @@ void write_certificate(const std::string& path, const Cage<Dim>& cage, const Dom
     file.add("flux", proof.flux.data(), {cells, Dim, n});
     file.add("multipliers", proof.multipliers.data(), {vertices, Dim});
     file.add("smoothness", &proof.smoothness, {});
+    file.add("masked", proof.masked.data(), {proof.masked.cols(), 2});
     file.add("claimed", claimed, {2});
     file.finish();
   });

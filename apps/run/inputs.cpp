@@ -88,6 +88,7 @@ RunInputs<Dim> load_inputs(const Cage<Dim>& cage, const RunArguments& arguments)
   } else {
     load_keyframe_file(cage, arguments.keyframes, inputs);
   }
+  if (!settings.locality.empty()) inputs.files.push_back(settings.locality);
   inputs.shape.extension = domain_extension<Dim>();
   if (!arguments.splats.empty()) inputs.splats = load_splats<Dim>(arguments.splats, inputs);
   if (settings.model.empty()) return inputs;

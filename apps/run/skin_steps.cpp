@@ -7,6 +7,7 @@
 #include "flbc/cage.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
+#include "flbc/mirror.h"
 #include "flbc/poses.h"
 #include "flbc/quality.h"
 #include "flbc/sparsify.h"
@@ -32,17 +33,24 @@ std::vector<PointList<Dim>> points_of(const std::vector<Pose<Dim>>& poses) {
 
 template <int Dim>
 SparseWeights reduce(const Run<Dim>& run, const std::string& method,
-                     const std::vector<PointList<Dim>>& poses) {
+                     const std::vector<PointList<Dim>>& poses, Index max_influences) {
   const std::string stage = "reducing influences";
   ProgressBar bar(run.arguments.quiet, stage);
-  SparsifyOptions options{run.arguments.max_influences};
-  options.progress = [&](double done) { bar.show(stage, done); };
-  const auto& shape = run.shape();
-  if (method == kQuadratic) {
-    return sparsify<Dim>(run.cage.points, run.attached(), run.weights(), options);
-  }
-  return reduce_by_poisson<Dim>(run.cage.points, run.attached(), shape.edges, run.weights(), poses,
-                                options);
+  const auto reduce_part = [&](const ModelPart<Dim>& part, Index most) {
+    SparsifyOptions options{most};
+    options.masks = part.masks;
+    options.progress = [&](double done) { bar.show(stage, done); };
+    if (method == kQuadratic) {
+      return sparsify<Dim>(run.cage.points, part.points, part.weights, options);
+    }
+    return reduce_by_poisson<Dim>(run.cage.points, part.points, part.edges, part.weights, poses,
+                                  options);
+  };
+  const ModelPart<Dim> model{run.attached(), run.shape().edges, run.weights(), run.solver.masks()};
+  const int axis = run.arguments.settings.mirror_axis;
+  if (axis < 0) return reduce_part(model, max_influences);
+  return MirroredModel<Dim>(run.cage, axis, model.points)
+      .reduced(model, max_influences, reduce_part);
 }
 
 // Relative to the size, over the poses given or else over smooth random ones.
@@ -112,10 +120,17 @@ Json write_skin(Run<Dim>& run, const std::string& name, Index max_influences) {
   options.max_influences = max_influences;
   options.name = shape.name;
   if (run.report["sparsify"]["method"] == kPoisson) options.edges = shape.edges;
+  options.masks = run.solver.masks();
   options.turn = turn_upright(up_axis(run.arguments.up, shape.points));
   options.cage_edges = view::as_facets(shown_cage(run).edges);
-  const auto skin = gltf::export_skin(run.cage.points, shape.points, run.reduced, shape.surface,
-                                      options, animation);
+  // A reduction of its own would not be symmetric.
+  const bool is_mirrored =
+      run.arguments.settings.mirror_axis >= 0 && max_influences < run.arguments.max_influences;
+  const auto weights = is_mirrored ? reduce(run, run.report["sparsify"]["method"],
+                                            points_of(run.poses()), max_influences)
+                                   : run.reduced;
+  const auto skin =
+      gltf::export_skin(run.cage.points, shape.points, weights, shape.surface, options, animation);
   run.folder.add_text(name, facts_of(skin, run) + left_out_of(skin), skin.content);
   const double size = bounding_box_diagonal<Dim>(shape.points);
   return {
@@ -142,7 +157,8 @@ void reduce_influences(Run<Dim>& run) {
   const auto& shape = run.shape();
   const auto file = model.empty() ? run.report["mesh"]["file"].template get<std::string>() : model;
   const auto method = reduction_for(run.arguments.reduction, file, shape.edges);
-  run.reduced = naming(file, [&] { return reduce(run, method, poses); });
+  run.reduced =
+      naming(file, [&] { return reduce(run, method, poses, run.arguments.max_influences); });
   run.moved = by_weights<Dim>(run.reduced, run.cage.points, shape.points);
 
   const auto& before = run.weights();

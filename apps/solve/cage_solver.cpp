@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "files/load.h"
+#include "files/locality_file.h"
 #include "files/model_facets.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage_facts.h"
@@ -19,6 +20,7 @@
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
+#include "flbc/mirror.h"
 #include "flbc/names.h"
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
@@ -225,11 +227,36 @@ void CageSolver<Dim>::make_domain(bool quiet) {
     domain_ = io::read_domain<Dim>(settings_.domain);
   }
   mesh_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (settings_.model.empty()) return;
-  const ProgressBar bar(quiet, "locating the model vertices in the mesh");
-  placement_ =
-      placing<Dim>(settings_.model, [&] { return place_points(cage_, domain_, model_, outside_); });
+  if (settings_.model.empty()) return load_masks(quiet);
+  {
+    const ProgressBar bar(quiet, "locating the model vertices in the mesh");
+    placement_ = placing<Dim>(settings_.model,
+                              [&] { return place_points(cage_, domain_, model_, outside_); });
+  }
   if (!quiet) warn_outside(placement_, size, settings_.model, outside_verb_);
+  load_masks(quiet);
+}
+
+template <int Dim>
+void CageSolver<Dim>::load_masks(bool quiet) {
+  if (settings_.locality.empty()) return;
+  const bool has_model = !settings_.model.empty();
+  const auto& points = has_model ? model_ : domain_.points;
+  auto masks = load_locality<Dim>(settings_.locality, cage_, points, settings_.model);
+  if (settings_.mirror_axis >= 0) {
+    masks = MirroredModel<Dim>(cage_, settings_.mirror_axis, points).symmetrized(masks);
+  }
+  naming(settings_.locality, [&] {
+    if (has_model) {
+      masks_ = place_masks(cage_, domain_, placement_, masks);
+    } else {
+      masks_.of_mesh = masks_.of_points = end_at_facets(cage_, points, masks, &masks_.on_facets);
+      masks_.masked = static_cast<Index>(
+          PointMasks(masks, cage_.size(), domain_.num_vertices()).points().size());
+    }
+  });
+  const auto note = masks_.note();
+  if (!note.empty() && !quiet) std::cerr << "flbc: " << settings_.locality << ": " << note << '\n';
 }
 
 template <int Dim>
@@ -273,8 +300,10 @@ void CageSolver<Dim>::solve(bool quiet) {
     return true;
   };
   observer.stage = [&](Stage stage, double done) { bar.show(name_of(stage), done); };
+  auto settings = settings_;
+  settings.options.masks = masks_.of_mesh;
   solution_ = naming(settings_.domain.empty() ? settings_.cage : settings_.domain,
-                     [&] { return compute_weights(cage_, domain_, settings_, observer); });
+                     [&] { return compute_weights(cage_, domain_, settings, observer); });
   if (settings_.history) history_ = recorder.finished(report());
   if (!settings_.model.empty()) rows_ = weights_of_model();
 }
@@ -290,11 +319,25 @@ SparseWeights CageSolver<Dim>::weights_of_model() const {
   auto rows = naming(settings_.model, [&] {
     return weights_of_points(cage_, domain_, domain_weights(), placement_, settings_);
   });
-  if (!settings_.embed) return rows;
-  return SparseWeights::of(cage_.size(), rows.num_points(), [&](Index p) {
-    const Index number = embedded_.number[p];  // exactly those of the vertex
-    return number < 0 ? rows.at(p) : domain_weights().at(cage_.size() + number);
-  });
+  if (settings_.embed) {
+    rows = SparseWeights::of(cage_.size(), rows.num_points(), [&](Index p) {
+      const Index number = embedded_.number[p];  // exactly those of the vertex
+      return number < 0 ? rows.at(p) : domain_weights().at(cage_.size() + number);
+    });
+  }
+  const auto enforce = [&] {
+    if (!settings_.locality.empty()) rows = enforce_masks(cage_, placement_, rows, masks_);
+  };
+  enforce();
+  if (settings_.mirror_axis >= 0) {
+    const MirroredModel<Dim> mirrored(cage_, settings_.mirror_axis, placement_.points);
+    rows = mirrored.symmetrized(rows, [&](const PointList<Dim>& points) {
+      return weights_of_points(cage_, domain_, domain_weights(),
+                               place_points(cage_, domain_, points, outside_), settings_);
+    });
+    enforce();  // at vertices without an image
+  }
+  return rows;
 }
 
 // Of weights of a method that does not minimize it.
@@ -314,6 +357,11 @@ nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
     json["outside"] = {{"policy", name_of(outside_)},
                        {"on_cage", beside_json(placement_.on_cage)},
                        {"outside", beside_json(placement_.outside)}};
+  }
+  if (!settings_.locality.empty()) {
+    json["locality"] = {{"file", settings_.locality},
+                        {"masked_vertices", masks_.masked},
+                        {"on_facets", masks_.on_facets}};
   }
   if (!report().parts.empty()) json["parts"] = parts_json(cage_, report().parts);
   if (!history_.empty()) json["history"] = history_json(history_);

@@ -14,6 +14,7 @@
 #include "flbc/interpolate.h"
 #include "flbc/io/formats.h"
 #include "flbc/meshing.h"
+#include "flbc/place_masks.h"
 #include "flbc/placement.h"
 #include "flbc/quality.h"
 #include "flbc/solver.h"
@@ -67,6 +68,9 @@ class CageSolver {
   //! Where the model's vertices are; empty without a model.
   const Placement<Dim>& placement() const { return placement_; }
 
+  //! The masks of the points, for reductions.
+  const std::vector<flbc::Mask>& masks() const { return masks_.of_points; }
+
   //! The report of the whole. \param delivered  quality of rows()
   nlohmann::ordered_json json(const Quality& delivered) const;
 
@@ -74,6 +78,7 @@ class CageSolver {
   // Without a mesh. Vertices of no face may be outside: they follow the nearest point of the cage.
   void place_in_cage(bool quiet);
   void fill_cage(bool quiet);
+  void load_masks(bool quiet);
   // Says what the problem does not determine, and how long a long solve may take.
   void announce() const;
   void solve_without_mesh();
@@ -90,7 +95,8 @@ class CageSolver {
   std::string mesher_ = "none";
   Solution solution_;  // at the vertices of the domain
   std::vector<HistoryEntry> history_;
-  Placement<Dim> placement_;        // of the model's vertices
+  Placement<Dim> placement_;  // of the model's vertices
+  PlacedMasks masks_;
   EmbeddablePoints<Dim> embedded_;  // of the model, if it is to be embedded
   SparseWeights rows_;              // at the model's vertices, once solved
 };

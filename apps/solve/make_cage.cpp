@@ -59,11 +59,12 @@ std::string excess_of(const ModelCage<Dim>& made, double model_size) {
 
 }  // namespace
 
-CLI::Option* add_symmetric_option(CLI::App& command, CageSymmetry& symmetry) {
+CLI::Option* add_symmetric_option(CLI::App& command, CageSymmetry& symmetry,
+                                  const std::string& more) {
   return add_choice(
       command, "--symmetric", {"none", "x", "y", "z", "auto"},
       [&symmetry](const std::string& word) { symmetry = kSymmetries.at(word); },
-      "make the cage symmetric across this axis (default: auto, if the model is symmetric)");
+      "make the cage symmetric across this axis (default: auto, if the model is symmetric)" + more);
 }
 
 template <int Dim>

@@ -14,7 +14,9 @@
 namespace flbc::app {
 
 //! --symmetric of the commands that make cages.
-CLI::Option* add_symmetric_option(CLI::App& command, CageSymmetry& symmetry);
+//! \param more  of the help
+CLI::Option* add_symmetric_option(CLI::App& command, CageSymmetry& symmetry,
+                                  const std::string& more = "");
 
 //! Shows the progress of each stage, and says which vertices and limits the cage leaves out, and
 //! whether points became several parts.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/solve_settings.h"
 
+#include "files/locality_file.h"
 #include "flbc/errors.h"
 #include "flbc/io/formats.h"
 #include "flbc/names.h"
@@ -54,12 +55,13 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
   if (settings.coordinates) {
     for (const char* option :
          {"--phi", "--smoothness", "--distances", "--precision", "--active", "--tolerance", "--gap",
-          "--max-iterations", "--penalty", "--certify"}) {
+          "--max-iterations", "--penalty", "--certify", "--locality"}) {
       refuse(option, name + " does not use it");
     }
   }
   if (method != Method::kWeights) {
     refuse("--active", name + " does not use it");
+    refuse("--locality", name + " does not use it");
   }
   if (is_meshless(settings)) {
     for (const char* option : {"--domain", "--vertices", "--embed", "--mesher", "--mesh-timeout"}) {
@@ -141,6 +143,7 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
   add_choice(command, "--non-negative", options.non_negative,
              "method that keeps weights non-negative (default: depends on --method)");
   add_phi(command, settings);
+  add_locality_option(command, settings.locality);
   add_choice(command, "--active", options.active_set,
              "store and update only weights that may be positive (default: auto, which is on in "
              "3D from 80 control points, unless --certify is given)");

@@ -12,7 +12,7 @@ layout and real or integer type; results are float64 in C order.
 =================== =============================================================
 Shapes              `Cage`, `DomainMesh`, `mesh`, `make_cage`, `repair`, `check`
 Coordinates         `solve`, `Solver`, `Solution`, `mean_value`, `bind`
-Weights             `deform`, `sparsify`, `transfer`, `measure`
+Weights             `deform`, `sparsify`, `compose`, `transfer`, `measure`
 Files               `read_cage`, `read_model`, `read_mesh`, `read_weights`, and
                     `write_...` for each; `export` (glTF, USD), `view` (a page)
 Exceptions          `Error` and its subclasses; the warning `NotConverged`
@@ -54,13 +54,13 @@ from ._models import (
 )
 from ._shapes import Cage, DomainMesh, Model
 from ._solve import Certificate, Solution, Solver, SolverOptions, mesh, solve
-from ._weights import deform, mean_value, measure, sparsify, transfer
+from ._weights import compose, deform, mean_value, measure, sparsify, transfer
 
 __version__: str = _core.version
 __all__ = [
     "Binding", "Cage", "Certificate", "Defect", "DomainMesh", "Error", "InputError", "IoError",
     "Model", "NotConverged", "OptionError", "Page", "Progress", "Repaired", "Solution", "Solver",
-    "SolverError", "SolverOptions", "bind", "check", "deform", "export",
+    "SolverError", "SolverOptions", "bind", "check", "compose", "deform", "export",
     "make_cage", "mean_value", "measure", "mesh", "read_cage", "read_mesh", "read_model",
     "read_weights", "repair", "solve", "sparsify", "transfer", "view", "write_cage", "write_mesh", "write_model", "write_weights",
 ]

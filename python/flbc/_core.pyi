@@ -67,6 +67,11 @@ def solve(
     points: _Floats, facets: _Ints, vertices: _Floats, cells: _Ints, options: Dict[str, Any],
     phi: Optional[_Floats], callback: _Callback,
 ) -> _Solved: ...
+def bind_model(
+    points: _Floats, facets: _Ints, vertices: _Floats, cells: _Ints, model: _Floats,
+    polygons: _Polygons, options: Dict[str, Any], max_influences: int, outside: str,
+    locality: Dict[str, Any], mirror_axis: int, callback: _Callback,
+) -> Tuple[_Weights, Dict[str, Any], Optional[_Floats], List[int]]: ...
 def weights_at(
     points: _Floats, facets: _Ints, vertices: _Floats, cells: _Ints, weights: _Weights,
     places: _Floats, outside: str,
@@ -83,6 +88,7 @@ def transfer(
     control_points: _Floats, points: _Floats, corners: _Ints, weights: _Weights,
     places: _Floats, limit: float,
 ) -> Tuple[_Floats, _Floats]: ...
+def compose(weights: _Weights, map: _Weights) -> _Weights: ...
 def mean_value(points: _Floats, facets: _Ints, places: _Floats) -> _Floats: ...
 def measure(
     points: _Floats, facets: _Ints, places: _Floats, cells: Optional[_Ints], weights: _Weights

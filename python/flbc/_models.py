@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import warnings
 from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
@@ -12,13 +13,14 @@ from ._errors import InputError, OptionError
 from ._shapes import (
     Cage,
     as_cage,
+    as_mesh,
     as_points,
     as_polygons,
     check_scalars,
     edges_of,
     posed_points,
 )
-from ._solve import SolverOptions, checked, evaluate, mesh, solve, with_options
+from ._solve import SolverOptions, as_mask, checked, evaluate, mesh, solve, with_options
 from ._weights import as_poses, as_weights, corners_of, deform, from_core, measure, sparsify
 
 if TYPE_CHECKING:
@@ -210,6 +212,7 @@ def bind(
     domain: Optional[MeshLike] = None,
     max_influences: int = 8,
     outside: str = "fail",
+    symmetric: Optional[str] = None,
     callback: Callback = None,
     **options: Unpack[SolverOptions],
 ) -> Binding:
@@ -233,6 +236,9 @@ def bind(
         cage at a constant offset; "keep", to stay where they are, without weights; or "extend",
         to follow an affine map of the control points around them. These vertices keep all their
         weights, of which some are negative, whatever `max_influences` is.
+    symmetric : str, optional
+        "x", "y", or "z": weights of mirrored vertices are exactly alike, in a cage that is
+        symmetric across this axis.
 
     callback : callable, optional
         As for `solve`.
@@ -267,6 +273,11 @@ def bind(
     if outside == "fail":
         _core.require_inside(cage.points, cage.facets, points)
     fill = mesh(cage, mesh_vertices) if domain is None else domain
+    if given.get("mask") is not None or symmetric is not None:
+        fill = as_mesh(fill, cage)
+        return _bind_local(
+            points, polygons, cage, fill, max_influences, outside, symmetric, given, callback
+        )
     solution = solve(cage, fill, callback=callback, **given)
     parts, placed, which = evaluate(solution, points, outside)
     weights = from_core(parts)
@@ -287,6 +298,36 @@ def bind(
         offsets = np.zeros_like(points)
         offsets[which] = (points - deform(weights, cage.points))[which]
     return Binding(weights, offsets, cage, solution.report, np.array(which, np.int32))
+
+
+def _bind_local(
+    points: Floats,
+    polygons: Any,
+    cage: Cage,
+    fill: Any,
+    max_influences: int,
+    outside: str,
+    symmetric: Optional[str],
+    given: Dict[str, Any],
+    callback: Any,
+) -> Binding:
+    as_mask(given, len(points), cage)
+    phi = given.get("phi")
+    if phi is not None and np.ndim(phi) > 0:
+        raise OptionError("phi: a mask or a mirror needs the name of a weighting")
+    axes = ["x", "y", "z"][: cage.dim]
+    if symmetric is not None and symmetric not in axes:
+        raise OptionError(f"symmetric must be one of {', '.join(axes)}, not {symmetric!r}")
+    axis = -1 if symmetric is None else axes.index(symmetric)
+    locality = {"mask": given.pop("mask", None)}
+    parts, report, offsets, which = _core.bind_model(
+        cage.points, cage.facets, fill.points, fill.cells, points, polygons, given, max_influences,
+        outside, locality, axis, callback,
+    )
+    note = report.pop("note")
+    if note:
+        warnings.warn(note, stacklevel=3)
+    return Binding(from_core(parts), offsets, cage, report, np.array(which, np.int32))
 
 
 class Page:

@@ -62,6 +62,7 @@ class SolverOptions(TypedDict, total=False):
     precision: str
     active_set: str
     penalty: Optional[float]
+    mask: Optional[ArrayLike]
 
 
 OPTIONS = """\
@@ -101,6 +102,10 @@ OPTIONS = """\
         Whether to update only weights that may be positive: "on", "off".
     penalty : float, optional
         Penalty parameter, in units of the cage size.
+    mask : array_like of bool, shape (V, n), optional
+        True where a control point must not move a vertex of the mesh, (P, n) for `bind` those of
+        the model: its weight is exactly 0, except on the facets of the control point. For
+        "weights" and a cage in one part.
 """
 
 
@@ -135,6 +140,20 @@ def take_phi(options: Dict[str, Any], cage: Cage, mesh: DomainMesh) -> Optional[
             "one column for each control point"
         )
     return as_floats(array, "phi")
+
+
+def as_mask(options: Dict[str, Any], count: int, cage: Cage) -> None:
+    """Checks the mask of options, of count points, and makes it a Boolean array."""
+    if options.get("mask") is None:
+        return
+    array = np.asarray(options["mask"])
+    shape = count, len(cage)
+    if array.shape != shape or array.dtype != bool:
+        raise InputError(
+            f"mask has shape {array.shape} and type {array.dtype}, but needs {shape} and bool: one "
+            "row for each vertex and one column for each control point"
+        )
+    options["mask"] = array
 
 
 class Certificate(NamedTuple):
@@ -406,6 +425,7 @@ def solve(
     cage = as_cage(cage)
     domain = mesh_of(cage) if mesh is None else as_mesh(mesh, cage)
     phi = take_phi(given, cage, domain)
+    as_mask(given, len(domain), cage)
     found = _core.solve(
         cage.points, cage.facets, domain.points, domain.cells, given, phi, callback
     )
@@ -453,6 +473,7 @@ class Solver:
         require_name_of_phi(given)
         cage = as_cage(cage)
         domain = mesh_of(cage) if mesh is None else as_mesh(mesh, cage)
+        as_mask(given, len(domain), cage)
         self._core = _core.Solver(cage.points, cage.facets, domain.points, domain.cells, given)
 
     def solve(
@@ -511,6 +532,7 @@ class Solver:
         """Changes options of the following solves; `phi` cannot change."""
         given = checked(options, "Solver")
         require_name_of_phi(given)
+        as_mask(given, len(self.mesh), self.cage)
         self._core.set_options({**self._core.options(), **given})
 
     def __reduce__(self) -> Any:

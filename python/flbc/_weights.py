@@ -162,6 +162,33 @@ def deform(weights: Weights, control_points: CageLike) -> Floats:
     return np.asarray(array @ moved)
 
 
+def compose(weights: Weights, map: Weights) -> Weights:
+    """Multiplies weights by a map, if the n control points themselves follow m others.
+
+    Parameters
+    ----------
+    weights : array_like or sparse matrix, shape (P, n)
+    map : array_like or sparse matrix, shape (n, m)
+        Weights of the n control points, at least 0; rows sum to 1.
+
+    Returns
+    -------
+    scipy.sparse.csr_matrix, shape (P, m)
+        Limit its influences by `sparsify`.
+
+    Raises
+    ------
+    InputError
+        If shapes do not match, or the map is no such matrix.
+    """
+    first = weights if is_sparse(weights) else as_array(weights, "weights")
+    second = map if is_sparse(map) else as_array(map, "map")
+    if first.ndim != 2 or second.ndim != 2:
+        raise InputError("weights and map must be matrices, a row per point")
+    given, shares = as_weights(first, "weights", *first.shape), as_weights(second, "map", *second.shape)
+    return from_core(_core.compose(given, shares))
+
+
 def transfer(
     weights: Weights,
     cage: CageLike,

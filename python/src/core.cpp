@@ -8,6 +8,7 @@
 #include "arrays.h"
 #include "flbc/cage_facts.h"
 #include "flbc/check.h"
+#include "flbc/compose.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/gradients.h"
@@ -281,6 +282,11 @@ py::object sparsify(const Doubles& control_points, const Doubles& points, const 
   });
 }
 
+py::object compose(const py::object& weights, const py::object& map) {
+  const auto given = weights_of(weights), shares = weights_of(map);
+  return as_python(without_gil([&] { return flbc::compose(given, shares); }));
+}
+
 py::tuple transfer(const Doubles& control_points, const Doubles& points, const Indices& corners,
                    const py::object& weights, const Doubles& places, double limit) {
   return by_dimension(control_points, [&](auto dim) {
@@ -374,6 +380,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("gradients", &gradients);
   module.def("sparsify", &sparsify);
   module.def("transfer", &transfer);
+  module.def("compose", &compose);
   module.def("mean_value", &mean_value);
   module.def("measure", &measure);
   bind_solving(module);

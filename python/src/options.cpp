@@ -71,6 +71,36 @@ Field field(const char* name, const Place& place) {
           [place](const SolverOptions& options) { return as_object(place(options)); }};
 }
 
+// A mask of a row per point and a column per control point; or a list, as masks_as_object() makes.
+std::vector<Mask> masks_of(const py::handle& given) {
+  if (given.is_none()) return {};
+  std::vector<Mask> masks;
+  if (py::isinstance<py::list>(given)) {
+    for (const auto& [control_points, points] :
+         given.cast<std::vector<std::pair<std::vector<Index>, std::vector<Index>>>>()) {
+      masks.push_back({control_points, points});
+    }
+    return masks;
+  }
+  const auto array = given.cast<py::array_t<bool>>();
+  const auto masked = array.unchecked<2>();
+  for (py::ssize_t i = 0; i < masked.shape(1); ++i) {
+    Mask mask{{static_cast<Index>(i)}, {}};
+    for (py::ssize_t p = 0; p < masked.shape(0); ++p) {
+      if (masked(p, i)) mask.points.push_back(static_cast<Index>(p));
+    }
+    if (!mask.points.empty()) masks.push_back(std::move(mask));
+  }
+  return masks;
+}
+
+py::object masks_as_object(const std::vector<Mask>& masks) {
+  if (masks.empty()) return py::none();
+  py::list list;
+  for (const auto& mask : masks) list.append(py::make_tuple(mask.control_points, mask.points));
+  return std::move(list);
+}
+
 #define FLBC_FIELD(name, member) \
   field(                         \
       name, [](auto& options) -> auto& { return options.member; })
@@ -90,6 +120,9 @@ const std::vector<Field>& fields() {
       FLBC_FIELD("precision", precision),
       FLBC_FIELD("active_set", active_set),
       FLBC_FIELD("penalty", penalty),
+      {"mask",
+       [](SolverOptions& options, const py::handle& value) { options.masks = masks_of(value); },
+       [](const SolverOptions& options) { return masks_as_object(options.masks); }},
   };
   return table;
 }

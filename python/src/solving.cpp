@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "arrays.h"
+#include "flbc/bind.h"
 #include "flbc/errors.h"
 #include "flbc/linked_meshers.h"
 #include "flbc/solver.h"
@@ -85,6 +86,8 @@ py::object arrays_of(const std::shared_ptr<const Proof>& proof) {
   arrays["multipliers"] =
       py::array_t<double>({proof->multipliers.cols(), axes}, proof->multipliers.data());
   arrays["smoothness"] = proof->smoothness;
+  arrays["masked"] =
+      py::array_t<Index>({proof->masked.cols(), Eigen::Index(2)}, proof->masked.data());
   return std::move(arrays);
 }
 
@@ -121,6 +124,35 @@ py::tuple solve(const Doubles& points, const Indices& facets, const Doubles& ver
       }));
     }
     return solved(without_gil([&] { return flbc::solve<kDim>(cage, domain, options, observer); }));
+  });
+}
+
+// bind() with a given domain mesh. \return weights, report, offsets or None, and points outside
+py::tuple bind_model(const Doubles& points, const Indices& facets, const Doubles& vertices,
+                     const Indices& cells, const Doubles& model, const Polygons& polygons,
+                     const py::dict& keywords, Index max_influences, const std::string& outside,
+                     const py::dict& locality, int mirror_axis, const py::object& callback) {
+  BindOptions options;
+  options.solver = here(options_of(keywords));
+  options.observer = observer_of(callback);
+  options.max_influences = max_influences;
+  options.outside = named<OutsidePoints>("outside", outside);
+  options.masks = options_of(locality).masks;
+  options.mirror_axis = mirror_axis;
+  return by_dimension(points, [&](auto dim) -> py::tuple {
+    constexpr int kDim = decltype(dim)::value;
+    const auto cage = cage_of<kDim>(points, facets);
+    const auto domain = mesh_of<kDim>(vertices, cells);
+    const auto all = points_of<kDim>(model);
+    const auto lists = lists_of(polygons);
+    auto binding = without_gil([&] {
+      return flbc::bind<kDim>(cage, domain, all, edges_of_polygons(all, lists), options);
+    });
+    auto report = as_dict(binding.report.solve);
+    report["note"] = binding.report.note;
+    const py::object offsets =
+        binding.offsets.cols() > 0 ? py::object(as_array(binding.offsets)) : py::none();
+    return py::make_tuple(as_python(std::move(binding.weights)), report, offsets, binding.outside);
   });
 }
 
@@ -226,6 +258,7 @@ void bind_solving(py::module_& module) {
   module.def("option_names", &option_names);
   module.def("mesh", &mesh);
   module.def("solve", &solve);
+  module.def("bind_model", &bind_model);
 
   py::class_<Progress>(module, "Progress", "Progress of a solve, for callbacks.")
       .def_readonly("iteration", &Progress::iteration, "int: counted from 1")

@@ -29,6 +29,13 @@ struct BindOptions {
   Index max_influences = 8;                      //!< per point; 0 = keep all weights
   Reduction reduction = Reduction::kPoisson;     //!< how influences are reduced
   OutsidePoints outside = OutsidePoints::kFail;  //!< points outside the cage
+  //! Masks of the points: regions of the model that some control points must not move. Weights are
+  //! exactly 0 there, also after the reduction, except on facets of masked control points, which
+  //! BindReport::note counts.
+  std::vector<Mask> masks{};
+  //! Exact mirror (mirror.h): axis of the symmetric cage, 0 to Dim - 1; -1 for none. Weights of
+  //! mirrored points are bit-identical, also after the reduction.
+  int mirror_axis = -1;
 };
 
 //! Report of bind().
@@ -37,7 +44,7 @@ struct BindReport {
   Quality quality{};     //!< of the final weights at the points that they reproduce
   Index outside = 0;     //!< number of points outside the cage
   std::string mesher{};  //!< that made the mesh; empty if it was given
-  std::string note{};    //!< MadeDomain::note
+  std::string note{};    //!< MadeDomain::note and PlacedMasks::note()
   double mesh_seconds = 0, solve_seconds = 0, evaluate_seconds = 0, sparsify_seconds = 0;
 };
 

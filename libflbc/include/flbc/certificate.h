@@ -21,6 +21,8 @@ struct Proof {
   Eigen::MatrixXd multipliers;
   WeightFunctions phi;    //!< n x F
   double smoothness = 0;  //!< epsilon, a length
+  //! 2 x K: vertex and control point of each pair whose weight masks fix to 0 (LbcProblem::masks).
+  Eigen::Matrix<Index, 2, Eigen::Dynamic> masked{};
 };
 
 //! Bound on the optimality gap of weights, by weak duality.
@@ -42,6 +44,7 @@ struct Certificate {
 //! shortened.
 //! Boundary vertices contribute fixed terms. Every interior vertex contributes at least the value
 //! of the linear program min { omega . D p(v) : omega >= 0, sum omega = 1, sum omega c = x_v }.
+//! Masked weights are 0, so these programs leave masked control points out.
 //! The bound holds for all arguments. It accounts for rounding in the flux, the sums, and the
 //! linear programs, but not in the hat gradients and measures (1e-16 to 1e-15 relative,
 //! docs/explanation/method/certificate.md). It is tight if the flux is the dual of a nearly

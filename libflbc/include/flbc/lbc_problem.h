@@ -10,6 +10,7 @@
 #include "flbc/cage.h"
 #include "flbc/distance_weights.h"
 #include "flbc/domain_mesh.h"
+#include "flbc/masks.h"
 #include "flbc/types.h"
 
 namespace flbc {
@@ -25,6 +26,7 @@ struct LbcProblem {
   WeightFunctions phi;           //!< n x F: weights of the total variation
   double scale = 1;              //!< scaled length / original length
   double smoothness = 0;         //!< epsilon >= 0 of the quadratic term, scaled length
+  PointMasks masks{};            //!< of interior vertices (SolverOptions::masks)
 
   //! n.
   Index num_control_points() const { return cage.size(); }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "flbc/masks.h"
 #include "flbc/sparse_weights.h"
 
 namespace flbc {
@@ -24,12 +25,15 @@ namespace flbc {
 //! \param weights  of P points, finite
 //! \param some  points to project, each at most once; default: all. The weights of others are
 //! returned as given
+//! \param masks  of the P points; masked weights become exactly 0
 //! \return weights of P points
 //! \throws InputError if sizes do not match, a value is not finite, a point is out of range, or it
 //! lies outside the convex hull, naming the first such point
 template <int Dim>
-[[nodiscard]] SparseWeights project_non_negative(
-    const PointList<Dim>& control_points, const PointList<Dim>& points,
-    const SparseWeights& weights, const std::optional<std::vector<Index>>& some = {});
+[[nodiscard]] SparseWeights project_non_negative(const PointList<Dim>& control_points,
+                                                 const PointList<Dim>& points,
+                                                 const SparseWeights& weights,
+                                                 const std::optional<std::vector<Index>>& some = {},
+                                                 const PointMasks& masks = {});
 
 }  // namespace flbc

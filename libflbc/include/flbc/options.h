@@ -4,8 +4,10 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "flbc/distance_weights.h"
+#include "flbc/masks.h"
 #include "flbc/types.h"
 
 namespace flbc {
@@ -116,6 +118,12 @@ struct SolverOptions {
   //! by the gap, or by the tolerance with neither gap nor smoothness, computes the bound anyway, if
   //! it has the duals of all pairs.
   bool certify = false;
+
+  //! Masks of the V vertices of the mesh; see BindOptions::masks for those of a model. Weights are
+  //! exactly 0 there, and masks are part of the problem: what is left is optimal, and a certificate
+  //! proves it. For kWeights and a cage in one part. Vertices on the cage keep their known weights.
+  //! solve() throws InputError where no weights >= 0 exist, and names the control points to free.
+  std::vector<Mask> masks{};
 
   //! Number of threads, at most 1024; 0 = as many as OpenMP offers, or one if n V < 100,000.
   int threads = 0;

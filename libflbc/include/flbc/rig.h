@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "flbc/bind.h"
+#include "flbc/place_masks.h"
 #include "flbc/solver.h"
 
 namespace flbc {
@@ -50,6 +51,8 @@ class Rig {
   void set_model(PointList<Dim> points, EdgeList edges);
 
   //! Changes options, except for the number of vertices of the mesh. See Solver::set_options().
+  //! With other masks, the next solve() starts from the present state.
+  //! \throws InputError if masks cannot be obeyed; OptionError
   void set_options(const BindOptions& options);
 
   const Cage<Dim>& cage() const { return solver_ ? solver_->cage() : cage_; }
@@ -71,6 +74,7 @@ class Rig {
  private:
   Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindOptions& options);
 
+  PlacedMasks placed_masks(const PointList<Dim>& points, const BindOptions& options) const;
   SparseWeights reduced(const Placement<Dim>& placement, const SparseWeights& weights) const;
   SparseWeights reduced_inside(const std::vector<Index>& outside);
 
@@ -82,6 +86,7 @@ class Rig {
   BindReport report_{};
   std::unique_ptr<Solver<Dim>> solver_{};  // none for several parts, or before the first solve()
   Solution solution_{};                    // without a Solver
+  PlacedMasks masks_{};
   Placement<Dim> placement_{};
   SparseWeights weights_{};  // at the placed points
 };

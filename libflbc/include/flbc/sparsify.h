@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "flbc/domain_mesh.h"
+#include "flbc/masks.h"
 #include "flbc/sparse_weights.h"
 #include "flbc/types.h"
 
@@ -23,6 +24,7 @@ struct SparsifyOptions {
   //! Called on the calling thread with the progress in [0, 1]. What it throws leaves the
   //! reduction.
   std::function<void(double done)> progress{};
+  std::vector<Mask> masks{};  //!< of the points; masked weights become exactly 0
 };
 
 //! How reduce_influences() reduces.

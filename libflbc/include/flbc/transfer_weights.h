@@ -4,6 +4,7 @@
 #pragma once
 
 #include "flbc/cage.h"
+#include "flbc/masks.h"
 #include "flbc/sparse_weights.h"
 
 namespace flbc {
@@ -24,12 +25,13 @@ struct ModelElements {
 //! \param to  Dim x Q
 //! \param limit  maximum distance of a point from the model, in its units
 //! \param distances  output: Q distances from the model; may be null
+//! \param masks  of the Q points; masked weights become exactly 0
 //! \return weights of Q points
 //! \throws InputError if sizes do not match, or points are farther away than the limit, naming
 //! their number, the first, and the farthest; also as project_non_negative()
 template <int Dim>
 SparseWeights transfer_weights(const PointList<Dim>& control_points, const ModelElements<Dim>& from,
                                const SparseWeights& weights, const PointList<Dim>& to, double limit,
-                               Eigen::VectorXd* distances = nullptr);
+                               Eigen::VectorXd* distances = nullptr, const PointMasks& masks = {});
 
 }  // namespace flbc

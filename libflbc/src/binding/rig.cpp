@@ -10,6 +10,7 @@
 #include "base/stopwatch.h"
 #include "flbc/cage_facts.h"
 #include "flbc/errors.h"
+#include "flbc/mirror.h"
 
 namespace flbc {
 namespace {
@@ -50,6 +51,21 @@ PointList<Dim> offsets_of(const PointList<Dim>& points, const Placement<Dim>& pl
   return offsets;
 }
 
+// With the images of masks if weights are mirrored.
+template <int Dim>
+std::vector<Mask> masks_of(const Cage<Dim>& cage, const PointList<Dim>& points,
+                           const BindOptions& options) {
+  if (options.mirror_axis < 0) return options.masks;
+  return MirroredModel<Dim>(cage, options.mirror_axis, points).symmetrized(options.masks);
+}
+
+// The masks of a model join those that the caller gave for the mesh.
+SolverOptions solver_options(const BindOptions& options, const PlacedMasks& masks) {
+  auto solver = options.solver;
+  solver.masks.insert(solver.masks.end(), masks.of_mesh.begin(), masks.of_mesh.end());
+  return solver;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -78,6 +94,7 @@ Rig<Dim>::Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindO
   report_.mesher = std::move(made.mesher);
   report_.note = std::move(made.note);
   report_.mesh_seconds = watch.seconds();
+  masks_ = placed_masks(points_, options_);
 }
 
 template <int Dim>
@@ -86,17 +103,27 @@ Rig<Dim>::Rig(Cage<Dim> cage, DomainMesh<Dim> domain, PointList<Dim> points, Edg
     : Rig(std::move(cage), std::move(points), std::move(edges), options) {
   mesh_ = std::move(domain);
   normalize_and_validate(mesh_);
+  masks_ = placed_masks(points_, options_);
+}
+
+template <int Dim>
+PlacedMasks Rig<Dim>::placed_masks(const PointList<Dim>& points, const BindOptions& options) const {
+  if (options.masks.empty()) return {};
+  const ThreadScope threads(options.solver.threads);
+  return place_masks(cage(), mesh(), place_points(cage(), mesh(), points, options.outside),
+                     masks_of(cage(), points, options));
 }
 
 template <int Dim>
 const Solution& Rig<Dim>::solve(const Budget& budget) {
   const Stopwatch watch;
   if (cage_parts(cage_).size() > 1) {
-    solution_ = flbc::solve(cage_, mesh_, options_.solver, options_.observer);
+    solution_ = flbc::solve(cage_, mesh_, solver_options(options_, masks_), options_.observer);
   } else if (solver_) {
     solver_->solve(budget, options_.observer);
   } else {
-    auto solver = std::make_unique<Solver<Dim>>(cage_, mesh_, options_.solver, options_.observer);
+    auto solver = std::make_unique<Solver<Dim>>(cage_, mesh_, solver_options(options_, masks_),
+                                                options_.observer);
     solver->solve(budget, options_.observer);
     solver_ = std::move(solver);
   }
@@ -136,6 +163,9 @@ template <int Dim>
 void Rig<Dim>::set_model(PointList<Dim> points, EdgeList edges) {
   require_model<Dim>(points, edges);
   require_inside(cage(), points, options_);
+  auto masks = placed_masks(points, options_);
+  if (solver_ && !options_.masks.empty()) solver_->set_options(solver_options(options_, masks));
+  masks_ = std::move(masks);
   points_ = std::move(points);
   edges_ = std::move(edges);
   weights_ = {};
@@ -145,8 +175,13 @@ template <int Dim>
 void Rig<Dim>::set_options(const BindOptions& options) {
   require_valid<Dim>(options);
   require_inside(cage(), points_, options);
-  if (solver_) solver_->set_options(options.solver);
-  if (options.outside != options_.outside) weights_ = {};
+  auto masks = placed_masks(points_, options);
+  if (solver_) solver_->set_options(solver_options(options, masks));
+  if (options.outside != options_.outside || options.masks != options_.masks ||
+      options.mirror_axis != options_.mirror_axis) {
+    weights_ = {};
+  }
+  masks_ = std::move(masks);
   options_ = options;
 }
 
@@ -157,7 +192,23 @@ const SparseWeights& Rig<Dim>::weights_of_points() {
   const ThreadScope threads(options_.solver.threads);
   const Stopwatch watch;
   placement_ = place_points(cage(), mesh(), points_, options_.outside);
-  weights_ = weights_at(cage(), mesh(), solution().weights, placement_);
+  auto weights = weights_at(cage(), mesh(), solution().weights, placement_);
+  const auto enforce = [&] {
+    if (!options_.masks.empty()) weights = enforce_masks(cage(), placement_, weights, masks_);
+  };
+  if (!options_.masks.empty()) {  // the cage may have moved
+    masks_ = place_masks(cage(), mesh(), placement_, masks_of(cage(), points_, options_));
+  }
+  enforce();
+  if (options_.mirror_axis >= 0) {
+    const MirroredModel<Dim> mirrored(cage(), options_.mirror_axis, placement_.points);
+    weights = mirrored.symmetrized(weights, [&](const PointList<Dim>& points) {
+      return weights_at(cage(), mesh(), solution().weights,
+                        place_points(cage(), mesh(), points, options_.outside));
+    });
+    enforce();  // at points without an image
+  }
+  weights_ = std::move(weights);
   report_.evaluate_seconds = watch.seconds();
   return weights_;
 }
@@ -165,11 +216,19 @@ const SparseWeights& Rig<Dim>::weights_of_points() {
 template <int Dim>
 SparseWeights Rig<Dim>::reduced(const Placement<Dim>& placement,
                                 const SparseWeights& weights) const {
-  SparsifyOptions few{options_.max_influences};
-  const auto& observer = options_.observer;
-  if (observer.poll) few.progress = [&](double) { observer.poll(); };
-  return reduce_influences<Dim>(cage().points, placement.points, edges_, weights, {}, few,
-                                options_.reduction);
+  const auto reduce = [&](const ModelPart<Dim>& part, Index most) {
+    SparsifyOptions few{most};
+    few.masks = part.masks;
+    const auto& observer = options_.observer;
+    if (observer.poll) few.progress = [&](double) { observer.poll(); };
+    return reduce_influences<Dim>(cage().points, part.points, part.edges, part.weights, {}, few,
+                                  options_.reduction);
+  };
+  const ModelPart<Dim> model{placement.points, edges_, weights, masks_.of_points};
+  const Index most = options_.max_influences;
+  if (options_.mirror_axis < 0) return reduce(model, most);
+  return MirroredModel<Dim>(cage(), options_.mirror_axis, placement.points)
+      .reduced(model, most, reduce);
 }
 
 // Points outside keep the weights of an extension: negative weights cannot be reduced.
@@ -199,6 +258,9 @@ Binding<Dim> Rig<Dim>::bind() {
     binding.weights = extends ? reduced_inside(binding.outside) : reduced(placement_, weights_);
   }
   auto& report = binding.report = report_;
+  if (const auto note = masks_.note(); !note.empty()) {
+    report.note += (report.note.empty() ? "" : "; ") + note;
+  }
   report.sparsify_seconds = watch.lap();
   report.solve = solution().report;
   report.outside = static_cast<Index>(binding.outside.size());

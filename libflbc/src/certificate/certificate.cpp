@@ -181,13 +181,15 @@ template <int Dim>
 SparseWeights made_feasible(const LbcProblem<Dim>& problem, const WeightMatrix& weights) {
   const StageScope silent({});  // progress is reported by the bound below
   const auto& boundary = problem.boundary;
-  return project_columns<Dim>(problem.cage.points, problem.mesh.points,
-                              boundary.interior_vertices(), [&](Index v) -> Eigen::VectorXd {
-                                if (boundary.is_interior(v)) return weights.col(v);
-                                Eigen::VectorXd known = Eigen::VectorXd::Zero(weights.rows());
-                                boundary.scatter(boundary.boundary_index[v], known);
-                                return known;
-                              });
+  return project_columns<Dim>(
+      problem.cage.points, problem.mesh.points, boundary.interior_vertices(),
+      [&](Index v) -> Eigen::VectorXd {
+        if (boundary.is_interior(v)) return weights.col(v);
+        Eigen::VectorXd known = Eigen::VectorXd::Zero(weights.rows());
+        boundary.scatter(boundary.boundary_index[v], known);
+        return known;
+      },
+      problem.masks);
 }
 
 // \param multipliers  receives those of the interior vertices
@@ -212,8 +214,18 @@ double bound(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>& f
           }
           vertex_costs(admissible, v, sums, costs);
           start = weights.at(v);
-          block.add(program.lower_bound(problem.mesh.points.col(v), costs, start));
-          if (multipliers != nullptr) multipliers->col(v) = program.multipliers();
+          const auto take = [&](auto& of_vertex, const auto& its_costs, const auto& its_start) {
+            block.add(of_vertex.lower_bound(problem.mesh.points.col(v), its_costs, its_start));
+            if (multipliers != nullptr) multipliers->col(v) = of_vertex.multipliers();
+          };
+          if (!problem.masks.at(v)) {
+            take(program, costs, start);
+            continue;
+          }
+          const auto allowed = problem.masks.allowed(v);
+          const PointList<Dim> carriers = problem.cage.points(Eigen::all, allowed);
+          VertexLinearProgram<Dim> masked(carriers);
+          take(masked, Eigen::VectorXd(costs(allowed)), Eigen::VectorXd(start(allowed)));
         }
         progress.add(end - begin);
         return block;
@@ -244,6 +256,16 @@ auto densities(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, Dim>&
   return result;
 }
 
+auto masked_pairs(const PointMasks& masks) {
+  std::vector<std::array<Index, 2>> pairs;
+  for (const Index v : masks.points()) {
+    for (const Index i : masks.forbidden(v)) pairs.push_back({v, i});
+  }
+  decltype(Proof::masked) result(2, pairs.size());
+  for (std::size_t k = 0; k < pairs.size(); ++k) result.col(k) << pairs[k][0], pairs[k][1];
+  return result;
+}
+
 }  // namespace
 
 template <class Scalar, int Dim>
@@ -265,7 +287,8 @@ Certificate certify(const LbcProblem<Dim>& problem, const CellFieldView<Scalar, 
   certificate.lower_bound =
       bound(problem, flux, feasible, proof != nullptr ? &multipliers : nullptr);
   if (proof != nullptr) {
-    *proof = {densities(problem, flux), std::move(multipliers), problem.phi, problem.smoothness};
+    *proof = {densities(problem, flux), std::move(multipliers), problem.phi, problem.smoothness,
+              masked_pairs(problem.masks)};
   }
   if (certificate.objective > 0) {
     certificate.relative_gap =

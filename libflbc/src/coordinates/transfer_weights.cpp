@@ -52,7 +52,7 @@ void refuse_unmatched(const PointList<Dim>& to, const Eigen::VectorXd& distances
 template <int Dim>
 SparseWeights transfer_weights(const PointList<Dim>& control_points, const ModelElements<Dim>& from,
                                const SparseWeights& weights, const PointList<Dim>& to, double limit,
-                               Eigen::VectorXd* distances) {
+                               Eigen::VectorXd* distances, const PointMasks& masks) {
   check_input(control_points, from, weights);
   check_finite<Dim>(to);
   const NearestSimplex<Dim, 3> nearest(from.points, from.corners);
@@ -71,7 +71,7 @@ SparseWeights transfer_weights(const PointList<Dim>& control_points, const Model
         return result;
       });
   refuse_unmatched(to, found, limit);
-  auto result = project_non_negative(control_points, to, nearest_weights);
+  auto result = project_non_negative(control_points, to, nearest_weights, {}, masks);
   if (distances != nullptr) *distances = std::move(found);
   return result;
 }

@@ -15,6 +15,7 @@
 #include "base/stage_progress.h"
 #include "flbc/errors.h"
 #include "flbc/non_negative.h"
+#include "polytope/mask_conflicts.h"
 #include "polytope/nearest_point_in_hull.h"
 #include "polytope/weight_projection.h"
 
@@ -47,9 +48,11 @@ void check_input(const PointList<Dim>& control_points, const PointList<Dim>& poi
 template <int Dim>
 class ColumnProjection {
  public:
-  ColumnProjection(const PointList<Dim>& control_points, const PointList<Dim>& points)
+  ColumnProjection(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                   const PointMasks& masks)
       : control_points_(control_points),
         points_(points),
+        masks_(masks),
         projection_(control_points),
         works_(omp_get_max_threads()),
         infinite_(static_cast<Index>(points.cols())),
@@ -59,6 +62,7 @@ class ColumnProjection {
     if (!column.allFinite()) return lower_to(infinite_, point);
     // Only the first failure is reported, so later columns can be skipped.
     if (outside_.load(std::memory_order_relaxed) < point) return;
+    if (masks_.at(point)) return project_masked(point, column);
     auto& work = works_[omp_get_thread_num()];
     if (!work) work.emplace(projection_);
     if (projection_.project(points_.col(point), column, *work) > 0) lower_to(outside_, point);
@@ -71,13 +75,29 @@ class ColumnProjection {
     }
     const Index point = outside_;
     if (point == points_.cols()) return;
-    const auto nearest = nearest_point_in_hull<Dim>(control_points_, points_.col(point));
+    const PointList<Dim> carriers = masks_.at(point) ? allowed_points(point) : control_points_;
+    if (carriers.cols() == 0) {
+      throw InputError("all control points are masked at point " + std::to_string(point) + " at " +
+                       format_point(points_.col(point)) + ", but its weights must sum to 1");
+    }
+    const auto nearest = nearest_point_in_hull<Dim>(carriers, points_.col(point));
     throw InputError("point " + std::to_string(point) + " at " + format_point(points_.col(point)) +
-                     " lies outside the convex hull of the control points by " +
+                     " lies outside the convex hull of the control points " +
+                     (masks_.at(point) ? "that may move it by " : "by ") +
                      format_number(nearest.distance) + ": no weights >= 0 reproduce it");
   }
 
  private:
+  PointList<Dim> allowed_points(Index point) const {
+    return control_points_(Eigen::all, masks_.allowed(point));
+  }
+
+  void project_masked(Index point, Eigen::VectorXd& column) {
+    if (!project_on<Dim>(control_points_, masks_.allowed(point), points_.col(point), column)) {
+      lower_to(outside_, point);
+    }
+  }
+
   static void lower_to(std::atomic<Index>& least, Index number) {
     Index current = least.load();
     while (number < current && !least.compare_exchange_weak(current, number)) {
@@ -86,6 +106,7 @@ class ColumnProjection {
 
   const PointList<Dim>& control_points_;
   const PointList<Dim>& points_;
+  const PointMasks& masks_;
   const WeightProjection<Dim> projection_;
   std::vector<std::optional<typename WeightProjection<Dim>::Workspace>> works_;  // by thread
   std::atomic<Index> infinite_, outside_;
@@ -104,11 +125,12 @@ std::vector<Index> numbers_of(const std::optional<std::vector<Index>>& columns,
 template <int Dim>
 SparseWeights project_columns(const PointList<Dim>& control_points, const PointList<Dim>& points,
                               const std::vector<Index>& columns,
-                              const std::function<Eigen::VectorXd(Index)>& weights_of) {
+                              const std::function<Eigen::VectorXd(Index)>& weights_of,
+                              const PointMasks& masks) {
   check_input(control_points, points, columns);
   std::vector<char> is_projected(static_cast<std::size_t>(points.cols()), 0);
   for (const Index p : columns) is_projected[p] = 1;
-  ColumnProjection<Dim> project(control_points, points);
+  ColumnProjection<Dim> project(control_points, points, masks);
   LoopProgress progress(static_cast<Index>(columns.size()));
   auto result = SparseWeights::of(static_cast<Index>(control_points.cols()),
                                   static_cast<Index>(points.cols()), [&](Index p) {
@@ -126,15 +148,16 @@ SparseWeights project_columns(const PointList<Dim>& control_points, const PointL
 template <int Dim>
 SparseWeights project_non_negative(const PointList<Dim>& control_points,
                                    const PointList<Dim>& points, const SparseWeights& weights,
-                                   const std::optional<std::vector<Index>>& some) {
+                                   const std::optional<std::vector<Index>>& some,
+                                   const PointMasks& masks) {
   check_size(weights, control_points.cols(), points.cols());
   auto numbers = numbers_of(some, points.cols());
   const auto is_still = [&](Index p) {
     return p >= 0 && p < weights.num_points() && !weights.has_weights(p);
   };
   numbers.erase(std::remove_if(numbers.begin(), numbers.end(), is_still), numbers.end());
-  return project_columns<Dim>(control_points, points, numbers,
-                              [&](Index p) { return weights.at(p); });
+  return project_columns<Dim>(
+      control_points, points, numbers, [&](Index p) { return weights.at(p); }, masks);
 }
 
 FLBC_INSTANTIATE_FUNCTION(project_columns)

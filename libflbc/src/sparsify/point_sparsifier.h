@@ -53,6 +53,12 @@ class PointSparsifier {
   WeightProjection<Dim> projection_;
 };
 
+//! Of the options, for weights of P points.
+inline PointMasks masks_of(const SparsifyOptions& options, const SparseWeights& weights) {
+  if (options.masks.empty()) return {};
+  return {options.masks, weights.num_control_points(), weights.num_points()};
+}
+
 //! \param few  its weights \param size  n
 Eigen::VectorXd to_dense(const PointWeights& few, Eigen::Index size);
 

@@ -33,10 +33,12 @@ SparseWeights sparsify(const PointList<Dim>& control_points, const PointList<Dim
                        const SparseWeights& weights, const SparsifyOptions& options) {
   validate<Dim>(options);
   const StageScope scope(options.progress);
+  const auto masks = masks_of(options, weights);
   const auto projected = [&] {
     const StageScope silent({});
-    return project_non_negative(control_points, points, weights);  // also checks the input
+    return project_non_negative(control_points, points, weights, {}, masks);  // checks the input
   }();
+  const auto& given = masks.empty() ? weights : projected;  // masked influences never enter
   const PointSparsifier<Dim> sparsifier(control_points, options);
   const auto num_points = static_cast<Index>(points.cols());
   LoopProgress progress(num_points);
@@ -45,7 +47,7 @@ SparseWeights sparsify(const PointList<Dim>& control_points, const PointList<Dim
     auto& work = works[omp_get_thread_num()];
     if (!work) work.emplace(control_points);
     progress.add(1);
-    return sparsifier.sparsify(points.col(p), weights.at(p), projected.at(p), *work);
+    return sparsifier.sparsify(points.col(p), given.at(p), projected.at(p), *work);
   });
 }
 

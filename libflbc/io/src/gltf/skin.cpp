@@ -197,9 +197,11 @@ ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<D
                          const SkinOptions& options, const Animation<Dim>& animation) {
   check(control_points, points, weights, surface, options);
   validate(animation, control_points.cols());
+  SparsifyOptions limits{options.max_influences};
+  limits.masks = options.masks;
   const auto few =
       reduce_influences<Dim>(control_points, reproduced(control_points, points, weights),
-                             options.edges, weights, animation.poses, {options.max_influences});
+                             options.edges, weights, animation.poses, limits);
   const auto stored = to_joint_weights(few, options.weight_format);
   const Vector<Dim> origin = origin_of(control_points, options.format);
   const bool is_usd = options.format == SkinFormat::kUsda;

@@ -20,6 +20,7 @@
 #include "flbc/errors.h"
 #include "flbc/quality.h"
 #include "mesh/cell_geometry.h"
+#include "polytope/mask_conflicts.h"
 #include "polytope/project_columns.h"
 #include "problem/problem_geometry.h"
 #include "solver/api/solve_parts.h"
@@ -51,6 +52,26 @@ void require_objective(const LbcProblem<Dim>& problem, const plan::Settings& set
   }
 }
 
+// The masks of interior vertices. Those of others end here, because their weights are known.
+// \param control_points, points  of the mesh, in the units of messages
+template <int Dim>
+PointMasks masks_inside(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                        const BoundaryValues<Dim>& boundary, const std::vector<Mask>& masks) {
+  if (masks.empty()) return {};
+  const auto n = static_cast<Index>(control_points.cols());
+  const auto count = static_cast<Index>(points.cols());
+  const auto is_interior = [&](Index v) { return boundary.is_interior(v); };
+  PointMasks inside(PointMasks(masks, n, count).list(is_interior), n, count);
+  refuse_mask_conflicts(control_points, points, inside);
+  return inside;
+}
+
+template <int Dim>
+void require_one_part(const DomainMesh<Dim>& mesh, const SolverOptions& options) {
+  if (options.masks.empty() || count_parts(mesh) == 1) return;
+  throw OptionError("masks are for cages in one part; solve each part on its own");
+}
+
 template <int Dim>
 int num_threads(const LbcProblem<Dim>& problem, const plan::Settings& settings) {
   return threads_for(settings.threads, problem.num_control_points(), problem.mesh.num_vertices());
@@ -58,12 +79,13 @@ int num_threads(const LbcProblem<Dim>& problem, const plan::Settings& settings) 
 
 template <int Dim>
 SparseWeights made_non_negative(const LbcProblem<Dim>& problem, const Weights& weights) {
-  return project_columns<Dim>(problem.cage.points, problem.mesh.points,
-                              problem.boundary.interior_vertices(),
-                              [&](Index v) -> Eigen::VectorXd {
-                                if (weights.is_sparse()) return weights.sparse.at(v);
-                                return weights.dense.col(v);
-                              });
+  return project_columns<Dim>(
+      problem.cage.points, problem.mesh.points, problem.boundary.interior_vertices(),
+      [&](Index v) -> Eigen::VectorXd {
+        if (weights.is_sparse()) return weights.sparse.at(v);
+        return weights.dense.col(v);
+      },
+      problem.masks);
 }
 
 template <int Dim>
@@ -150,10 +172,10 @@ SolvePart<Dim> part_solver(const DomainMesh<Dim>& mesh, const SolverOptions& giv
     const ThreadScope threads(threads_for(settings.threads, part.size(), domain.num_vertices()));
     require_connected(domain);
     Stopwatch watch;
-    auto ready =
-        set_up(topology != nullptr && &domain == &mesh ? make_geometry(part, domain, *topology)
-                                                       : make_geometry(part, domain),
-               settings, reporter);
+    auto geometry = topology != nullptr && &domain == &mesh ? make_geometry(part, domain, *topology)
+                                                            : make_geometry(part, domain);
+    geometry.masks = masks_inside(part.points, domain.points, geometry.boundary, settings.masks);
+    auto ready = set_up(std::move(geometry), settings, reporter);
     require_distances(ready, settings);
     const double setup_seconds = watch.lap();
     MethodRun<Dim> run(ready.problem);
@@ -200,11 +222,12 @@ void require_points_for(const Cage<Dim>& cage, const PointList<Dim>& control_poi
                    " control points were given for a cage that has " + std::to_string(cage.size()));
 }
 
-// Options that stay the same during a run; all others take effect when it resumes. Names all
+// Options that stay the same during a run; all others take effect when it resumes, or masks when
+// another run starts from its duals. Names all
 // options, so that a new one cannot be forgotten.
 auto fixed_in_a_run(const SolverOptions& options) {
   const auto& [method, phi, smoothness, distances, precision, non_negative, tolerance, gap,
-               active_set, max_iterations, penalty, certify, threads] = resolve(options);
+               active_set, max_iterations, penalty, certify, masks, threads] = resolve(options);
   return std::tuple(method, phi, smoothness, distances, precision, non_negative, active_set,
                     penalty);
 }
@@ -219,6 +242,13 @@ template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& given,
                const Observer& observer) {
   auto options = given;
+  if (!options.masks.empty() && problem.masks.empty()) {
+    auto masked = problem;
+    masked.masks =
+        masks_inside(problem.cage.points, problem.mesh.points, problem.boundary, options.masks);
+    if (masked.masks.empty()) options.masks.clear();
+    return solve(masked, options, observer);
+  }
   if (!options.smoothness) options.smoothness = problem.smoothness;
   require_valid(options, problem.num_control_points());
   const auto settings = plan::settings_of(options);
@@ -235,6 +265,7 @@ Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& given,
 template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
                const Observer& observer) {
+  require_one_part(mesh, options);
   return solve_parts(cage, mesh, Reporter(observer), part_solver<Dim>(mesh, options, nullptr));
 }
 
@@ -242,6 +273,7 @@ template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                const MeshTopology<Dim>& topology, const SolverOptions& options,
                const Observer& observer) {
+  require_one_part(mesh, options);
   return solve_parts(cage, mesh, Reporter(observer), part_solver<Dim>(mesh, options, &topology));
 }
 
@@ -276,11 +308,23 @@ struct Solver<Dim>::State {
     const ThreadScope threads(threads_for(given.threads, cage.size(), mesh.num_vertices()));
     const Stopwatch watch;
     const auto settings = plan::settings_of(given);
-    auto ready = set_up_shape(cage, mesh, make_geometry(cage, mesh), settings, observer);
+    auto geometry = make_geometry(cage, mesh);
+    geometry.masks = masks_inside(cage.points, mesh.points, geometry.boundary, given.masks);
+    auto ready = set_up_shape(cage, mesh, std::move(geometry), settings, observer);
     require_distances<Dim>(*ready, settings);
     shape = std::move(ready);
     shape->setup_seconds = watch.seconds();
     options = given;
+    duals.reset();
+  }
+
+  // The next solve starts from the present duals, with other masks.
+  void change_masks(const std::vector<Mask>& masks) {
+    auto& [problem, coarse, distances] = static_cast<NestedProblem<Dim>&>(*shape);
+    auto changed = masks_inside(shape->cage.points, shape->mesh.points, problem.boundary, masks);
+    if (!duals) duals = shape->run->duals();
+    problem.masks = std::move(changed);
+    shape->run.emplace(problem);
   }
 
   static std::unique_ptr<Shape> set_up_shape(Cage<Dim> cage, DomainMesh<Dim> mesh,
@@ -321,6 +365,7 @@ struct Solver<Dim>::State {
       moved = by->moved(control_points);
     }
     auto geometry = make_geometry(cage, moved, shape->problem.topology, shape->problem.boundary);
+    geometry.masks = masks_inside(cage.points, moved.points, geometry.boundary, options.masks);
     return set_up_shape(std::move(cage), std::move(moved), std::move(geometry), settings, observer);
   }
 
@@ -351,6 +396,7 @@ struct Solver<Dim>::State {
   std::unique_ptr<Shape> shape{};
   Solution solution{};
   std::shared_ptr<const Reference> reference{};  // none before the first move
+  std::optional<Duals<Dim>> duals{};  // of the masks before, from which the next solve starts
 };
 
 template <int Dim>
@@ -372,7 +418,13 @@ template <int Dim>
 const Solution& Solver<Dim>::solve(const Budget& budget, const Observer& observer) {
   validate(budget);
   try {
-    state_->solve_on(*state_->shape, nullptr, budget, 0, observer);
+    auto& [problem, coarse, distances] = static_cast<NestedProblem<Dim>&>(*state_->shape);
+    if (const auto duals = std::exchange(state_->duals, std::nullopt)) {
+      const Transfer<Dim> transfer(problem, *duals, problem);
+      state_->solve_on(*state_->shape, &transfer, budget, 0, observer);
+    } else {
+      state_->solve_on(*state_->shape, nullptr, budget, 0, observer);
+    }
   } catch (...) {
     restart();
     throw;
@@ -385,7 +437,7 @@ const Solution& Solver<Dim>::move(const PointList<Dim>& control_points, const Bu
                                   const Observer& observer) {
   validate(budget);
   auto& state = *state_;
-  if (state.solution.weights.num_points() == 0) solve({}, observer);
+  if (state.solution.weights.num_points() == 0 || state.duals) solve({}, observer);
   Stopwatch watch;
   const auto& before = *state.shape;
   const auto settings = plan::settings_of(state.options);
@@ -410,8 +462,10 @@ template <int Dim>
 void Solver<Dim>::set_options(const SolverOptions& options) {
   auto& state = *state_;
   require_valid(options, state.shape->cage.size());
-  if (state.shape->run->has_begun() && fixed_in_a_run(options) == fixed_in_a_run(state.options) &&
+  const bool has_begun = state.shape->run->has_begun() || state.duals;
+  if (has_begun && fixed_in_a_run(options) == fixed_in_a_run(state.options) &&
       !state.needs_other_phi(options)) {
+    if (options.masks != state.options.masks) state.change_masks(options.masks);
     state.options = options;
   } else {
     state.begin(state.shape->cage, state.shape->mesh, options);
@@ -421,6 +475,7 @@ void Solver<Dim>::set_options(const SolverOptions& options) {
 template <int Dim>
 void Solver<Dim>::restart() {
   state_->shape->run.emplace(state_->shape->problem);
+  state_->duals.reset();
 }
 
 template <int Dim>

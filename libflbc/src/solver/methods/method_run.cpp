@@ -143,9 +143,11 @@ bool MethodRun<Dim>::begin_on_active_set(const plan::Settings& settings,
   if (cold) {
     harmonic = active_set::cold_start(*problem_, plan::linear_solver(sizes, settings.method));
   }
-  auto active = cold ? std::move(harmonic.active)
-                     : active_set::active_from(*problem_, *start.from,
-                                               active_set::threshold_for(*settings.tolerance));
+  auto active = plan::active_set_is_complete(sizes, settings, cold)
+                    ? active_set::all_allowed(*problem_)
+                : cold ? std::move(harmonic.active)
+                       : active_set::active_from(*problem_, *start.from,
+                                                 active_set::threshold_for(*settings.tolerance));
   if (!plan::active_set_pays(active_set::density(*problem_, active), settings)) return false;
   const auto from = cold ? harmonic.start : start.from->start();
   const auto parameters = weights_parameters(
@@ -181,7 +183,7 @@ Weights MethodRun<Dim>::solve(const plan::Settings& settings, const Reporter& re
   report.control_points = problem_->num_control_points();
   report.vertices = problem_->mesh.num_vertices();
   report.cells = problem_->mesh.num_cells();
-  if (is_active_ && plan::proves(settings)) iteration_ = nullptr;
+  if (is_active_ && plan::proves(settings) && !can_certify()) iteration_ = nullptr;
   if (!iteration_) {
     begin(settings, start);
     state_ = RunState{make_stop_rule(settings)};

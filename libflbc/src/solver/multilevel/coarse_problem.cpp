@@ -74,6 +74,21 @@ DistanceMatrix choose_distances(const CoarseProblem<Dim>& coarse, const LbcProbl
   return distances;
 }
 
+// Those of the vertices that both meshes have.
+template <int Dim>
+PointMasks masks_on_coarse(const PointMasks& masks, const CoarseProblem<Dim>& coarse) {
+  std::vector<Mask> on_coarse;
+  for (Index v = 0; v < static_cast<Index>(coarse.ends.size()); ++v) {
+    const auto [a, b] = coarse.ends[v];
+    const auto& boundary = coarse.problem.boundary;
+    if (a == b && masks.at(v) && boundary.is_interior(a)) {
+      on_coarse.push_back({masks.forbidden(v), {a}});
+    }
+  }
+  if (on_coarse.empty()) return {};
+  return {on_coarse, coarse.problem.num_control_points(), coarse.problem.mesh.num_vertices()};
+}
+
 // For any method.
 template <int Dim>
 std::optional<CoarseProblem<Dim>> make_coarse(const LbcProblem<Dim>& problem, DistanceScheme phi) {
@@ -87,6 +102,7 @@ std::optional<CoarseProblem<Dim>> make_coarse(const LbcProblem<Dim>& problem, Di
     return {};
   }
   made->problem.smoothness = problem.smoothness;
+  made->problem.masks = masks_on_coarse(problem.masks, *made);
   set_phi(made->problem, phi);
   return made;
 }

@@ -28,9 +28,16 @@ LinearSolver linear_solver(const Sizes& sizes, Method method) {
 bool active_set(const Sizes& sizes, const Settings& settings) {
   const auto [dim, n, vertices] = sizes;
   if (settings.method != Method::kWeights || n > kMostActiveControlPoints) return false;
+  if (!settings.masks.empty()) return true;
   if (settings.active_set != ActiveSet::kAuto) return settings.active_set == ActiveSet::kOn;
   if (static_cast<double>(n) * vertices < kActivePairs) return false;
   return dim == 3 && n >= kActiveControlPoints && !proves(settings);
+}
+
+bool active_set_is_complete(const Sizes& sizes, const Settings& settings, bool cold) {
+  if (settings.masks.empty()) return false;
+  const double pairs = static_cast<double>(sizes.control_points) * sizes.vertices;
+  return proves(settings) || (cold && pairs < kActivePairs);
 }
 
 bool proves(const Settings& settings) {
@@ -38,7 +45,8 @@ bool proves(const Settings& settings) {
 }
 
 bool active_set_pays(double density, const Settings& settings) {
-  return settings.active_set == ActiveSet::kOn || density <= kActiveDensity;
+  return settings.active_set == ActiveSet::kOn || !settings.masks.empty() ||
+         density <= kActiveDensity;
 }
 
 double penalty_unit(Method method, int dim, double size) {

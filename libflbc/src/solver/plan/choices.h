@@ -33,8 +33,13 @@ LinearSolver linear_solver(const Sizes& sizes, Method method);
 //! Indices of control points in an active set are stored in 16 bits.
 constexpr Index kMostActiveControlPoints = 65000;
 
-//! Whether to try an active set, because it may be faster and supports all settings.
+//! Whether to try an active set, because it may be faster and supports all settings, or because
+//! there are masks.
 bool active_set(const Sizes& sizes, const Settings& settings);
+
+//! Whether the active set has all pairs that masks allow. A small problem starts so without others,
+//! because masks move weights to control points that harmonic coordinates do not find.
+bool active_set_is_complete(const Sizes& sizes, const Settings& settings, bool cold);
 
 //! Whether a certificate is wanted, which needs the duals of all pairs.
 bool proves(const Settings& settings);

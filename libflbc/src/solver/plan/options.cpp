@@ -25,6 +25,19 @@ void validate_gap(const SolverOptions& options) {
   }
 }
 
+void validate_masks(const SolverOptions& options) {
+  if (options.masks.empty()) return;
+  if (options.method != Method::kWeights) {
+    throw OptionError("masks are for the method weights only; leave out masks or method");
+  }
+  if (options.non_negative == NonNegative::kOff) {
+    throw OptionError("masks need weights >= 0; leave out non_negative off");
+  }
+  if (options.active_set == ActiveSet::kOff) {
+    throw OptionError("masks need an active set; leave out active_set off");
+  }
+}
+
 }  // namespace
 
 void validate(const SolverOptions& options) {
@@ -43,6 +56,7 @@ void validate(const SolverOptions& options) {
         "non_negative constraint is for the methods weights and lbc2014 only; choose project");
   }
   validate_gap(options);
+  validate_masks(options);
   if (options.active_set == ActiveSet::kOn && (options.certify || options.gap.value_or(0) > 0)) {
     throw OptionError(
         "active_set on has no certificate, which needs the duals of all pairs; choose active_set "

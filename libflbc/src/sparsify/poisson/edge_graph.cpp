@@ -7,10 +7,10 @@
 namespace flbc {
 namespace {
 
-// For every point, the first point with the same position and weights.
+// For every point, the first point with the same position, weights, and masks.
 template <int Dim>
-std::vector<Index> find_representatives(const PointList<Dim>& points,
-                                        const SparseWeights& weights) {
+std::vector<Index> find_representatives(const PointList<Dim>& points, const SparseWeights& weights,
+                                        const PointMasks& masks) {
   std::vector<Index> order(points.cols()), representatives(points.cols());
   std::iota(order.begin(), order.end(), 0);
   const auto is_before = [&](Index a, Index b) {
@@ -24,7 +24,7 @@ std::vector<Index> find_representatives(const PointList<Dim>& points,
     const Index point = order[k];
     if (k == 0 || is_before(order[k - 1], point)) distinct.clear();
     const auto same = std::find_if(distinct.begin(), distinct.end(), [&](Index other) {
-      return weights.at(other) == weights.at(point);
+      return masks.same(other, point) && weights.at(other) == weights.at(point);
     });
     representatives[point] = same == distinct.end() ? point : *same;
     if (same == distinct.end()) distinct.push_back(point);
@@ -36,8 +36,8 @@ std::vector<Index> find_representatives(const PointList<Dim>& points,
 
 template <int Dim>
 EdgeGraph::EdgeGraph(const PointList<Dim>& points, const SparseWeights& weights,
-                     const EdgeList& edges)
-    : representatives_(find_representatives<Dim>(points, weights)) {
+                     const EdgeList& edges, const PointMasks& masks)
+    : representatives_(find_representatives<Dim>(points, weights, masks)) {
   neighbours_ = items_by_vertex<Neighbour>(points.cols(), [&](const auto& visit) {
     for (std::size_t e = 0; e < edges.ends.size(); ++e) {
       const Index a = representatives_[edges.ends[e][0]];
@@ -90,7 +90,9 @@ void EdgeGraph::color(const std::vector<Block>& blocks) {
   }
 }
 
-template EdgeGraph::EdgeGraph(const PointList<2>&, const SparseWeights&, const EdgeList&);
-template EdgeGraph::EdgeGraph(const PointList<3>&, const SparseWeights&, const EdgeList&);
+template EdgeGraph::EdgeGraph(const PointList<2>&, const SparseWeights&, const EdgeList&,
+                              const PointMasks&);
+template EdgeGraph::EdgeGraph(const PointList<3>&, const SparseWeights&, const EdgeList&,
+                              const PointMasks&);
 
 }  // namespace flbc

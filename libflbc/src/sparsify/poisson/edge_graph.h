@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "flbc/domain_mesh.h"
+#include "flbc/masks.h"
 #include "flbc/sparse_weights.h"
 #include "mesh/vertex_cells.h"
 
 namespace flbc {
 
-//! Coincident points with equal weights are merged, including their edges, so that duplicated
-//! vertices (for example at texture seams) do not separate.
+//! Coincident points with equal weights and masks are merged, including their edges, so that
+//! duplicated vertices (for example at texture seams) do not separate.
 class EdgeGraph {
  public:
   struct Neighbour {
@@ -20,9 +21,10 @@ class EdgeGraph {
     double weight;
   };
 
-  //! \param points  Dim x P \param weights  of P points \param edges  validated
+  //! \param points  Dim x P \param weights, masks  of P points \param edges  validated
   template <int Dim>
-  EdgeGraph(const PointList<Dim>& points, const SparseWeights& weights, const EdgeList& edges);
+  EdgeGraph(const PointList<Dim>& points, const SparseWeights& weights, const EdgeList& edges,
+            const PointMasks& masks);
 
   //! The representative of a point: the first of its merged points.
   Index representative(Index point) const { return representatives_[point]; }

@@ -57,9 +57,9 @@ SparseWeights in_order(const SparseWeights& weights, const std::vector<Index>& o
           std::move(values)};
 }
 
-EdgeList renumbered(EdgeList edges, const std::vector<Index>& number_of) {
-  for (auto& ends : edges.ends) ends = {number_of[ends[0]], number_of[ends[1]]};
-  return edges;
+template <class Numbers>
+void renumber(Numbers& points, const std::vector<Index>& number_of) {
+  for (auto& point : points) point = number_of[point];
 }
 
 // Over-relaxes if no control point was removed, but at most half the way to zero, so that none is
@@ -96,7 +96,7 @@ class PoissonDescent {
   PoissonDescent(const PoissonEnergy& energy, const EdgeGraph& graph,
                  const PointList<Dim>& control_points, const PointList<Dim>& points,
                  const SparseWeights& given, const SparseWeights& projected,
-                 const SparsifyOptions& options)
+                 const SparsifyOptions& options, const PointMasks& masks)
       : energy_(energy),
         graph_(graph),
         control_points_(control_points),
@@ -104,6 +104,7 @@ class PoissonDescent {
         given_(given),
         projected_(projected),
         options_(options),
+        masks_(masks),
         sparsifier_(control_points, options),
         stiffness_(points.cols()),
         fixed_(points.cols()),
@@ -250,6 +251,7 @@ class PoissonDescent {
     for (const auto& neighbour : graph_.neighbours_of(point)) {
       if (starts[neighbour.point] == Start::kNone) continue;
       const auto& support = weights_[neighbour.point].support;
+      if (!masks_.permits(point, support)) continue;
       if (support == best.support || !qp.solve(support, best.cost, work.best)) continue;
       if (work.best.cost < best.cost) best = work.best;
     }
@@ -419,6 +421,7 @@ class PoissonDescent {
       const auto& support = weights_[neighbour.point].support;
       // A point without weights does not move; see project_non_negative().
       if (support.empty() || static_cast<Index>(support.size()) > options_.max_influences) continue;
+      if (!masks_.permits(point, support)) continue;
       const auto& may_enter = work.may_enter;
       if (options_.threshold > 0 &&
           !std::includes(may_enter.begin(), may_enter.end(), support.begin(), support.end())) {
@@ -436,6 +439,7 @@ class PoissonDescent {
   const SparseWeights& given_;
   const SparseWeights& projected_;
   SparsifyOptions options_;
+  const PointMasks& masks_;
   PointSparsifier<Dim> sparsifier_;
   std::vector<double> stiffness_;  // per point: the sum of k_ab and pin m_a
   std::vector<char> fixed_;
@@ -453,17 +457,19 @@ class PoissonDescent {
 
 template <int Dim>
 SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                                const EdgeList& edges, const SparseWeights& given,
+                                const EdgeList& edges, const SparseWeights& weights,
                                 const std::vector<PointList<Dim>>& poses,
                                 const SparsifyOptions& options) {
   validate(edges, points.cols());
   validate<Dim>(options);
   const StageScope scope(options.progress);
   constexpr double kStart = 0.3;  // share of the time
+  const auto masks = masks_of(options, weights);
   const auto projected = [&] {
     const StagePart part(0, kStart / 2);
-    return project_non_negative(control_points, points, given);  // checks the input
+    return project_non_negative(control_points, points, weights, {}, masks);  // checks the input
   }();
+  const auto& given = masks.empty() ? weights : projected;  // masked influences never enter
   const auto energy = make_poisson_energy<Dim>(control_points, points, edges, poses);
   // Close points get close numbers, so that they share cache lines.
   const auto order = spatial_order<Dim>(points);
@@ -472,9 +478,14 @@ SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const Poin
   const PointList<Dim> sorted_points = points(Eigen::all, order);
   const auto sorted_given = in_order(given, order);
   const auto sorted_projected = in_order(projected, order);
-  const EdgeGraph graph(sorted_points, sorted_given, renumbered(edges, place));
+  SparsifyOptions sorted_options = options;
+  for (auto& mask : sorted_options.masks) renumber(mask.points, place);
+  const auto sorted_masks = masks_of(sorted_options, sorted_given);
+  EdgeList sorted_edges = edges;
+  for (auto& ends : sorted_edges.ends) renumber(ends, place);
+  const EdgeGraph graph(sorted_points, sorted_given, sorted_edges, sorted_masks);
   PoissonDescent<Dim> descent(energy, graph, control_points, sorted_points, sorted_given,
-                              sorted_projected, options);
+                              sorted_projected, options, sorted_masks);
   {
     const StagePart part(kStart / 2, kStart);
     descent.start();

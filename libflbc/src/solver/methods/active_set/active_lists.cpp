@@ -77,6 +77,20 @@ bool is_feasible(const LbcProblem<Dim>& problem, Index v, const Flags& flags) {
   return nearest_point_in_hull<Dim>(points, point).distance <= tolerance;
 }
 
+void apply_masks(const PointMasks& masks, Index v, Flags& flags) {
+  if (!masks.at(v)) return;
+  for (const Index i : masks.forbidden(v)) flags[i] = false;
+}
+
+// Adds the few allowed control points nearest to whose hull a masked vertex lies.
+template <int Dim>
+void add_carriers(const LbcProblem<Dim>& problem, Index v, Flags& flags) {
+  const auto allowed = problem.masks.allowed(v);
+  const auto nearest = nearest_point_in_hull<Dim>(problem.cage.points(Eigen::all, allowed),
+                                                  problem.mesh.points.col(v));
+  for (int k = 0; k < nearest.size; ++k) flags[allowed[nearest.support[k]]] = true;
+}
+
 // Adds the control points that every vertex needs: next to a facet those of the weights on the
 // facet. \param weights  feasible ones of an interior vertex \param set  as in lists_of()
 template <int Dim, class Set>
@@ -98,7 +112,11 @@ ActiveLists completed(const LbcProblem<Dim>& problem, const VectorsAt<1>& weight
         if (!boundary.is_interior(u)) add_known(u, flags);
       }
     }
-    if (!is_feasible(problem, v, flags)) flags = flags || weights(v).array() > 0;
+    apply_masks(problem.masks, v, flags);
+    if (is_feasible(problem, v, flags)) return;
+    flags = flags || weights(v).array() > 0;
+    apply_masks(problem.masks, v, flags);
+    if (problem.masks.at(v) && !is_feasible(problem, v, flags)) add_carriers(problem, v, flags);
   });
 }
 
@@ -126,6 +144,13 @@ ActiveLists active_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& weight
   const auto near = near_lists(problem.mesh, problem.num_control_points(),
                                [&](Index v) { return (of_vertex(v).array() > threshold).eval(); });
   return completed(problem, weights, [&](Index v, Flags& flags) { add(near.of(v), flags); });
+}
+
+template <int Dim>
+ActiveLists all_allowed(const LbcProblem<Dim>& problem) {
+  return completed(
+      problem, [&](Index) { return Eigen::VectorXd::Zero(problem.num_control_points()).eval(); },
+      [&](Index, Flags& flags) { flags.setConstant(true); });
 }
 
 template <int Dim>
@@ -174,7 +199,10 @@ ActiveLists grown(const LbcProblem<Dim>& problem, const ActiveLists& active, dou
   const VertexCells around(mesh);
   return lists_of(mesh.num_vertices(), n, [&](Index v, Flags& flags) {
     add(active.of(v), flags);
-    if (problem.boundary.is_interior(v)) add_around(mesh, around, reaching, v, flags);
+    if (problem.boundary.is_interior(v)) {
+      add_around(mesh, around, reaching, v, flags);
+      apply_masks(problem.masks, v, flags);
+    }
   });
 }
 
@@ -198,7 +226,8 @@ double squared_at_ends(const LbcProblem<Dim>& problem, const ActiveLists& active
       const auto list = active.of(interior[k]);
       for (const ControlPoint* i = list.first; i != list.last; ++i) {
         const bool is_end = std::any_of(neighbours.begin(), neighbours.end(), [&](Index u) {
-          return !std::binary_search(active.of(u).first, active.of(u).last, *i);
+          return !std::binary_search(active.of(u).first, active.of(u).last, *i) &&
+                 !problem.masks.forbids(u, *i);
         });
         if (!is_end) continue;
         const double w = weight(interior[k], static_cast<Index>(i - list.first));
@@ -220,6 +249,7 @@ double density(const LbcProblem<Dim>& problem, const ActiveLists& active) {
 
 FLBC_INSTANTIATE_FUNCTION(active_from)
 FLBC_INSTANTIATE_FUNCTION(active_of)
+FLBC_INSTANTIATE_FUNCTION(all_allowed)
 FLBC_INSTANTIATE_FUNCTION(where_weights_are)
 FLBC_INSTANTIATE_FUNCTION(cold_start)
 FLBC_INSTANTIATE_FUNCTION(grown)

@@ -37,6 +37,10 @@ template <int Dim>
 ActiveLists active_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights,
                       double threshold);
 
+//! All control points that masks allow.
+template <int Dim>
+ActiveLists all_allowed(const LbcProblem<Dim>& problem);
+
 //! The flux densities of a start near weights above the threshold; zero elsewhere.
 template <int Dim>
 VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>& problem, const Start<Dim>& start,

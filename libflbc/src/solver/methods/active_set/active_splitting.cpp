@@ -7,6 +7,7 @@
 #include "base/flush_denormals.h"
 #include "base/instantiate.h"
 #include "base/parallel.h"
+#include "mesh/cell_geometry.h"
 #include "solver/plan/constants.h"
 
 namespace flbc::active_set {
@@ -27,6 +28,18 @@ std::vector<Index> vertices_of_rows(const LbcProblem<Dim>& problem,
   const auto& boundary = problem.boundary.vertices;
   vertices.insert(vertices.end(), boundary.begin(), boundary.end());
   return vertices;
+}
+
+// Whether masks exclude all pairs that are not active.
+template <int Dim>
+bool has_all_allowed(const LbcProblem<Dim>& problem, const ActiveLists& active) {
+  if (problem.masks.empty()) return false;
+  std::size_t missing = 0, masked = 0;
+  for (const Index v : problem.boundary.interior_vertices()) {
+    missing += problem.num_control_points() - (active.start[v + 1] - active.start[v]);
+    masked += problem.masks.forbidden(v).size();
+  }
+  return missing == masked;
 }
 
 PackedLists lists_of(const ActiveLists& active, const std::vector<Index>& vertices,
@@ -59,6 +72,7 @@ ActiveSplitting<Scalar, Dim>::ActiveSplitting(const LbcProblem<Dim>& problem,
   rows_ = {lists_->size(), lists_->starts[data_.vertices.size()], metric_.vertex.size() > 0};
   left_ = AlignedArray<Scalar>(patches_.num_left);
   P_ = AlignedArray<Scalar>(Dim * patches_.radius.size());
+  complete_ = has_all_allowed(problem, active_);
 }
 
 template <class Scalar, int Dim>
@@ -228,6 +242,23 @@ template <class Scalar, int Dim>
 Weights ActiveSplitting<Scalar, Dim>::weights() const {
   const auto of_vertex = with_known_values(problem_, this->state().weights);
   return {{}, SparseWeights::of(n_, problem_.mesh.num_vertices(), of_vertex)};
+}
+
+template <class Scalar, int Dim>
+Certificate ActiveSplitting<Scalar, Dim>::certify(const WeightMatrix& weights, Proof* proof) const {
+  const auto density = this->state().flux_density;
+  const auto stride = static_cast<std::size_t>(n_);
+  std::vector<Scalar> flux(Dim * stride * problem_.mesh.num_cells());
+  parallel_for(problem_.mesh.num_cells(), [&](Index s) {
+    const Vectors<Dim> p = cell_geometry(problem_.mesh, s).measure * density(s);
+    for (int d = 0; d < Dim; ++d) {
+      for (Index i = 0; i < n_; ++i) {
+        flux[(s * Dim + d) * stride + i] = static_cast<Scalar>(p(i, d));
+      }
+    }
+  });
+  return flbc::certify(problem_, CellFieldView<Scalar, Dim>{flux.data(), stride, n_}, weights,
+                       proof);
 }
 
 template <class Scalar, int Dim>

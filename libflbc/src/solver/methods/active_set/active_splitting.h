@@ -31,9 +31,9 @@ class ActiveSplitting final : public splitting::Splitting<Scalar, Dim> {
 
   Weights weights() const override;
 
-  //! Duals are known only for active pairs.
-  bool can_certify() const override { return false; }
-  Certificate certify(const WeightMatrix&, Proof*) const override { return {}; }
+  //! Only if all pairs that masks allow are active: duals of others are not known.
+  bool can_certify() const override { return complete_; }
+  Certificate certify(const WeightMatrix& weights, Proof* proof) const override;
 
   void describe(SolveReport& report) const override;
 
@@ -70,6 +70,7 @@ class ActiveSplitting final : public splitting::Splitting<Scalar, Dim> {
   std::unique_ptr<ActiveMultigrid<Scalar, Dim>> multigrid_;
   AlignedArray<Scalar> left_;
   int growths_ = 0;
+  bool complete_ = false;
 };
 
 }  // namespace flbc::active_set

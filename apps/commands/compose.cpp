@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// flbc compose: weights for the control points that move a cage.
+#include <iostream>
+#include <memory>
+
+#include "commands/commands.h"
+#include "files/load.h"
+#include "flbc/compose.h"
+#include "flbc/io/weights_io.h"
+#include "flbc/quality.h"
+
+namespace flbc::app {
+namespace {
+
+struct ComposeArguments {
+  std::string weights, map, output;
+  bool quiet = false;
+};
+
+void compose_files(const ComposeArguments& arguments) {
+  require_writable(arguments.output, {io::Content::kWeights});
+  require_distinct({arguments.weights, arguments.map}, {arguments.output});
+  const auto weights = io::read_weights(arguments.weights);
+  const auto map = io::read_weights(arguments.map);
+  const auto composed = naming(arguments.map, [&] { return compose(weights, map); });
+  io::write_weights(arguments.output, composed);
+  if (arguments.quiet) return;
+  std::cerr << arguments.output << ": " << composed.num_points() << " vertices, "
+            << composed.num_control_points() << " control points, at most "
+            << count_influences(composed).max << " influences per vertex\n";
+}
+
+}  // namespace
+
+void add_compose_command(CLI::App& app, int&) {
+  auto arguments = std::make_shared<ComposeArguments>();
+  auto& a = *arguments;
+  auto* command = app.add_subcommand("compose", "compute weights for the cage of a cage");
+  command->footer(
+      "If the control points of WEIGHTS follow others by the weights in MAP, the product of both\n"
+      "moves the model by those others. Limit its influences by flbc sparsify.");
+  command->add_option("WEIGHTS", a.weights, std::string("weights: ") + kWeightFormats)->required();
+  command
+      ->add_option("MAP", a.map,
+                   "weights of the control points of WEIGHTS: a row for each, at least 0, sum 1")
+      ->required();
+  command->add_option("-o,--output", a.output, std::string("new weights: ") + kWeightFormats)
+      ->required();
+  command->add_flag("-q,--quiet", a.quiet, "print only errors");
+  command->callback([arguments] { compose_files(*arguments); });
+}
+
+}  // namespace flbc::app

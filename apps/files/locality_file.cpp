@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "files/locality_file.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "files/load.h"
+#include "flbc/errors.h"
+#include "flbc/io/files.h"
+#include "flbc/io/formats.h"
+#include "flbc/place_masks.h"
+
+namespace flbc::app {
+namespace {
+
+using LocalityJson = nlohmann::json;
+
+// The vertices of the faces, lines, and points that follow "g NAME" in a .obj file.
+std::vector<Index> vertices_of_group(const std::string& model, const std::string& name) {
+  if (io::extension_of(model) != "obj") {
+    throw InputError("group \"" + name +
+                     "\": only .obj models have groups; give vertices or a box");
+  }
+  std::istringstream file(io::read_file(model));
+  std::vector<Index> vertices;
+  Index count = 0;  // of the vertices so far, to which negative numbers refer
+  bool is_inside = false, is_known = false;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string word;
+    words >> word;
+    if (word == "v") ++count;
+    if (word == "g") {
+      is_inside = false;
+      while (words >> word) is_inside = is_inside || word == name;
+      is_known = is_known || is_inside;
+    } else if (is_inside && (word == "f" || word == "l" || word == "p")) {
+      while (words >> word) {
+        const auto number = static_cast<Index>(std::strtol(word.c_str(), nullptr, 10));
+        vertices.push_back(number < 0 ? count + number : number - 1);
+      }
+    }
+  }
+  if (!is_known) throw InputError("group \"" + name + "\" is not in " + model);
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+template <int Dim>
+std::vector<Index> points_in_box(const LocalityJson& box, const PointList<Dim>& points) {
+  const auto corner = [&](int k) {
+    const auto numbers = box.at(k).get<std::vector<double>>();
+    if (numbers.size() != Dim)
+      throw InputError("a box needs corners of " + std::to_string(Dim) + " numbers, not " +
+                       std::to_string(numbers.size()));
+    return Vector<Dim>(Vector<Dim>::Map(numbers.data()));
+  };
+  const Vector<Dim> low = corner(0), high = corner(1);
+  std::vector<Index> inside;
+  for (Index p = 0; p < points.cols(); ++p) {
+    const auto x = points.col(p).array();
+    if ((x >= low.array()).all() && (x <= high.array()).all()) inside.push_back(p);
+  }
+  return inside;
+}
+
+template <int Dim>
+std::vector<Index> indices_of(const LocalityJson& chosen, const PointList<Dim>& points,
+                              const std::string& model) {
+  if (chosen.is_array()) return chosen.get<std::vector<Index>>();
+  if (chosen.contains("vertices")) return chosen["vertices"].get<std::vector<Index>>();
+  if (chosen.contains("box")) return points_in_box<Dim>(chosen["box"], points);
+  if (chosen.contains("group") && !model.empty()) {
+    return vertices_of_group(model, chosen["group"].get<std::string>());
+  }
+  throw InputError(
+      "give a list of numbers, {\"vertices\": [...]}, {\"box\": [lowest, highest]}, or, for "
+      "regions "
+      "of a model, {\"group\": name}");
+}
+
+}  // namespace
+
+CLI::Option* add_locality_option(CLI::App& command, std::string& path) {
+  return command.add_option("--locality", path,
+                            "masks: a .json list of control points and the regions that they must "
+                            "not move, where their weights become exactly 0");
+}
+
+template <int Dim>
+std::vector<flbc::Mask> load_locality(const std::string& path, const Cage<Dim>& cage,
+                                      const PointList<Dim>& points, const std::string& model) {
+  std::vector<flbc::Mask> masks;
+  if (path.empty()) return masks;
+  std::string entry;  // that is read
+  try {
+    for (const auto& mask : LocalityJson::parse(io::read_file(path))) {
+      entry = "entry " + std::to_string(masks.size()) + ": ";
+      masks.push_back({indices_of<Dim>(mask.at("control_points"), cage.points, ""),
+                       indices_of<Dim>(mask.at("region"), points, model)});
+      if (masks.back().control_points.empty() || masks.back().points.empty()) {
+        throw InputError("no control points or no vertices are chosen");
+      }
+    }
+    entry.clear();
+    PointMasks(masks, cage.size(), static_cast<Index>(points.cols()));  // checks the numbers
+  } catch (const LocalityJson::exception& error) {
+    throw InputError(path + ": " + entry + "not a list of masks: " + error.what());
+  } catch (const InputError& error) {
+    throw InputError(path + ": " + entry + error.what());
+  }
+  return masks;
+}
+
+template <int Dim>
+std::vector<flbc::Mask> load_locality_inside(const std::string& path, const Cage<Dim>& cage,
+                                             const PointList<Dim>& points,
+                                             const std::string& model) {
+  return end_at_facets(cage, points, load_locality(path, cage, points, model));
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                                \
+  template std::vector<flbc::Mask> load_locality(const std::string&, const Cage<Dim>&,       \
+                                                 const PointList<Dim>&, const std::string&); \
+  template std::vector<flbc::Mask> load_locality_inside(                                     \
+      const std::string&, const Cage<Dim>&, const PointList<Dim>&, const std::string&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc::app

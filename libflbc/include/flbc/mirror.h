@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Exact mirror symmetry of weights, also where mesh and model are not symmetric.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "flbc/domain_mesh.h"
+#include "flbc/masks.h"
+#include "flbc/placement.h"
+
+namespace flbc {
+
+//! A part of a model, for a reduction.
+template <int Dim>
+struct ModelPart {
+  PointList<Dim> points;
+  EdgeList edges;
+  SparseWeights weights;
+  std::vector<Mask> masks;
+};
+
+//! A model in a cage that is symmetric across a plane (2D: line) x, y, or z = constant. With s(i)
+//! the mirror image of control point i and M the mirror, the weights (w_i(x) + w_s(i)(M x)) / 2 are
+//! non-negative, sum to 1, reproduce x, and do not increase the objective. They are bit-identical
+//! at M x for s(i).
+template <int Dim>
+class MirroredModel {
+ public:
+  //! \param axis  normal to the plane, which is in the middle of the cage
+  //! \param points  Dim x P. Two of them are mirror images if they are so up to 1e-12 of cage size
+  //! \throws OptionError if there is no such axis; InputError naming the first control point without
+  //! a mirror image
+  MirroredModel(const Cage<Dim>& cage, int axis, const PointList<Dim>& points);
+
+  //! Adds the mirror images of masks of P points.
+  std::vector<Mask> symmetrized(std::vector<Mask> masks) const;
+
+  //! Makes weights symmetric. \param at  returns weights at given points \param weights  of P
+  //! points
+  SparseWeights symmetrized(
+      const SparseWeights& weights,
+      const std::function<SparseWeights(const PointList<Dim>& points)>& at) const;
+
+  //! Reduces symmetric weights on one half, and mirrors the result. Points in the plane keep
+  //! symmetric weights if these are within the limit.
+  //! \param model  P points with symmetric weights \param most  maximum influences per point
+  //! \param reduce  reduces the influences of a part to at most so many
+  //! \return weights of P points
+  SparseWeights reduced(
+      const ModelPart<Dim>& model, Index most,
+      const std::function<SparseWeights(const ModelPart<Dim>& part, Index most)>& reduce) const;
+
+ private:
+  Eigen::VectorXd mirrored(const Eigen::VectorXd& weights) const { return weights(image_); }
+  PointList<Dim> mirrored(const PointList<Dim>& points) const;
+
+  int axis_;
+  double place_;              // of the plane
+  std::vector<Index> image_;  // of each control point
+  PointList<Dim> points_;
+  std::vector<Index> partner_;  // of each point; -1: none
+};
+
+}  // namespace flbc

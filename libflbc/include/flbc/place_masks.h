@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Masks of a model: from its points to the domain mesh, and back to exact zeros at the points.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "flbc/masks.h"
+#include "flbc/placement.h"
+
+namespace flbc {
+
+//! Masks of the points of a model, prepared for each step of a bind.
+struct PlacedMasks {
+  std::vector<Mask> of_mesh{};     //!< SolverOptions::masks: the corners of the cells of the points
+  std::vector<Mask> of_points{};   //!< without those that end at facets; SparsifyOptions::masks
+  std::vector<Mask> of_outside{};  //!< of points with the weights of OutsidePoints::kExtend
+  Index masked = 0;                //!< number of masked points
+  Index on_facets = 0;             //!< those on facets of masked control points, which move them
+
+  //! About the points on facets; empty if there are none.
+  std::string note() const;
+};
+
+//! The masks without those that end at facets: a point on a facet keeps its known weights.
+//! \param on_facets  output: the number of these points; may be null
+template <int Dim>
+std::vector<Mask> end_at_facets(const Cage<Dim>& cage, const PointList<Dim>& points,
+                                const std::vector<Mask>& masks, Index* on_facets = nullptr);
+
+//! Prepares masks. Vertices of the mesh that cannot obey are left out, because enforce_masks()
+//! makes weights of the points exactly 0.
+//! \param placement  of P points, in the mesh \param masks  of the P points
+//! \throws InputError if points cannot obey, naming their number, the first, and the control points
+//! to free; also as PointMasks
+template <int Dim>
+PlacedMasks place_masks(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                        const Placement<Dim>& placement, const std::vector<Mask>& masks);
+
+//! Makes masked weights exactly 0, with the smallest change of the others. Weights that obey are
+//! unchanged.
+//! \param weights  of P points, as returned by weights_at() \param masks  of the placement
+//! \return weights of P points, which reproduce placement.points
+//! \throws InputError if the control points that may move a point outside are coplanar
+template <int Dim>
+SparseWeights enforce_masks(const Cage<Dim>& cage, const Placement<Dim>& placement,
+                            const SparseWeights& weights, const PlacedMasks& masks);
+
+}  // namespace flbc

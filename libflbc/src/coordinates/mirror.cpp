@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/mirror.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <numeric>
+#include <string>
+
+#include "base/messages.h"
+#include "flbc/bounding_box.h"
+#include "flbc/errors.h"
+
+namespace flbc {
+namespace {
+
+// Numbers of points whose images are the given ones, up to a tolerance; -1 for none.
+template <int Dim>
+std::vector<Index> find_partners(const PointList<Dim>& points, const PointList<Dim>& images,
+                                 double tolerance) {
+  std::vector<Index> order(points.cols()), partners(points.cols(), -1);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return points(Dim - 1, a) < points(Dim - 1, b); });
+  std::vector<bool> taken(points.cols(), false);
+  for (Index p = 0; p < points.cols(); ++p) {
+    if (partners[p] >= 0) continue;
+    const Vector<Dim> image = images.col(p);
+    if ((points.col(p) - image).norm() <= tolerance) {
+      partners[p] = p;
+      taken[p] = true;
+      continue;
+    }
+    auto k = std::lower_bound(order.begin(), order.end(), image[Dim - 1] - tolerance,
+                              [&](Index a, double height) { return points(Dim - 1, a) < height; });
+    for (; k != order.end() && points(Dim - 1, *k) <= image[Dim - 1] + tolerance; ++k) {
+      if (taken[*k] || (points.col(*k) - image).norm() > tolerance) continue;
+      partners[p] = *k;
+      partners[*k] = p;
+      taken[p] = taken[*k] = true;
+      break;
+    }
+  }
+  return partners;
+}
+
+}  // namespace
+
+template <int Dim>
+MirroredModel<Dim>::MirroredModel(const Cage<Dim>& cage, int axis, const PointList<Dim>& points)
+    : axis_(axis), points_(points) {
+  if (axis < 0 || axis >= Dim) {
+    throw OptionError("a cage in " + std::to_string(Dim) + "D has no mirror axis " +
+                      std::to_string(axis));
+  }
+  constexpr double kSame = 1e-12;
+  const double tolerance = kSame * bounding_box_diagonal(cage.points);
+  place_ = (cage.points.row(axis).minCoeff() + cage.points.row(axis).maxCoeff()) / 2;
+  image_ = find_partners<Dim>(cage.points, mirrored(cage.points), tolerance);
+  const auto alone = std::find(image_.begin(), image_.end(), -1);
+  if (alone != image_.end()) {
+    throw InputError(
+        describe_control_point(cage.points, static_cast<Index>(alone - image_.begin())) +
+        " has no mirror image across " + "xyz"[axis] + " = " + format_number(place_) +
+        "; make a symmetric cage, or leave out the mirror");
+  }
+  partner_ = find_partners<Dim>(points, mirrored(points), tolerance);
+}
+
+template <int Dim>
+PointList<Dim> MirroredModel<Dim>::mirrored(const PointList<Dim>& points) const {
+  PointList<Dim> images = points;
+  images.row(axis_) = 2 * place_ - points.row(axis_).array();
+  return images;
+}
+
+template <int Dim>
+std::vector<Mask> MirroredModel<Dim>::symmetrized(std::vector<Mask> masks) const {
+  const auto given = masks;
+  PointMasks(given, static_cast<Index>(image_.size()),
+             static_cast<Index>(partner_.size()));  // checks
+  for (const auto& mask : given) {
+    Mask images;
+    for (const Index i : mask.control_points) images.control_points.push_back(image_[i]);
+    for (const Index p : mask.points) {
+      if (partner_[p] >= 0) images.points.push_back(partner_[p]);
+    }
+    masks.push_back(std::move(images));
+  }
+  return masks;
+}
+
+template <int Dim>
+SparseWeights MirroredModel<Dim>::symmetrized(
+    const SparseWeights& weights,
+    const std::function<SparseWeights(const PointList<Dim>&)>& at) const {
+  std::vector<Index> alone, number(partner_.size(), -1);
+  for (std::size_t p = 0; p < partner_.size(); ++p) {
+    if (partner_[p] >= 0) continue;
+    number[p] = static_cast<Index>(alone.size());
+    alone.push_back(static_cast<Index>(p));
+  }
+  SparseWeights elsewhere;
+  if (!alone.empty()) elsewhere = at(mirrored(points_)(Eigen::all, alone));
+  return SparseWeights::of(weights.num_control_points(), weights.num_points(),
+                           [&](Index p) -> Eigen::VectorXd {
+                             const Eigen::VectorXd image =
+                                 number[p] < 0 ? weights.at(partner_[p]) : elsewhere.at(number[p]);
+                             return (weights.at(p) + mirrored(image)) / 2;
+                           });
+}
+
+template <int Dim>
+SparseWeights MirroredModel<Dim>::reduced(
+    const ModelPart<Dim>& model, Index most,
+    const std::function<SparseWeights(const ModelPart<Dim>&, Index)>& reduce) const {
+  const auto count = static_cast<Index>(partner_.size());
+  const auto n = model.weights.num_control_points();
+  const PointMasks masks(model.masks, n, count);
+  // \param number  receives that of each chosen point, -1 for others
+  const auto part_of = [&](const std::vector<Index>& chosen, std::vector<Index>& number) {
+    number.assign(count, -1);
+    for (std::size_t k = 0; k < chosen.size(); ++k) number[chosen[k]] = static_cast<Index>(k);
+    ModelPart<Dim> part{model.points(Eigen::all, chosen), {}, {}, {}};
+    for (std::size_t e = 0; e < model.edges.ends.size(); ++e) {
+      const Index a = number[model.edges.ends[e][0]], b = number[model.edges.ends[e][1]];
+      if (a < 0 || b < 0) continue;
+      part.edges.ends.push_back({a, b});
+      if (!model.edges.weights.empty()) part.edges.weights.push_back(model.edges.weights[e]);
+    }
+    part.weights = SparseWeights::of(n, static_cast<Index>(chosen.size()),
+                                     [&](Index k) { return model.weights.at(chosen[k]); });
+    part.masks = masks.list([&](Index p) { return number[p] >= 0; });
+    for (auto& mask : part.masks) {
+      for (Index& point : mask.points) point = number[point];
+    }
+    return part;
+  };
+  std::vector<Index> half, plane;
+  for (Index p = 0; p < count; ++p) {
+    const Index other = partner_[p];
+    if (other == p) plane.push_back(p);
+    // One side, so that neighbors are reduced together.
+    const bool is_image = other >= 0 && model.points(axis_, p) < model.points(axis_, other);
+    if (!is_image || other == p) half.push_back(p);
+  }
+  std::vector<Index> in_half, in_plane;
+  const auto of_half = reduce(part_of(half, in_half), most);
+  // Half the influences, and their images.
+  SparseWeights of_plane;
+  if (most / 2 > Dim && !plane.empty()) of_plane = reduce(part_of(plane, in_plane), most / 2);
+  return SparseWeights::of(n, count, [&](Index p) -> Eigen::VectorXd {
+    if (in_half[p] < 0) return mirrored(of_half.at(in_half[partner_[p]]));
+    if (partner_[p] != p) return of_half.at(in_half[p]);
+    for (const auto* found : std::initializer_list<const SparseWeights*>{&of_half, &of_plane}) {
+      if (found->num_points() == 0) continue;
+      const Eigen::VectorXd weights = found->at(found == &of_half ? in_half[p] : in_plane[p]);
+      const Eigen::VectorXd both = (weights + mirrored(weights)) / 2;
+      if ((both.array() != 0).count() <= most) return both;
+    }
+    return of_half.at(in_half[p]);
+  });
+}
+
+template class MirroredModel<2>;
+template class MirroredModel<3>;
+
+}  // namespace flbc

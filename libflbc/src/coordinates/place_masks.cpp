@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/place_masks.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+#include "base/instantiate.h"
+#include "base/messages.h"
+#include "cage/facet_locator.h"
+#include "flbc/bounding_box.h"
+#include "flbc/errors.h"
+#include "flbc/non_negative.h"
+#include "linear/dense.h"
+#include "polytope/mask_conflicts.h"
+
+namespace flbc {
+namespace {
+
+// Masked control points by point.
+using Forbidden = std::map<Index, std::vector<Index>>;
+
+std::vector<Mask> list(const Forbidden& forbidden) {
+  std::map<std::vector<Index>, std::vector<Index>> points_of;
+  for (const auto& [point, control_points] : forbidden) {
+    if (!control_points.empty()) points_of[control_points].push_back(point);
+  }
+  std::vector<Mask> masks;
+  for (const auto& [control_points, points] : points_of) masks.push_back({control_points, points});
+  return masks;
+}
+
+// Frees the corners of the facets on which masked points lie.
+template <int Dim>
+class MaskEnds {
+ public:
+  // \param count  receives the number of points for which control points were freed
+  MaskEnds(const Cage<Dim>& cage, Forbidden& forbidden, Index& count)
+      : cage_(cage), forbidden_(forbidden), count_(count) {}
+
+  void end_at(Index point, Index facet, const Vector<Dim>& coordinates) {
+    const auto found = forbidden_.find(point);
+    if (found == forbidden_.end()) return;
+    auto& list = found->second;
+    const auto before = list.size();
+    for (int k = 0; k < Dim; ++k) {
+      if (coordinates[k] <= kRounding) continue;
+      list.erase(std::remove(list.begin(), list.end(), cage_.facets(k, facet)), list.end());
+    }
+    if (list.size() < before) ++count_;
+  }
+
+  // Points that are nearly on the cage, in the mesh.
+  void end_near_cage(const PointList<Dim>& points) {
+    const FacetLocator<Dim> locator(cage_, kNear * bounding_box_diagonal(cage_.points));
+    for (const auto& [point, control_points] : forbidden_) {
+      const auto place = locator.locate(points.col(point));
+      if (place.facet >= 0) end_at(point, place.facet, place.coordinates);
+    }
+  }
+
+ private:
+  static constexpr double kRounding = 1e-12, kNear = 1e-9;
+  const Cage<Dim>& cage_;
+  Forbidden& forbidden_;
+  Index& count_;
+};
+
+Forbidden forbidden_at(const PointMasks& masks) {
+  Forbidden forbidden;
+  for (const Index point : masks.points()) forbidden[point] = masks.forbidden(point);
+  return forbidden;
+}
+
+// Removes points from the first, and returns their masks.
+template <int Dim>
+Forbidden take(const std::vector<NearestOnCage<Dim>>& points, Forbidden& from) {
+  Forbidden taken;
+  for (const auto& nearest : points) {
+    const auto found = from.find(nearest.point);
+    if (found == from.end()) continue;
+    taken.insert(*found);
+    from.erase(found);
+  }
+  return taken;
+}
+
+// The masks of the corners of cells with masked points, except where vertices cannot obey.
+template <int Dim>
+std::vector<Mask> masks_of_cells(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                                 const Placement<Dim>& placement, const Forbidden& forbidden) {
+  Forbidden of_vertices;
+  for (const auto& [point, control_points] : forbidden) {
+    const Index cell = placement.places[point].cell;
+    if (cell < 0) continue;
+    for (const Index v : mesh.cells.col(cell)) {
+      auto& list = of_vertices[v];
+      if (std::includes(list.begin(), list.end(), control_points.begin(), control_points.end())) {
+        continue;
+      }
+      std::vector<Index> both;
+      std::set_union(list.begin(), list.end(), control_points.begin(), control_points.end(),
+                     std::back_inserter(both));
+      list = std::move(both);
+    }
+  }
+  const PointMasks masks(list(of_vertices), cage.size(), mesh.num_vertices());
+  const auto conflicts = mask_conflicts(cage.points, mesh.points, masks);
+  return masks.list(
+      [&](Index v) { return !std::binary_search(conflicts.begin(), conflicts.end(), v); });
+}
+
+// The nearest weights without the masked ones, of any sign; on their support if that suffices.
+template <int Dim>
+Eigen::VectorXd without_masked(const PointList<Dim>& control_points, const Vector<Dim>& point,
+                               const PointMasks& masks, Index p, Eigen::VectorXd weights) {
+  constexpr double kExact = 1e-13;
+  const double size = bounding_box_diagonal(control_points);
+  weights(masks.forbidden(p)).setZero();
+  std::vector<Index> support;
+  for (const Index i : masks.allowed(p)) {
+    if (weights[i] != 0) support.push_back(i);
+  }
+  for (const auto& some : {support, masks.allowed(p)}) {
+    Eigen::MatrixXd sums(Dim + 1, some.size());
+    sums.row(0).setOnes();
+    sums.bottomRows(Dim) = (control_points(Eigen::all, some).colwise() - point) / size;
+    const Vector<Dim + 1> wanted = Vector<Dim + 1>::Unit(0);
+    Eigen::VectorXd few = weights(some);
+    for (int pass = 0; pass < 2; ++pass) few += dense::least_squares(sums, wanted - sums * few);
+    if (!((sums * few - wanted).norm() <= kExact)) continue;
+    weights(some) = few;
+    return weights;
+  }
+  throw InputError("vertex " + std::to_string(p) + " at " + format_point(point) +
+                   ", outside the cage, cannot follow the control points that may move it, which "
+                   "are coplanar; free others, or make the region smaller");
+}
+
+}  // namespace
+
+std::string PlacedMasks::note() const {
+  if (on_facets == 0) return "";
+  return std::to_string(on_facets) + " of " + std::to_string(masked) +
+         " masked vertices are on facets of masked control points, which still move them";
+}
+
+template <int Dim>
+std::vector<Mask> end_at_facets(const Cage<Dim>& cage, const PointList<Dim>& points,
+                                const std::vector<Mask>& masks, Index* on_facets) {
+  auto forbidden = forbidden_at(PointMasks(masks, cage.size(), static_cast<Index>(points.cols())));
+  Index count = 0;
+  MaskEnds<Dim>(cage, forbidden, count).end_near_cage(points);
+  if (on_facets != nullptr) *on_facets = count;
+  return list(forbidden);
+}
+
+template <int Dim>
+PlacedMasks place_masks(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                        const Placement<Dim>& placement, const std::vector<Mask>& masks) {
+  if (masks.empty()) return {};
+  const auto num_points = static_cast<Index>(placement.points.cols());
+  auto forbidden = forbidden_at(PointMasks(masks, cage.size(), num_points));
+  PlacedMasks placed;
+  placed.masked = static_cast<Index>(forbidden.size());
+  MaskEnds<Dim> ends(cage, forbidden, placed.on_facets);
+  const bool follows = placement.policy == OutsidePoints::kNearest;
+  if (!follows) {
+    auto outside = take(placement.outside, forbidden);
+    if (placement.policy == OutsidePoints::kExtend) placed.of_outside = list(outside);
+  }
+  for (const auto* points : {&placement.on_cage, &placement.outside}) {
+    for (const auto& nearest : *points) {
+      ends.end_at(nearest.point, nearest.facet, nearest.coordinates);
+    }
+  }
+  auto inside = forbidden;
+  take(placement.on_cage, inside);
+  take(placement.outside, inside);
+  MaskEnds<Dim>(cage, inside, placed.on_facets).end_near_cage(placement.points);
+  for (const auto& [point, control_points] : inside) forbidden[point] = control_points;
+  placed.of_points = list(forbidden);
+  refuse_mask_conflicts(cage.points, placement.points,
+                        PointMasks(placed.of_points, cage.size(), num_points));
+  placed.of_mesh = masks_of_cells(cage, mesh, placement, forbidden);
+  return placed;
+}
+
+template <int Dim>
+SparseWeights enforce_masks(const Cage<Dim>& cage, const Placement<Dim>& placement,
+                            const SparseWeights& weights, const PlacedMasks& masks) {
+  const auto num_points = static_cast<Index>(placement.points.cols());
+  const PointMasks inside(masks.of_points, cage.size(), num_points);
+  const PointMasks outside(masks.of_outside, cage.size(), num_points);
+  auto result =
+      project_non_negative(cage.points, placement.points, weights, inside.points(), inside);
+  if (outside.empty()) return result;
+  return SparseWeights::of(cage.size(), num_points, [&](Index p) {
+    if (!outside.at(p)) return result.at(p);
+    return without_masked<Dim>(cage.points, placement.points.col(p), outside, p, result.at(p));
+  });
+}
+
+FLBC_INSTANTIATE_FUNCTION(end_at_facets)
+FLBC_INSTANTIATE_FUNCTION(place_masks)
+FLBC_INSTANTIATE_FUNCTION(enforce_masks)
+
+}  // namespace flbc

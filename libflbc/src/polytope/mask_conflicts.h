@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Weights on the control points that masks allow: projection, conflicts, and their cure.
+#pragma once
+
+#include <vector>
+
+#include "flbc/masks.h"
+
+namespace flbc {
+
+//! The masked points outside the convex hull of the control points that may move them, ascending.
+//! No weights >= 0 reproduce them.
+//! \param control_points  Dim x n \param points  Dim x P
+template <int Dim>
+std::vector<Index> mask_conflicts(const PointList<Dim>& control_points,
+                                  const PointList<Dim>& points, const PointMasks& masks);
+
+//! \throws InputError if there are such points, naming their number, the first, and control points
+//! without whose masks there are none
+template <int Dim>
+void refuse_mask_conflicts(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                           const PointMasks& masks);
+
+//! Replaces weights by the nearest feasible ones of the allowed control points; others become 0.
+//! \return false if there are none
+template <int Dim>
+bool project_on(const PointList<Dim>& control_points, const std::vector<Index>& allowed,
+                const Vector<Dim>& point, Eigen::VectorXd& weights);
+
+}  // namespace flbc

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Masks, their certificates, exact mirrors, and composed weights."""
+import flbc
+import numpy as np
+import pytest
+from test_certificate import checker  # noqa: F401
+
+
+def ends(cage, points, near=0.6, far=0.4):
+    """A mask: control points at one end must not move points at the other."""
+    low, size = cage.points[:, 0].min(), np.ptp(cage.points[:, 0])
+    acting, region = cage.points[:, 0] > low + near * size, points[:, 0] < low + far * size
+    return region[:, None] & acting[None]
+
+
+def test_bind_obeys_a_mask(limb):
+    cage, vertices, faces = limb[:3]
+    mask = ends(cage, vertices)
+    for most in (0, 8, 4):
+        found = flbc.bind(vertices, faces, cage, mesh_vertices=2000, max_influences=most, mask=mask)
+        weights = found.weights.toarray()
+        assert (weights[mask] == 0).all() and mask.sum() > 100
+        assert abs(found.deform(cage.points) - vertices).max() < 1e-12
+    with pytest.raises(flbc.InputError, match="remove control point"):
+        flbc.bind(vertices, faces, cage, mask=ends(cage, vertices, near=-1))
+    with pytest.raises(flbc.InputError, match="mask has shape"):
+        flbc.bind(vertices, faces, cage, mask=mask[1:])
+
+
+@pytest.fixture(scope="module", params=[0.003, 0])
+def masked(request):
+    square = flbc.Cage([[0, 0], [1, 0], [2, 0], [2, 1], [1, 1], [0, 1]])
+    mesh = flbc.mesh(square, vertices=300)
+    mask = ends(square, mesh.points, near=0.6, far=0.45)
+    return flbc.solve(square, mesh, mask=mask, certify=True, smoothness=request.param), mask
+
+
+def test_a_solver_takes_other_masks(masked):
+    solution, mask = masked
+    cage, mesh = solution.cage, solution.mesh
+    solver = flbc.Solver(cage, mesh)
+    solver.solve()
+    solver.set_options(mask=mask)
+    inside = solver.solve().weights[mask]
+    assert (inside > 0).sum() < mask.sum() / 10  # on facets
+    assert len(solver.options["mask"]) > 0
+    solver.set_options(tolerance=1e-7)
+    assert (solver.solve().weights[mask] == inside).mean() > 0.9
+    solver.set_options(mask=None)
+    assert (solver.solve().weights[mask] > 0).sum() > (inside > 0).sum()
+
+
+def test_a_masked_certificate_needs_each_mask(masked, checker, tmp_path, capsys):  # noqa: F811
+    solution, mask = masked
+    assert solution.certificate.relative_gap < 0.01
+    path = tmp_path / "proof.npz"
+    solution.save_certificate(path)
+    checker.main(str(path))
+    assert "are masked" in capsys.readouterr().out
+    with np.load(path) as file:
+        data = {name: file[name] for name in file.files}
+    pairs = data["masked"]
+    assert mask[tuple(pairs.T)].all() and (solution.weights[tuple(pairs.T)] == 0).all()
+    # A free optimum is lower, so the bound does not hold without masks. One entry changes the
+    # program of its vertex; that of a pair which would carry weight changes it visibly.
+    epsilon = data["smoothness"].item() / 5**0.5  # relative to the size of the cage
+    free = flbc.solve(solution.cage, solution.mesh, smoothness=epsilon, tolerance=1e-6)
+    order = np.argsort(-free.weights[tuple(pairs.T)])
+    for k in order[:10]:
+        np.savez(path, **{**data, "masked": np.delete(pairs, k, 0)})
+        with pytest.raises(ValueError, match="the bound is"):
+            checker.main(str(path))
+    np.savez(path, **{**data, "weights": free.weights})
+    with pytest.raises(ValueError, match="a masked weight is not 0"):
+        checker.main(str(path))
+
+
+def test_mirrored_vertices_are_alike():
+    cage = flbc.Cage([[0, 0], [1, 0], [2, 0], [2, 1], [1, 1], [0, 1]])
+    points = np.array([[0.3, 0.4], [0.8, 0.9], [1.7, 0.4], [1.2, 0.9]])
+    weights = flbc.bind(points, None, cage, mesh_vertices=300, symmetric="x").weights.toarray()
+    assert (weights[:2] == weights[2:][:, [2, 1, 0, 5, 4, 3]]).all()
+    free = flbc.bind(points, None, cage, mesh_vertices=300).weights.toarray()
+    assert (free[:2] != free[2:][:, [2, 1, 0, 5, 4, 3]]).any()
+    with pytest.raises(flbc.OptionError, match="symmetric must be one of x, y"):
+        flbc.bind(points, None, cage, symmetric="z")
+    with pytest.raises(flbc.InputError, match="has no mirror image"):
+        flbc.bind(points, None, flbc.Cage([[0, 0], [3, 0], [2, 1], [0, 1]]), symmetric="x")
+
+
+def test_compose_multiplies(flat):
+    shares = np.full((4, 2), 0.5)
+    found = flbc.compose(flat.weights, shares)
+    assert found.toarray() == pytest.approx(flat.weights @ shares)
+    assert flbc.compose(flat.sparse_weights, found[:4] * 0 + shares).shape == (len(flat.mesh), 2)
+    with pytest.raises(flbc.InputError, match="must sum to 1"):
+        flbc.compose(flat.weights, 2 * shares)

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Masks of a model: exact zeros at its points after each step of a bind.
+#include "flbc/place_masks.h"
+#include "flbc/rig.h"
+#include "support/errors.h"
+#include "support/refined_sample.h"
+#include "support/test.h"
+
+namespace flbc::testing {
+namespace {
+
+template <int Dim>
+Sample<Dim> box_in_grid() {
+  return with_fine_cage<Dim>(Shape::kBox, Dim == 2 ? 8 : 4, 8);
+}
+
+// A grid, from `low` to 1 - low along each axis, with edges along the first.
+template <int Dim>
+struct Grid {
+  PointList<Dim> points;
+  EdgeList edges;
+
+  explicit Grid(double low) {
+    constexpr int kSize = 9;
+    const int count = Dim == 2 ? kSize * kSize : kSize * kSize * kSize;
+    points.resize(Dim, count);
+    for (int p = 0; p < count; ++p) {
+      for (int d = 0, rest = p; d < Dim; ++d, rest /= kSize) {
+        points(d, p) = low + (1 - 2 * low) * (rest % kSize) / (kSize - 1);
+      }
+      if (p % kSize > 0) edges.ends.push_back({p - 1, p});
+    }
+  }
+
+  Mask mask(const PointList<Dim>& control_points, double from, double to) const {
+    Mask mask;
+    for (Index i = 0; i < control_points.cols(); ++i) {
+      if (control_points(0, i) > from) mask.control_points.push_back(i);
+    }
+    for (Index p = 0; p < points.cols(); ++p) {
+      if (points(0, p) < to) mask.points.push_back(p);
+    }
+    return mask;
+  }
+};
+
+template <int Dim>
+void expect_obeyed(const Binding<Dim>& binding, const PointList<Dim>& control_points,
+                   const PointList<Dim>& points, const Mask& mask) {
+  for (const Index p : mask.points) {
+    const Eigen::VectorXd weights = binding.weights.at(p);
+    for (const Index i : mask.control_points) ASSERT_EQ(weights[i], 0) << p << ' ' << i;
+  }
+  EXPECT_LT((binding.deform(control_points) - points).cwiseAbs().maxCoeff(), 1e-13);
+}
+
+TEST_IN_2D_AND_3D(ModelMasksTest, WeightsAreExactlyZeroAfterEachStep) {
+  const auto [cage, mesh, name] = box_in_grid<Dim>();
+  const Grid<Dim> grid(0.07);
+  BindOptions options;
+  options.masks = {grid.mask(cage.points, 0.6, 0.4)};
+  for (const Index most : {0, 8, Dim + 1}) {
+    options.max_influences = most;
+    for (const Reduction reduction : {Reduction::kPoisson, Reduction::kQuadratic}) {
+      options.reduction = reduction;
+      const auto binding = bind<Dim>(cage, mesh, grid.points, grid.edges, options);
+      expect_obeyed(binding, cage.points, grid.points, options.masks[0]);
+      EXPECT_GE(binding.report.quality.min_weight, 0);
+      EXPECT_EQ(binding.report.note, "");
+    }
+  }
+}
+
+TEST_IN_2D_AND_3D(ModelMasksTest, ARigResumesWithOtherMasks) {
+  const auto [cage, mesh, name] = box_in_grid<Dim>();
+  const Grid<Dim> grid(0.07);
+  BindOptions options;
+  Rig<Dim> rig(cage, mesh, grid.points, grid.edges, options);
+  rig.solve();
+  for (const double to : {0.3, 0.4}) {
+    options.masks = {grid.mask(cage.points, 0.6, to)};
+    rig.set_options(options);
+    rig.solve();
+    const auto resumed = rig.bind();
+    expect_obeyed(resumed, cage.points, grid.points, options.masks[0]);
+    const auto fresh = bind<Dim>(cage, mesh, grid.points, grid.edges, options);
+    EXPECT_LE(resumed.report.solve.iterations, fresh.report.solve.iterations);
+    const WeightMatrix difference = resumed.weights.dense() - fresh.weights.dense();
+    EXPECT_LT(difference.squaredNorm() / static_cast<double>(grid.points.cols()), 1e-2);
+  }
+  const auto before = rig.bind().weights;
+  options.masks = {grid.mask(cage.points, -1, 0.4)};
+  expect_refused("masked vertices cannot follow", [&] { rig.set_options(options); });
+  EXPECT_TRUE(rig.bind().weights == before);
+}
+
+TEST_IN_2D_AND_3D(ModelMasksTest, PointsOutsideObey) {
+  const auto [cage, mesh, name] = box_in_grid<Dim>();
+  const Grid<Dim> grid(-0.1);
+  BindOptions options;
+  options.masks = {grid.mask(cage.points, 0.6, 0.4)};
+  for (const auto policy :
+       {OutsidePoints::kExtend, OutsidePoints::kNearest, OutsidePoints::kKeep}) {
+    options.outside = policy;
+    const auto binding = bind<Dim>(cage, mesh, grid.points, grid.edges, options);
+    expect_obeyed(binding, cage.points, grid.points, options.masks[0]);
+  }
+}
+
+TEST_IN_2D_AND_3D(ModelMasksTest, MasksEndAtFacets) {
+  const auto [cage, mesh, name] = box_in_grid<Dim>();
+  const Grid<Dim> grid(0);
+  BindOptions options;
+  options.masks = {grid.mask(cage.points, 0.6, 2)};  // everywhere, on their facets too
+  for (Index p = 0; p < grid.points.cols(); ++p) {
+    const auto x = grid.points.col(p);
+    const bool is_far = x[0] >= 0.4 && x[0] < 1;  // here the weights need these control points
+    auto& points = options.masks[0].points;
+    if (is_far) points.erase(std::remove(points.begin(), points.end(), p), points.end());
+  }
+  const auto binding = bind<Dim>(cage, mesh, grid.points, grid.edges, options);
+  expect_piece(binding.report.note, "are on facets of masked control points");
+  EXPECT_LT((binding.deform(cage.points) - grid.points).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST_IN_2D_AND_3D(ModelMasksTest, ConflictsNameTheVertexOfTheModel) {
+  const auto [cage, mesh, name] = box_in_grid<Dim>();
+  const Grid<Dim> grid(0.07);
+  BindOptions options;
+  options.masks = {grid.mask(cage.points, 0.3, 0.4)};
+  std::string first = "the first is vertex " + std::to_string(2);
+  expect_refused(first, [&] { bind<Dim>(cage, mesh, grid.points, grid.edges, options); });
+}
+
+}  // namespace
+}  // namespace flbc::testing
