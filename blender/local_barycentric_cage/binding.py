@@ -72,6 +72,30 @@ def rest_matrix(model, cage):
     return relative_matrix(model, cage)
 
 
+def shared_groups(models, cage):
+    """Names of vertex groups of the cage that a model has as well.
+
+    The vertices of the cage in such a group never move the vertices of the models in it.
+    """
+    return [group.name for group in cage.vertex_groups
+            if any(group.name in model.vertex_groups for model in models)]
+
+
+def _masks(models, cage):
+    """What flbc reads as --locality, for the joined models. Raises Refusal."""
+    begins = np.cumsum([0] + [len(model.data.vertices) for model in models])
+    masks = []
+    for name in shared_groups(models, cage):
+        control_points = mesh.members(cage, name)
+        vertices = [int(begin) + vertex for begin, model in zip(begins, models)
+                    for vertex in mesh.members(model, name)]
+        if not control_points or not vertices:
+            raise Refusal(f'The vertex group {name} is empty on the cage or on the model. '
+                          'Assign vertices to it, or remove it from one of them')
+        masks.append({'control_points': control_points, 'region': {'vertices': vertices}})
+    return masks
+
+
 def _evaluated_count(item):
     graph = bpy.context.evaluated_depsgraph_get()
     return len(item.evaluated_get(graph).data.vertices)
@@ -119,10 +143,14 @@ class _Task:
             raise Refusal(f'{cage.name} has a scale of 0. Change its scale') from None
         files.write_ply(folder / 'cage.ply', *self._cage)
         files.write_ply(folder / 'model.ply', *self._model)
+        masks = _masks(models, cage)
+        (folder / 'locality.json').write_text(json.dumps(masks))
+        self._locality = ['--locality', folder / 'locality.json'] if masks else []
 
     def _command(self, settings, *arguments):
         names = {self._folder / 'cage.ply': self._cage_name,
-                 self._folder / 'model.ply': ', '.join(part.name for part in self._parts)}
+                 self._folder / 'model.ply': ', '.join(part.name for part in self._parts),
+                 self._folder / 'locality.json': 'Vertex groups'}
         return Command([settings.program, *arguments], names)
 
     def bind(self, settings):
@@ -140,7 +168,7 @@ class _Task:
         note = yield self._command(
             settings, 'solve', folder / 'cage.ply', '--model', folder / 'model.ply', '-o', solved,
             '--report', folder / 'report.json', '--smoothness', settings.smoothness,
-            *quality.solve)
+            *self._locality, *quality.solve)
         report = json.loads((folder / 'report.json').read_text())
         count = report['outside']['outside']['count']
         if count == len(self._model.points):
@@ -150,7 +178,7 @@ class _Task:
             return *files.largest_weights(solved, k), notes
         yield self._command(settings, 'sparsify', solved, '--cage', folder / 'cage.ply',
                             '--points', folder / 'model.ply', '--reduction', quality.reduction,
-                            '-k', k, '-o', reduced)
+                            '-k', k, '-o', reduced, *self._locality)
         return *files.largest_weights(reduced, k), notes
 
     def _notes_outside(self, solved, count):

@@ -41,6 +41,15 @@ def shape_of(mesh):
                  _numbers(mesh.polygons, 'loop_total', np.int32))
 
 
+def members(item, group):
+    """Numbers of the vertices with at least half the weight in a vertex group, if it exists."""
+    if group not in item.vertex_groups:
+        return []
+    number = item.vertex_groups[group].index
+    return [vertex.index for vertex in item.data.vertices
+            if any(part.group == number and part.weight >= 0.5 for part in vertex.groups)]
+
+
 def joined(shapes):
     """One shape of several, in this order."""
     points = np.concatenate([shape.points for shape in shapes])

@@ -60,6 +60,31 @@ class AddonTest(unittest.TestCase):
         self.require_equal(found, follow(model, cage_points, relative(model, self.cage), start))
         return found
 
+    # ---- locality --------------------------------------------------------------------------------
+    def share_group(self, vertices, control_points, name='hand'):
+        for item, numbers in ((self.model, vertices), (self.cage, control_points)):
+            group = item.vertex_groups.new(name=name)
+            group.add([int(number) for number in numbers], 1, 'REPLACE')
+
+    def test_a_shared_vertex_group_protects_the_model_from_the_cage(self):
+        along = base(self.cage)[:, 0]
+        far = np.flatnonzero(along > np.quantile(along, 0.8))
+        near = base(self.model)[:, 0] < np.quantile(base(self.model)[:, 0], 0.3)
+        self.share_group(np.flatnonzero(near), far)
+        for quality, influences in (('DRAFT', '8'), ('GOOD', '8'), ('GOOD', '4')):
+            with self.subTest(quality=quality, influences=influences):
+                self.bind(quality=quality, influences=influences)
+                index, weight = scene.influences(self.model)
+                self.assertEqual((weight * np.isin(index, far))[near].max(), 0)
+                self.require_equal(shown(self.model), base(self.model))
+
+    def test_what_cannot_be_protected_is_refused(self):
+        self.share_group(range(len(self.model.data.vertices)), range(len(self.cage.data.vertices)))
+        select(self.model)
+        self.refused(bpy.ops.flbc.bind, 'control points')
+        self.cage.vertex_groups['hand'].remove(range(len(self.cage.data.vertices)))
+        self.refused(bpy.ops.flbc.bind, 'empty')
+
     # ---- positions -------------------------------------------------------------------------------
     def test_at_rest_nothing_moves(self):
         self.bind()
