@@ -154,7 +154,7 @@ def markdown_of_command(command):
     for group in dict.fromkeys(entry.group for entry in entries):
         lines += [f"## {group}", "", "| Name | Meaning |", "|---|---|"]
         lines += [row(entry) for entry in entries if entry.group == group] + [""]
-    return "\n".join(lines + ["See also: [exit status](../exit_status.md), [all commands](index.md).", ""])
+    return "\n".join(lines + ["See also: [exit status](../file_formats.md#exit-status), [all commands](index.md).", ""])
 
 
 def markdown_of_program(commands):
@@ -162,7 +162,7 @@ def markdown_of_program(commands):
                      for command in commands)
     return ("# Commands\n\nThe program `flbc` has these commands. `flbc COMMAND --help` prints the options of a "
             f"command.\n\n| Command | Purpose |\n|---|---|\n{rows}\n\n"
-            "All commands use the same [exit status](../exit_status.md).\n")
+            "All commands use the same [exit status](../file_formats.md#exit-status).\n")
 
 
 # ---- completion
