@@ -5,7 +5,8 @@
     docs.py OUT_FOLDER    copies the results of OUT_FOLDER (a full run of all models), writes tables and
                           measurements, and draws the charts
     docs.py --stored      writes tables and measurements of the stored results again
-    docs.py --check       fails if a table or a measurement differs from the stored results it is made of
+    docs.py --check       fails if a table or a measurement differs from the stored results it is made of, or
+                          a stored result from docs/results/SHA256SUMS
     docs.py --behavior PROGRAM
                           names the results of another behavior than that of flbc_bench_paper (README.md), and
                           then exits with 77; those measured outside this repository have none
@@ -16,6 +17,7 @@ last line has the commit that made it. A measurement in a sentence is between <!
 measured.NUMBERS computes it. Every stored result is in a table or in a measurement, or a page links to it.
 """
 
+import hashlib
 import math
 import pathlib
 import re
@@ -59,7 +61,16 @@ def sources(page):
             {measured.source_of(m[2]) for m in NUMBER.finditer(page)} | {m[1] for m in LINK.finditer(page)})
 
 
+def sums():
+    """Of the stored results, as sha256sum prints them."""
+    return "".join(f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.name}\n"
+                   for path in sorted(STORED.glob("*.csv")))
+
+
 def check():
+    if (STORED / "SHA256SUMS").exists() and (STORED / "SHA256SUMS").read_text() != sums():
+        print("docs/results/SHA256SUMS: a stored result was changed by hand", file=sys.stderr)
+        return 1
     pages = {page: page.read_text() for page in PAGES}
     stored = {path.stem for path in STORED.glob("*.csv")}
     shown = set().union(*map(sources, pages.values()))
@@ -77,6 +88,7 @@ def check():
 
 
 def rewrite():
+    (STORED / "SHA256SUMS").write_text(sums())
     for page in PAGES:
         page.write_text(with_results(page.read_text()))
 

@@ -101,6 +101,7 @@ NUMBERS = {
     "speed.ratio": lambda rows: span((ratio(r, "total_seconds", "harmonic_seconds") for r in rows), factor),
     "speed.power.seconds": powers("total_seconds"),
     "speed.power.mebibytes": powers("peak_mebibytes"),
+    "pipeline.seconds": lambda rows: span((value(r, "total") for r in rows), factor),
     "pipeline.bind": lambda rows: factor(sum(value(rows[0], step) for step in ("mesh", "solve", "sparsify"))),
     "tolerance.worst": lambda rows: f"{max(value(r, 'error') for r in rows):.2f}",
     "table1.plane": lambda rows: f"{max(value(r, 'squared_distance') for r in rows if value(r, 'vertices') > 7e3):.1e}",
@@ -108,6 +109,8 @@ NUMBERS = {
        for model in ("shark", "armadillo", "beast")},
     **{f"table2.published.{model}": published(model) for model in ("logo", "woody", "cactus", "horse", "armadillo")},
     "figure5.woody.published": penalty_of_the_papers,
+    "cages.defects": lambda rows: str(sum(int(r["outside"]) + int(r["crossings"]) + (r["check"] != "sound") +
+                                         (r["solve"] != "converged") for r in rows)),
     "smoothness.influences": more_influences,
     "compare.distortion": distorted,
     "sparsify.8": lambda rows: short(max(100 * value(r, "positions_smooth") for r in rows
