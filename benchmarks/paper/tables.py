@@ -108,12 +108,14 @@ SMOOTHNESS = [("smoothness", "smoothness"), ("influences", "mean_influences:.2f"
 
 def smoothness(rows):
     """One model in 2D, and two in 3D of few and many control points."""
-    kept = ("0", "0.003", "0.01", "harmonic")
+    kept = ("0", "0.003", "harmonic")
     return grouped(sized, *SMOOTHNESS)([row for row in rows if row["model"] in ("woody", "horse", "armadillo")
                                         and row["smoothness"] in kept])
 
 
-COMPARE = [("model", "model"), ("coordinates", "coordinates"), ("influences", "influences:.1f"),
+SAMPLES = [*HARMONIC[:4], HARMONIC[5], *((f"To 1e-5: {label}, s", f"to_1e-5_{name}:.2f") for name, label in (
+    ("weights", "local"), ("lbc2014-tuned", "2014, tuned penalty"), ("paper", "2019")))]
+COMPARE = [("coordinates", "coordinates"), ("influences", "influences:.1f"),
            ("reach", "reach:.1%"), ("smallest weight", "min_weight:.1e"), ("distortion", "distortion:.3f"),
            ("time, s", lambda row: text(value(row, "setup_seconds") + value(row, "solve_seconds"), ".2f"))]
 SPEED = [*SIZE, ("cells", "cells:,.0f"), ("time, s", "total_seconds:.2f"),
@@ -176,6 +178,9 @@ def animated(row):
 
 
 
+PIPELINE = [("model", "model"), ("cage of", "cage_of"), ("total, s", "total:.1f"), ("cage", "cage:.1f"),
+            ("mesh", "mesh:.1f"), ("solve", "solve:.1f"), ("reduce to 8", "sparsify:.1f"), ("export", "export:.1f"),
+            ("at the same time: check", "check:.1f"), ("pictures", "pictures:.1f")]
 MESH_DEFORM = [("model", "model"),
                *((title, lambda row, name=name: f"{row[name + '_least']}% to {row[name + '_largest']}%")
                  for title, name in (("add-on", "addon"), ("Mesh Deform", "mesh_deform")))]
@@ -204,9 +209,10 @@ POINTS = [("step, one core", "step"), ("million points per second", "million_per
 
 
 def compare(rows):
-    """Local coordinates have the default smoothness."""
-    smooth = {row["model"] for row in rows if row["coordinates"] == "local_smooth"}
-    kept = [row for row in rows if row["coordinates"] != "local" or row["model"] not in smooth]
+    """One model. Local coordinates have the default smoothness."""
+    rows = [row for row in rows if row["model"] == rows[0]["model"]]
+    names = {row["coordinates"] for row in rows}
+    kept = [row for row in rows if row["coordinates"] != "local" or "local_smooth" not in names]
     return lines(*COMPARE)([dict(row, coordinates=row["coordinates"].removesuffix("_smooth")) for row in kept])
 
 
@@ -214,4 +220,5 @@ TABLES = {"models": lines(*MODELS), "harmonic": lines(*HARMONIC), "race": race,
           "authors2014": lines(*AUTHORS2014), "speed": lines(*SPEED), "mesh_deform": lines(*MESH_DEFORM),
           "many": lines(*MANY), "tolerance": tolerance, "smoothness": smoothness, "cages": lines(*CAGES),
           "compare": compare, "sparsify": sparsify,
-          "mesh_error": lines(*MESH_ERROR), "blender": lines(*BLENDER), "points": lines(*POINTS), "table1": lines(*TABLE1), "table2": table2}
+          "pipeline": lines(*PIPELINE),
+          "samples": lines(*SAMPLES), "mesh_error": lines(*MESH_ERROR), "blender": lines(*BLENDER), "points": lines(*POINTS), "table1": lines(*TABLE1), "table2": table2}
