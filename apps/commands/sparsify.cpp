@@ -159,7 +159,7 @@ void add_sparsify_command(CLI::App& app, int&) {
       "\n"
       "Examples:\n"
       "  flbc sparsify weights.npy --cage cage.obj --points model.obj -k 8 -o few.mtx\n"
-      "  flbc sparsify weights.npy --cage cage.obj --points model.obj -k 4 --pose pose.obj -o 4.mtx");
+      "  flbc sparsify weights.npy --cage cage.obj --points model.obj -k 4 -o four.mtx");
   command->add_option("WEIGHTS", a.weights, std::string("weights: ") + kWeightFormats)->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
   command->add_option("--points", a.points, "model or mesh whose vertices have these weights")
