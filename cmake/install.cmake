@@ -47,8 +47,8 @@ install(DIRECTORY libflbc/include/flbc libflbc/io/include/flbc libflbc/caging/in
 if(TARGET flbc_openmesh)
   install(DIRECTORY openmesh_bindings/include/flbc DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
     COMPONENT openmesh_dev FILES_MATCHING PATTERN "*.h")
-  install(DIRECTORY openmesh_bindings/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
-    COMPONENT openmesh_dev FILES_MATCHING PATTERN "*.cpp" PATTERN CMakeLists.txt)
+  install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
+    COMPONENT openmesh_dev FILES_MATCHING PATTERN "*.cpp" PATTERN "*.py" PATTERN CMakeLists.txt)
 endif()
 
 # ---- the CMake package ---------------------------------------------------------------------------

@@ -19,6 +19,17 @@ HERE = pathlib.Path(__file__).resolve().parent
 VERSION = re.search(r"FLBC_VERSION (\S+)\)", (HERE.parent / "cmake/version.cmake").read_text())
 
 
+def license_of_wheel():
+    """The strictest license of the libraries in it (docs/install.md)."""
+    build = os.environ.get("FLBC_BUILD_DIR")
+    options = (pathlib.Path(build) / "CMakeCache.txt").read_text() if build else os.environ.get("CMAKE_ARGS", "")
+    for library, license in (("TETGEN", "AGPL-3.0-or-later"), ("CGAL", "GPL-3.0-or-later"),
+                             ("CHOLMOD", "GPL-2.0-or-later")):
+        if not re.search(rf"FLBC_WITH_{library}(:BOOL)?=OFF", options):
+            return license
+    return "BSD-3-Clause"
+
+
 class CMakeBuild(build_ext):
     def build_extension(self, extension):
         build = os.environ.get("FLBC_BUILD_DIR")
@@ -46,6 +57,7 @@ class CMakeBuild(build_ext):
 
 setup(
     version=VERSION.group(1),
+    license=license_of_wheel(),
     ext_modules=[Extension("flbc._core", [])],
     cmdclass={"build_ext": CMakeBuild},
     package_data={"flbc": ["_core.pyi", "py.typed"]},

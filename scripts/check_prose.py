@@ -6,8 +6,9 @@ check_prose.py FOLDER      only the "Next" links of its pages
 
 From index.md, the "Next" links of the pages in docs/ lead to every one of them.
 
-A page has at most 12 kB. Its sentences have at most 20 words on average and none more than 35. Tables,
-code, formulas on lines of their own, and titles are not sentences. Files named in backticks exist.
+A page has at most 12 kB, without generated tables. Its sentences have at most 20 words on average and none more than 35. Tables,
+code, formulas on lines of their own, and titles are not sentences. Files named in backticks exist. No sentence
+has the hash of a commit, or a measurement without a marker.
 """
 import pathlib
 import re
@@ -15,8 +16,8 @@ import subprocess
 import sys
 
 MEAN, LONGEST, SIZE = 20, 35, 12_000
-# Records that grow: their sentences are checked, their size is not.
-LONG = {"CHANGELOG.md"}
+# Records that grow: neither their size nor their measurements are checked.
+LONG = {"CHANGELOG.md", "experiments.md"}
 # What readers stumble over, and what to write instead.
 HABITS = {
     r"beside": "next to, outside, in addition to",
@@ -35,6 +36,14 @@ HABITS = {
     r"round (a|an|the|its)": "around",
     r"\d %": "percent without a space",
 }
+# A measurement in a sentence has a marker, which benchmarks/paper/docs.py checks.
+NUMBER = r"<!--n:[\w.-]+-->.*?<!--/n-->"
+GENERATED = r"<!-- results: \w+ -->.*?<!-- end of results -->"
+HASH = r"\b(?=[a-f]*\d)(?=\d*[a-f])[0-9a-f]{7,8}\b"
+MEASUREMENT = (r"\b\d[\d.,]*(?: to \d[\d.]*)? ?(?:s|ms|min|minutes|seconds|hours|KiB|MiB|GiB|MB|GB)\b(?!\w)"
+               r"|\b\d[\d.,]* times (?:as |faster|slower|the )")
+# Limits and settings are no measurements.
+LIMIT = r"(?i)default|limit|at most|at least|more than|less than|smaller than|within|timeout|target"
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 ABBREVIATIONS = r"(?:e\.g|i\.e|cf|et al|vs|Fig|Figs|Eq|Eqs|Sec|No|approx|resp|[A-Z])\."
 
@@ -72,7 +81,7 @@ def missing_files(page, text):
     text = re.sub(r"^( *)(```|~~~).*?^\1?\s*\2[^\n]*$", "\n", text, flags=re.S | re.M)
     for name in re.findall(r"`([\w.-]+(?:/[\w.*-]+)+)/?`", text):
         first = name.split("/")[0]
-        folders = [page.parent] if first == ".." else [ROOT, ROOT / "libflbc" / "src"]
+        folders = [page.parent] if first == ".." else [ROOT, ROOT / "libflbc" / "src", page.resolve().parent]
         below = [folder for folder in folders if (folder / first).is_dir()]
         is_made = name.startswith(("build/", "out/", "web/dist/"))
         if below and not is_made and not any(
@@ -86,6 +95,7 @@ def words(sentence):
 
 def check(path, text):
     """What is wrong with a page, a line each."""
+    text = re.sub(GENERATED, "", text, flags=re.S)
     found = list(sentences(text))
     counts = [words(sentence) for sentence in found]
     if len(text.encode()) > SIZE and path.name not in LONG:
@@ -94,6 +104,10 @@ def check(path, text):
         yield f"{sum(counts) / len(counts):.1f} words in a sentence on average; at most {MEAN}"
     for name in missing_files(path, text):
         yield f"no file {name}"
+    for sentence in sentences(re.sub(NUMBER, "measured", text)):
+        match = re.search(HASH, sentence) or (path.name not in LONG and re.search(MEASUREMENT, sentence))
+        if match and not re.search(LIMIT, sentence):
+            yield f"'{match[0]}' without a marker (style.md, Numbers): {sentence}"
     for sentence, count in zip(found, counts):
         if count > LONGEST:
             yield f"{count} words; at most {LONGEST}: {sentence}"

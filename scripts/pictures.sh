@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the pictures of the documents, or those that are named, in docs/images:
 #   scripts/pictures.sh [--models FOLDER] [NAME...]
-# NAME: hero locality view figure before_after function deformation smoothness automatic_cages blender
+# NAME: hero locality view before_after deformation smoothness automatic_cages blender
 # FOLDER: the papers' models, for automatic_cages. Working files go to out/pictures.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -13,7 +13,7 @@ if [ "${1:-}" = --models ]; then
 fi
 names=("$@")
 if [ $# -eq 0 ]; then
-  names=(hero locality view figure before_after function deformation smoothness)
+  names=(hero locality view before_after deformation smoothness)
   [ -z "$models" ] || names+=(automatic_cages)
   ! command -v blender >/dev/null || names+=(blender)
 fi
@@ -45,17 +45,12 @@ for name in "${names[@]}"; do
       run 3d limb 20
       [ -d tests/browser/node_modules/puppeteer-core ] || npm --prefix tests/browser ci --silent
       node scripts/pictures/view.mjs "$work/limb/model.html" "$images/view.png" ;;
-    figure)
-      run 2d figure 32
-      "$flbc" draw "$work/figure/domain.obj" --weights "$work/figure/domain_weights.npy" \
-        --cage meshes/2d/figure_cage.obj --control-point 32 --width 800 -o "$images/figure.png" ;;
     deformation)
       run 2d figure 32
       cp "$work/figure/deformation.png" "$images/deformation.png" ;;
-    before_after | function)
+    before_after)
       run 3d limb 20
-      source=${name/before_after/deformation}
-      cp "$work/limb/$source.png" "$images/$name.png" ;;
+      cp "$work/limb/deformation.png" "$images/before_after.png" ;;
     *)
       echo "pictures.sh: there is no picture '$name'" >&2
       exit 1 ;;

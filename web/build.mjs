@@ -11,7 +11,7 @@ const view = "../apps/view/page/";
 const dist = at("dist/");
 mkdirSync(dist, { recursive: true });
 
-const kLicense = `libflbc ${version}. SPDX-License-Identifier: AGPL-3.0-only. Contains TetGen (AGPL-3), `
+const kLicense = `libflbc ${version}. SPDX-License-Identifier: AGPL-3.0-or-later. Contains TetGen (AGPL-3.0-or-later), `
   + `CGAL (GPL-3), Eigen (MPL-2.0), pugixml, nlohmann/json (MIT), fast_float, Boost; libflbc itself is BSD-3.`;
 
 // The modules in one scope, without import and export.

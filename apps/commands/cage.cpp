@@ -102,7 +102,11 @@ void add_cage_command(CLI::App& app, int&) {
       "edge, and face of the model, even if the model has defects. If all vertices of the\n"
       "model have the same z, the cage is 2D. --repair keeps the numbers of control points\n"
       "where possible. Otherwise it writes a line \"OLD NEW\" for each control point to a file\n"
-      "next to the result.");
+      "next to the result.\n"
+      "\n"
+      "Examples:\n"
+      "  flbc cage model.obj --control-points 60 -o new_cage.obj\n"
+      "  flbc cage --repair cage.obj -o repaired.obj");
   auto* model = command->add_option(
       "MODEL", a.model,
       "model to enclose: .obj .off .ply .stl .om .glb .gltf, or a .png with a silhouette");

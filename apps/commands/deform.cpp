@@ -385,7 +385,11 @@ void add_deform_command(CLI::App& app, int&) {
       "may be of any size, with --domain: they are moved in batches, and everything in the file\n"
       "except coordinates stays the same.\n"
       "Keyframes are text: 'k TIME' starts a keyframe, and 'c KEYFRAME DX DY DZ' is the\n"
-      "displacement of a control point from rest, in the order of the control points.");
+      "displacement of a control point from rest, in the order of the control points.\n"
+      "\n"
+      "Examples:\n"
+      "  flbc deform model.obj --weights few.mtx --pose pose.obj -o moved.obj\n"
+      "  flbc deform model.obj --method green --rest cage.obj --pose pose.obj -o green.obj");
   command
       ->add_option("MODEL", a.file.model,
                    "model (.obj .off .ply .stl .om .glb), domain mesh (.vtu; 3D: .mesh .node .ele "

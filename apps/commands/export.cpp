@@ -268,7 +268,11 @@ void add_export_command(CLI::App& app, int&) {
   command->footer(
       "Each control point becomes a joint (control_point_0 and so on) that only translates.\n"
       "Vertices are split along seams of texture coordinates and normals. The attribute _VERTEX\n"
-      "maps them to the vertices of MODEL. Normals do not deform.");
+      "maps them to the vertices of MODEL. Normals do not deform.\n"
+      "\n"
+      "Examples:\n"
+      "  flbc export model.obj --weights few.mtx --cage cage.obj -o model.glb\n"
+      "  flbc export model.obj --weights few.mtx --cage cage.obj --pose pose.obj -o posed.glb");
   command
       ->add_option(
           "MODEL", a.model,

@@ -307,7 +307,11 @@ void add_run_command(CLI::App& app, int& exit_status) {
       "OUTDIR receives the mesh of the cage interior, dense and sparse weights, the model in each\n"
       "pose, model.glb (an animated skin), pictures, model.html (a page for moving the cage), and\n"
       "report.json. A run replaces the files of an earlier run in OUTDIR. Model and skin use the\n"
-      "sparse weights. If a step fails, the results of earlier steps remain.");
+      "sparse weights. If a step fails, the results of earlier steps remain.\n"
+      "\n"
+      "Examples:\n"
+      "  flbc run model.obj --auto-cage -o out\n"
+      "  flbc run cage.obj model.obj --pose pose.obj -o posed");
   add_shapes(*command, a);
   auto* poses = command->add_option(
       "--pose", a.poses, "deformed cage: one or more files, or a pattern such as pose_%d.obj");

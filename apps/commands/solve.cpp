@@ -147,6 +147,12 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   auto& a = *arguments;
   auto& settings = a.settings;
   auto* command = app.add_subcommand("solve", "compute the coordinates of a cage");
+  command->footer(
+      "Weights sum to 1 and reproduce the vertices, also if the solve does not converge.\n"
+      "\n"
+      "Examples:\n"
+      "  flbc solve cage.obj --model model.obj -o weights.npy\n"
+      "  flbc solve cage.obj --vertices 20000 --certify -o certified.mtx");
   command->add_option("CAGE", settings.cage, "closed polylines (2D) or surface (3D)")->required();
   command->option_defaults()->group("Output");
   command->add_option("-o,--output", a.output, describe_weight_file())->required();

@@ -160,7 +160,11 @@ void add_sparsify_command(CLI::App& app, int&) {
   auto* command = app.add_subcommand("sparsify", "reduce weights to a few influences per vertex");
   command->footer(
       "The result has weights >= 0 that sum to 1 and reproduce the vertices, even if WEIGHTS do "
-      "not.");
+      "not.\n"
+      "\n"
+      "Examples:\n"
+      "  flbc sparsify weights.npy --cage cage.obj --points model.obj -k 8 -o few.mtx\n"
+      "  flbc sparsify weights.npy --cage cage.obj --points model.obj -k 4 -o four.mtx");
   command->add_option("WEIGHTS", a.weights, std::string("weights: ") + kWeightFormats)->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
   command->add_option("--points", a.points, "model or mesh whose vertices have these weights")

@@ -53,6 +53,12 @@ def read_command(name, phrase, lines):
                    [entry for entry in entries if entry.names])
 
 
+def split_examples(footer):
+    """The footer before its examples, and the lines of these."""
+    text, _, examples = footer.partition("\nExamples:\n")
+    return text.strip(), [line.strip() for line in examples.splitlines()]
+
+
 def sentence(phrase):
     return phrase[:1].upper() + phrase[1:].removesuffix(".") + "."
 
@@ -106,8 +112,11 @@ def manual_of_command(command, version):
     synopsis += [optional(bold(option.names[-1]) + value_of(option), option.required)
                  for option in command.options]
     description = [escaped(sentence(command.help))]
-    if command.footer:
-        description += [".PP", escaped(command.footer)]
+    text, examples = split_examples(command.footer)
+    if text:
+        description += [".PP", escaped(text)]
+    if examples:
+        description += [".PP", ".nf", *map(escaped, examples), ".fi"]
     arguments = [(italic(argument.value), argument.help) for argument in command.arguments]
     return manual(f"flbc-{command.name}", version, command.help, synopsis + [".ad b", ".hy"], description,
                   [("ARGUMENTS", arguments), ("OPTIONS", tags_of(command.options))], bold("flbc") + "(1)")
@@ -149,12 +158,13 @@ def markdown_of_command(command):
     synopsis += [with_value(option) for option in command.options if option.required]
     lines = [f"# flbc {command.name}", "", sentence(command.help), "", "```",
              " ".join(synopsis + ["[OPTIONS]"]), "```", ""]
-    lines += [command.footer, ""] * bool(command.footer)
+    text, examples = split_examples(command.footer)
+    lines += [text, ""] * bool(text) + ["```sh", *examples, "```", ""] * bool(examples)
     entries = command.arguments + command.options
     for group in dict.fromkeys(entry.group for entry in entries):
         lines += [f"## {group}", "", "| Name | Meaning |", "|---|---|"]
         lines += [row(entry) for entry in entries if entry.group == group] + [""]
-    return "\n".join(lines + ["See also: [exit status](../exit_status.md), [all commands](index.md).", ""])
+    return "\n".join(lines + ["See also: [exit status](../file_formats.md#exit-status), [all commands](index.md).", ""])
 
 
 def markdown_of_program(commands):
@@ -162,7 +172,7 @@ def markdown_of_program(commands):
                      for command in commands)
     return ("# Commands\n\nThe program `flbc` has these commands. `flbc COMMAND --help` prints the options of a "
             f"command.\n\n| Command | Purpose |\n|---|---|\n{rows}\n\n"
-            "All commands use the same [exit status](../exit_status.md).\n")
+            "All commands use the same [exit status](../file_formats.md#exit-status).\n")
 
 
 # ---- completion

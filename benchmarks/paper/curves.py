@@ -120,7 +120,7 @@ def least_times(curve):
 # Names at the ends of curves, which need no knowledge of options.
 CURVE_NAMES = {"lbc2014": "LBC 2014", "lbc2014-tuned": "LBC 2014,\ntuned", "paper": "FLBC 2019",
                "gradient": "gradient\nADMM", "weights": "libflbc"}
-MODEL_NAMES = {"woody": "2D figure", "horse": "3D horse"}
+MODEL_NAMES = {"woody": "woody (2D)", "horse": "horse (3D)"}
 
 
 def convergence(rows, comments):
@@ -171,7 +171,7 @@ def name_end(axis, times, errors, low, label, color):
     if not math.isnan(end):
         place, offset, sides = (end, low), (6, 14), ("left", "bottom")
     if label == CURVE_NAMES["weights"]:
-        offset, sides = (-28, 14), ("right", "bottom")
+        offset, sides = (-64, 6), ("right", "bottom")
     return axis.annotate(label, place, xytext=offset, textcoords="offset points", color=color,
                          fontsize=9.5, fontweight="bold", ha=sides[0], va=sides[1],
                          bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.6, "pad": 0.5})

@@ -1,19 +1,23 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keeps the tables of README.md and docs/ equal to stored results.
+"""Keeps the tables and measurements of README.md and docs/ equal to stored results.
 
-    docs.py OUT_FOLDER    copies the results of OUT_FOLDER (a full run of all models), writes the tables, and
-                          draws the charts
-    docs.py --check       fails if a table differs from the stored results it is made of
+    docs.py OUT_FOLDER    copies the results of OUT_FOLDER (a full run of all models), writes tables and
+                          measurements, and draws the charts
+    docs.py --stored      writes tables and measurements of the stored results again
+    docs.py --check       fails if a table or a measurement differs from the stored results it is made of, or
+                          a stored result from docs/results/SHA256SUMS
     docs.py --behavior PROGRAM
                           names the results of another behavior than that of flbc_bench_paper (README.md), and
                           then exits with 77; those measured outside this repository have none
 
 A table is on a page between <!-- results: NAME --> and <!-- end of results -->. Its results are in
 docs/results/NAME.csv, as flbc_bench_paper wrote them, or in the file that tables.SOURCES names. Its
-last line has the commit that made it.
+last line has the commit that made it. A measurement in a sentence is between <!--n:NAME--> and <!--/n-->, and
+measured.NUMBERS computes it. Every stored result is in a table or in a measurement, or a page links to it.
 """
 
+import hashlib
 import math
 import pathlib
 import re
@@ -21,38 +25,72 @@ import shutil
 import subprocess
 import sys
 
+import measured
 import results
 import tables
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 STORED = ROOT / "docs" / "results"
 MARKED = re.compile(r"(<!-- results: (\w+) -->\n)(.*?)(<!-- end of results -->\n)", re.DOTALL)
-PAGES = [page for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
-         if MARKED.search(page.read_text())]
+NUMBER = re.compile(r"(<!--n:([\w.-]+)-->)(.*?)(<!--/n-->)")
+LINK = re.compile(r"\(\S*results/(\w+)\.csv\)")
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 UNFIT = ("quick run", "incomplete", "only models")  # comments of results not to be taken over
 
 
-def is_stored(name):
-    return (STORED / f"{tables.source_of(name)}.csv").exists()
+def is_stored(source):
+    return (STORED / f"{source}.csv").exists()
 
 
-def with_tables(page):
-    return MARKED.sub(lambda m: m[1] + (tables.markdown(STORED, m[2]) if is_stored(m[2]) else m[3]) + m[4], page)
+def table(name, present):
+    return tables.markdown(STORED, name) if is_stored(tables.source_of(name)) else present
+
+
+def number(name, present):
+    return measured.text(STORED, name) if is_stored(measured.source_of(name)) else present
+
+
+def with_results(page):
+    page = MARKED.sub(lambda m: m[1] + table(m[2], m[3]) + m[4], page)
+    return NUMBER.sub(lambda m: m[1] + number(m[2], m[3]) + m[4], page)
+
+
+def sources(page):
+    """The stored results that a page shows, or is to show."""
+    return ({tables.source_of(m[2]) for m in MARKED.finditer(page)} |
+            {measured.source_of(m[2]) for m in NUMBER.finditer(page)} | {m[1] for m in LINK.finditer(page)})
+
+
+def sums():
+    """Of the stored results, as sha256sum prints them."""
+    return "".join(f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.name}\n"
+                   for path in sorted(STORED.glob("*.csv")))
 
 
 def check():
-    found = [match for page in PAGES for match in MARKED.finditer(page.read_text())]
-    marked = {tables.source_of(m[2]) for m in found}
+    if (STORED / "SHA256SUMS").exists() and (STORED / "SHA256SUMS").read_text() != sums():
+        print("docs/results/SHA256SUMS: a stored result was changed by hand", file=sys.stderr)
+        return 1
+    pages = {page: page.read_text() for page in PAGES}
     stored = {path.stem for path in STORED.glob("*.csv")}
-    problems = [f"docs/results/{name}.csv has no table on a page" for name in stored - marked]
-    for match in found:
-        if not is_stored(match[2]):
-            print(f"{match[2]}: nothing stored yet, so not checked")
-        elif match[3] != tables.markdown(STORED, match[2]):
-            problems.append(f"the table {match[2]} differs from docs/results/{tables.source_of(match[2])}.csv")
+    shown = set().union(*map(sources, pages.values()))
+    for source in sorted(shown - stored):
+        print(f"{source}: nothing stored yet, so not checked")
+    problems = [f"docs/results/{name}.csv is on no page" for name in sorted(stored - shown)]
+    for page, text in pages.items():
+        problems += [f"{page.name}: the table {m[2]} differs from docs/results/{tables.source_of(m[2])}.csv"
+                     for m in MARKED.finditer(text) if m[3] != table(m[2], m[3])]
+        problems += [f"{page.name}: {m[2]} is {number(m[2], m[3])}, not {m[3]}"
+                     for m in NUMBER.finditer(text) if m[3] != number(m[2], m[3])]
     for problem in problems:
         print(problem, file=sys.stderr)
     return 1 if problems else 0
+
+
+def rewrite():
+    (STORED / "SHA256SUMS").write_text(sums())
+    for page in PAGES:
+        page.write_text(with_results(page.read_text()))
 
 
 def behavior_of(text):
@@ -94,14 +132,13 @@ def check_behavior(program):
 
 def take_over(out):
     STORED.mkdir(exist_ok=True)
-    for name in {tables.source_of(m[2]) for page in PAGES for m in MARKED.finditer(page.read_text())}:
+    for name in sorted(set().union(*(sources(page.read_text()) for page in PAGES))):
         _, comments = results.read(out, name)
         if any(c.startswith(UNFIT) for c in comments):
             sys.exit(f"docs.py: {name}.csv is of a quick, partial or incomplete run; nothing was taken over")
         if comments:
             shutil.copy(out / f"{name}.csv", STORED)
-    for page in PAGES:
-        page.write_text(with_tables(page.read_text()))
+    rewrite()
     return check()
 
 
@@ -111,6 +148,9 @@ if __name__ == "__main__":
     if len(sys.argv) != 2:
         sys.exit(__doc__.strip())
     if sys.argv[1] == "--check":
+        sys.exit(check())
+    if sys.argv[1] == "--stored":
+        rewrite()
         sys.exit(check())
     status = take_over(pathlib.Path(sys.argv[1]))
     import curves

@@ -7,7 +7,7 @@ import results
 from results import by, cells, ratio, text, thousands, value
 
 # Tables that are made of another result than that of their own name.
-SOURCES = {"harmonic": "models", "solvers": "race", "growth": "speed"}
+SOURCES = {"harmonic": "models"}
 
 
 def source_of(name):
@@ -59,33 +59,21 @@ def sized(row):
     return f"{row['model']}, n = {row['control_points']}, {thousands(row['vertices'])} V"
 
 
-def powers(rows, *columns):
-    """How the columns grow with the number of vertices, at the last row of each curve."""
-    vertices = [value(r, "vertices") for r in rows]
-    found = [results.exponent(vertices, [value(r, c) for r in rows]) for c in columns]
-    return ", ".join("-" if power is None else f"{power:.2f}" for power in found)
-
-
 SIZE = [("model", "model"), ("n", "control_points"), ("V", "vertices:,.0f")]
 HARMONIC = [("Model", lambda row: row["model"] + (" (2D)" if row["model"] in ("logo", "woody", "cactus", "figure", "letter", "ring") else "")),
             ("Control points", "control_points"), ("Mesh vertices", "vertices:,.0f"),
             ("Influences: local", lambda row: f"**{value(row, 'mean_influences'):.1f}**"),
             ("Influences: harmonic", "harmonic_influences:.1f"),
             ("Time: local, s", "total_seconds:.2f"), ("Time: harmonic, s", "harmonic_seconds:.2f")]
-MODELS = [*SIZE, ("cells", "cells:,.0f"), ("iterations", iterations), ("mesh, s", "mesh_seconds:.2f"),
+MODELS = [*SIZE, ("cells", "cells:,.0f"), ("mesh, s", "mesh_seconds:.2f"),
           ("setup, s", "setup_seconds:.2f"), ("solve, s", "solve_seconds:.2f"),
           ("harmonic, s", "harmonic_seconds:.2f"), ("MiB", "peak_mebibytes:,.0f"),
-          ("influences", "mean_influences:.1f"), ("harmonic influences", "harmonic_influences:.1f"),
-          ("smallest weight", "min_weight:.1e"), ("reproduction error", "reproduction_error:.1e")]
+          ("reproduction error", "reproduction_error:.1e")]
 TABLE1 = [*SIZE, ("squared distance", "squared_distance:.1e"), ("(paper)", "paper_squared_distance:.1e"),
-          ("largest difference", "largest_difference:.1e"), ("min w without", "min_weight_without:.1e"),
-          ("gap with", "relative_gap_with:.1e"), ("gap without, made non-negative", "relative_gap_without:.1e")]
+          ("largest difference", "largest_difference:.1e"), ("smallest weight without", "min_weight_without:.1e")]
 CAGES = [("model", lambda row: row["model"] + (", 2D" if row["dim"] == "2" else "")), ("vertices", "vertices:,.0f"),
-         ("control points", "control_points"), ("outside, crossing", lambda row: f"{row['outside']}, {row['crossings']}"),
-         ("distance", "distance:.1%"), ("symmetric across", "symmetric_across"), ("s", "processor_seconds:.2f"),
-         ("`flbc check`", "check"),
-         ("iterations of the solve", lambda row: iterations(row) if row["solve"] == "converged" else row["solve"]),
-         ("smallest weight", "min_weight:.1e"), ("reproduction error", "reproduction_error:.1e")]
+         ("control points", "control_points"),
+         ("distance", "distance:.1%"), ("symmetric across", "symmetric_across"), ("s", "processor_seconds:.2f")]
 
 
 def with_published(row):
@@ -99,8 +87,14 @@ def method(row):
 
 
 TABLE2 = [("method", method), ("iterations", iterations), ("total, s", "total_seconds:.2f"),
-          ("true error", "error:.1e"), ("gap", "relative_gap:.1e"), ("smallest weight", "min_weight:.1e"),
-          ("influences", "mean_influences:.1f")]
+          ("true error", "error:.1e"), ("smallest weight", "min_weight:.1e")]
+
+
+def table2(rows):
+    """The models and methods of the paper, and the default method."""
+    compared = ("lbc2014", "paper", "weights")
+    return grouped(with_published, *TABLE2)(
+        [row for row in rows if row["method"] in compared and row["paper_flbc_error"]])
 
 
 def creases(row):
@@ -109,67 +103,31 @@ def creases(row):
 
 SMOOTHNESS = [("smoothness", "smoothness"), ("influences", "mean_influences:.2f"),
               ("jump of gradients", "gradient_jump:.2f"), ("creases: mean, 99%", creases),
-              ("iterations", lambda row: iterations(row) if row["iterations"] else ""),
-              ("true error / tolerance", "error:.2f"), ("default solve, s", "default_seconds:.2f")]
+              ("iterations", lambda row: iterations(row) if row["iterations"] else "")]
 
 
-def parts(row, form):
-    """Seconds of setup, and of all after it."""
-    setup, total = value(row, "setup_seconds"), value(row, "total_seconds")
-    return f"{setup:{form}} + {total - setup:{form}}"
+def smoothness(rows):
+    """One model in 2D, and two in 3D of few and many control points."""
+    kept = ("0", "0.003", "harmonic")
+    return grouped(sized, *SMOOTHNESS)([row for row in rows if row["model"] in ("woody", "horse", "armadillo")
+                                        and row["smoothness"] in kept])
 
 
-SAMPLES = [*HARMONIC, *((f"To 1e-5: {label}, s", f"to_1e-5_{name}:.2f") for name, label in (
+SAMPLES = [*HARMONIC[:4], HARMONIC[5], *((f"To 1e-5: {label}, s", f"to_1e-5_{name}:.2f") for name, label in (
     ("weights", "local"), ("lbc2014-tuned", "2014, tuned penalty"), ("paper", "2019")))]
-COMPARE = [("model", "model"), ("coordinates", "coordinates"), ("influences", "influences:.1f"),
-           ("maximum", "max_influences"), ("reach", "reach:.1%"), ("smallest weight", "min_weight:.1e"),
-           ("total variation", "total_variation:.2f"), ("distortion", "distortion:.3f"),
-           ("volume change", "volume_change:.3f"), ("flipped", "flipped:.2%"), ("setup, s", "setup_seconds:.2f"),
-           ("solve, s", "solve_seconds:.2f")]
-DISTORTION = [("model", "model"), ("coordinates", "method"), ("distortion", "distortion:.2f"),
-              ("bend", "bend:.2f"), ("stretch", "stretch:.2f"), ("twist", "twist:.2f"),
-              ("model vertices that move", "moved_share:.0%")]
-SPEED = [*SIZE, ("iterations", iterations),
-         ("setup + solve = total, s", lambda row: f"{parts(row, '.3f')} = {value(row, 'total_seconds'):.3f}"),
-         ("true error", "error:.1e"), ("harmonic, s", "harmonic_seconds:.3f"),
-         ("ratio", lambda row: text(ratio(row, "total_seconds", "harmonic_seconds"), ".1f"))]
-GROWTH = [*SIZE, ("cells", "cells:,.0f"), ("levels", lambda row: str(int(row["coarse_levels"]) + 1)),
-          ("iterations", "iterations"), ("setup + solve, s", lambda row: parts(row, ".2f")),
-          ("peak MiB", "peak_mebibytes:,.0f"),
-          ("bytes per cell", lambda row: text(2**20 * ratio(row, "peak_mebibytes", "cells"), ",.0f"))]
-FIGURE3 = [("model", "model"), ("method", lambda row: results.LABELS[row["method"]]), ("V", "vertices:,.0f"),
-           ("iterations", iterations), ("solve, s", "solve_seconds:.3f"), ("recover, s", "recover_seconds:.3f"),
-           ("recovery in iterations", lambda row: text(
-               ratio(row, "recover_seconds", "solve_seconds") * max(1, int(row["iterations"])), ".1f")),
-           ("total, s", "total_seconds:.3f"), ("MiB beyond the problem", "solve_mebibytes:,.0f")]
-
-
-def curves(columns, *grow):
-    """A table of curves, a line per row; the last line of each curve has the powers with which columns grow."""
-    def make(rows):
-        header, body = lines(*columns)(rows)
-        keys = [(row["model"], row.get("method")) for row in rows]
-        for k, row in enumerate(body):
-            mine = [r for r, key in zip(rows, keys) if key == keys[k]]
-            row.append(powers(mine, *grow) if rows[k] is mine[-1] and len(mine) > 1 else "")
-        return header + ["time, memory grow as V to the power"], body
-    return make
-
-
-def growth(rows):
-    """The curves of the models that were measured on several meshes."""
-    several = [mine for mine in by(rows, "model") if len(mine) > 1]
-    return curves(GROWTH, "total_seconds", "peak_mebibytes")([row for mine in several for row in mine])
+COMPARE = [("coordinates", "coordinates"), ("influences", "influences:.1f"),
+           ("reach", "reach:.1%"), ("smallest weight", "min_weight:.1e"), ("distortion", "distortion:.3f"),
+           ("time, s", lambda row: text(value(row, "setup_seconds") + value(row, "solve_seconds"), ".2f"))]
+SPEED = [*SIZE, ("cells", "cells:,.0f"), ("time, s", "total_seconds:.2f"),
+         ("true error", "error:.1e"), ("harmonic, s", "harmonic_seconds:.2f"), ("MiB", "peak_mebibytes:,.0f")]
 
 
 def race(rows):
-    """Seconds to the error, in parentheses iterations; a line per model."""
+    """Seconds to the error; a line per model."""
     names = [name for name in results.LABELS if any(r["method"] == name for r in rows)]
 
     def shown(row):
-        counted = iterations(dict(row, converged="1"))
-        return (f"{value(row, 'total_seconds'):.2f} "
-                f"({'not within ' * (row['converged'] != '1')}{counted})")
+        return f"{value(row, 'total_seconds'):.2f}" + " (not reached)" * (row["converged"] != "1")
     body = []
     for mine in by(rows, "model"):
         run = {row["method"]: row for row in mine}
@@ -178,42 +136,19 @@ def race(rows):
     return [header for header, _ in SIZE] + [f"{results.LABELS[name]}, s" for name in names], body
 
 
-SOLVERS = {"weights": "**libflbc**, default method", "lbc2014-tuned": "2014 splitting, penalty tuned by us",
-           "paper": "2019 gradient ADMM, as published"}
-
-
-AUTHORS2014 = [*SIZE, ("authors' program: penalty", "lbc_penalty"), ("iterations", "lbc_iterations"),
-               ("s", "lbc_seconds:.2f"), ("libflbc: iterations", "flbc_iterations"), ("s", "flbc_seconds:.2f"),
+AUTHORS2014 = [SIZE[0], ("authors' program, s", "lbc_seconds:.2f"), ("libflbc, s", "flbc_seconds:.2f"),
                ("ratio", "lbc_over_flbc:.0f")]
 
 
-def solvers(rows):
-    """Seconds to the error, from the same rows as race: a line per method, the best of each model bold."""
-    models = results.in_order(row["model"] for row in rows)
-    seconds = {(row["method"], row["model"]): f"{value(row, 'total_seconds'):.2f}"
-               for row in rows if row["converged"] == "1"}
-    best = {model: min((seconds[method, model] for method in SOLVERS if (method, model) in seconds),
-                       key=float, default=None) for model in models}
-
-    def shown(method, model):
-        time = seconds.get((method, model), "not reached")
-        return f"**{time}**" if time == best[model] else time
-    return (["Seconds to 1e-5"] + models,
-            [[name] + [shown(method, model) for model in models] for method, name in SOLVERS.items()])
-
-
 def tolerance(rows):
-    """Iterations, in parentheses the true error relative to the tolerance; a line per mesh."""
+    """The largest true error relative to the tolerance; a line per model."""
     wanted = results.in_order(row["tolerance"] for row in rows)
-    body = []
-    for model, vertices in results.in_order((r["model"], r["vertices"]) for r in rows):
-        runs = {r["tolerance"]: r for r in rows if (r["model"], r["vertices"]) == (model, vertices)}
-        body.append([model, thousands(vertices)] +
-                    [f"{iterations(runs[t])} ({value(runs[t], 'error'):.2f})" if t in runs else "-"
-                     for t in wanted])
-    worst = [max(value(r, "error") for r in rows if r["tolerance"] == t) for t in wanted]
-    return (["model", "V"] + [f"{float(t):.0e}".replace("e-0", "e-") for t in wanted],
-            body + [["worst", ""] + [f"({error:.2f})" for error in worst]])
+
+    def line(title, mine):
+        worst = [[value(r, "error") for r in mine if r["tolerance"] == t] for t in wanted]
+        return [title] + [f"{max(errors):.2f}" if errors else "-" for errors in worst]
+    return (["model"] + [f"{float(t):.0e}".replace("e-0", "e-") for t in wanted],
+            [line(mine[0]["model"], mine) for mine in by(rows, "model")] + [line("**worst**", rows)])
 
 
 def many_run(prefix):
@@ -224,8 +159,7 @@ def many_run(prefix):
 
 MANY = [("cage", "cage"), ("n", "control_points"), ("V", "vertices:,.0f"), ("tolerance", "tolerance:.0e"),
         ("all pairs: iterations, s, MiB", many_run("all_")), ("active set: iterations, s, MiB", many_run("")),
-        ("pairs", "density:.1%"), ("speedup", lambda row: text(ratio(row, "all_seconds", "seconds"), ".1f")),
-        ("difference", "difference:.1e")]
+        ("speedup", lambda row: text(ratio(row, "all_seconds", "seconds"), ".1f"))]
 
 
 def percent(row, column):
@@ -242,11 +176,11 @@ def animated(row):
     kinds = ("edges_animation", "positions_animation")
     return ", ".join(percent(row, kind) for kind in kinds) if row["edges_animation"] else ""
 
+
+
 PIPELINE = [("model", "model"), ("cage of", "cage_of"), ("total, s", "total:.1f"), ("cage", "cage:.1f"),
             ("mesh", "mesh:.1f"), ("solve", "solve:.1f"), ("reduce to 8", "sparsify:.1f"), ("export", "export:.1f"),
             ("at the same time: check", "check:.1f"), ("pictures", "pictures:.1f")]
-
-
 MESH_DEFORM = [("model", "model"),
                *((title, lambda row, name=name: f"{row[name + '_least']}% to {row[name + '_largest']}%")
                  for title, name in (("add-on", "addon"), ("Mesh Deform", "mesh_deform")))]
@@ -257,33 +191,34 @@ def sparsified(row):
             f"{value(row, 'influences_before'):.0f} influences before")
 
 
-SPARSIFY = [("K", "k"), ("method", "method"), ("edges, independent", error("edges_independent")),
-            ("edges, smooth", error("edges_smooth")), ("positions, independent", error("positions_independent")),
-            ("positions, smooth", error("positions_smooth")), ("edges, positions, animation", animated),
+SPARSIFY = [("K", "k"), ("method", "method"), ("edges", error("edges_smooth")),
+            ("positions", error("positions_smooth")), ("animation: edges, positions", animated),
             ("s", "seconds:.3f")]
 
 
-def time_to_error(rows):
-    """Iterations and seconds of solve and recovery to an error; a line per curve."""
-    thresholds = (1e-4, 1e-5, 1e-6)
-
-    def shown(curve, threshold):
-        found = [results.reach([(x(row), value(row, "error")) for row in curve], threshold)
-                 for x in (lambda row: value(row, "iterations"), results.after_setup)]
-        return "-" if math.isnan(found[0]) else f"{found[0]:.0f}, {found[1]:.2g}"
-    body = [cells(curve[0], "model", "vertices:,.0f", lambda row: results.LABELS[row["method"]]) +
-            [shown(curve, threshold) for threshold in thresholds]
-            for mine in by(rows, "model") for curve in by(mine, "method")]
-    return ["model", "V", "method"] + [f"to {t:.0e}: iterations, s" for t in thresholds], body
+def sparsify(rows):
+    """4 and 8 influences, without the weights of another scheme."""
+    return grouped(sparsified, *SPARSIFY)([row for row in rows if row["k"] != "6" and "another" not in row["weights"]])
 
 
-TABLES = {"models": lines(*MODELS), "harmonic": lines(*HARMONIC), "race": race, "solvers": solvers,
-          "authors2014": lines(*AUTHORS2014), "speed": lines(*SPEED), "growth": growth,
-          "mesh_deform": lines(*MESH_DEFORM), "many": lines(*MANY), "tolerance": tolerance, "smoothness": grouped(sized, *SMOOTHNESS),
-          "cages": lines(*CAGES), "compare": lines(*COMPARE),
-          "distortion": lines(*DISTORTION), "pipeline": lines(*PIPELINE), "samples": lines(*SAMPLES),
-          "sparsify": grouped(sparsified, *SPARSIFY),
-          "table1": lines(*TABLE1),
-          "table2": grouped(with_published, *TABLE2),
-          "figure3": curves(FIGURE3, "total_seconds", "solve_mebibytes"), "figure5": time_to_error,
-          "figure6": time_to_error}
+MESH_ERROR = [("model", "model"), *((f"mesh of {thousands(number)}", f"mesh_{number}") for number in (5000, 10000, 20000)),
+              *((f"iteration, tolerance {t}", f"iteration_{t}") for t in ("1e-5", "1e-6", "1e-7"))]
+BLENDER = [("deformer", "deformer"), ("bind, s", "bind_seconds"), ("frame, ms", "frame_milliseconds"),
+           ("error of an affine map", "affine_error")]
+POINTS = [("step, one core", "step"), ("million points per second", "million_per_second")]
+
+
+def compare(rows):
+    """One model. Local coordinates have the default smoothness."""
+    rows = [row for row in rows if row["model"] == rows[0]["model"]]
+    names = {row["coordinates"] for row in rows}
+    kept = [row for row in rows if row["coordinates"] != "local" or "local_smooth" not in names]
+    return lines(*COMPARE)([dict(row, coordinates=row["coordinates"].removesuffix("_smooth")) for row in kept])
+
+
+TABLES = {"models": lines(*MODELS), "harmonic": lines(*HARMONIC), "race": race,
+          "authors2014": lines(*AUTHORS2014), "speed": lines(*SPEED), "mesh_deform": lines(*MESH_DEFORM),
+          "many": lines(*MANY), "tolerance": tolerance, "smoothness": smoothness, "cages": lines(*CAGES),
+          "compare": compare, "sparsify": sparsify,
+          "pipeline": lines(*PIPELINE),
+          "samples": lines(*SAMPLES), "mesh_error": lines(*MESH_ERROR), "blender": lines(*BLENDER), "points": lines(*POINTS), "table1": lines(*TABLE1), "table2": table2}

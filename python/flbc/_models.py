@@ -60,6 +60,11 @@ def check(
     -------
     list of Defect
         Empty if all is well. A defective cage hides defects of model and weights.
+
+    Raises
+    ------
+    InputError
+        If an array has the wrong shape. Defects are returned, not raised.
     """
     cage = as_cage(cage)
     found = []
@@ -140,6 +145,18 @@ def make_cage(
     Returns
     -------
     Cage
+
+    Raises
+    ------
+    InputError
+        If the model is a single place, or an array has the wrong shape.
+    OptionError
+        If an option is out of range.
+
+    Examples
+    --------
+    >>> vertices, faces = flbc.read_model("meshes/3d/limb_model.obj")
+    >>> cage = flbc.make_cage(vertices, faces, control_points=60)
     """
     check_scalars(
         control_points=(control_points, "an integer"),
@@ -397,6 +414,11 @@ def view(
     -------
     Page
         A notebook shows it; ``page.save("model.html")`` writes a file for any browser.
+
+    Raises
+    ------
+    InputError
+        If the shapes of vertices, weights, cage, and poses do not match.
     """
     cage = as_cage(cage)
     points, polygons, given, moved = _model(vertices, faces, weights, cage, poses)

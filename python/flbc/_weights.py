@@ -252,6 +252,11 @@ def mean_value(cage: CageLike, points: ArrayLike) -> Floats:
     -------
     ndarray, shape (P, n)
         Rows sum to 1. Weights can be negative.
+
+    Raises
+    ------
+    InputError
+        If the cage is defective, or the points have the wrong shape.
     """
     cage = as_cage(cage)
     return _core.mean_value(cage.points, cage.facets, as_points(points, "points", cage.dim))
@@ -274,6 +279,11 @@ def measure(
     dict
         Extreme values, each with its point and control point, and a list of ``violations`` of
         what coordinates must satisfy.
+
+    Raises
+    ------
+    InputError
+        If the cage is defective, or the shapes of weights and points do not match.
     """
     cage = as_cage(cage)
     cells = points.cells if isinstance(points, DomainMesh) else None

@@ -17,7 +17,7 @@ pytest.importorskip("matplotlib", reason="python3-matplotlib is missing")
     [
         ("README.md", ["function.png"]),
         ("docs/tutorials/python.md",
-         ["function.png", "moved.png", "moved.ply", "model.html", "model.glb"]),
+         ["function.png", "moved.ply", "model.html", "model.glb"]),
     ],
 )
 def test_code_runs(tmp_path, page, files):

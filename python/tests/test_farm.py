@@ -16,7 +16,7 @@ def test_folder_is_bound(tmp_path):
         shutil.copy(MESHES / f"3d/{name}_model.obj", tmp_path / f"{name}.obj")
     (tmp_path / "broken.obj").write_text("v 0 0 zero\n")
     found = subprocess.run(
-        [sys.executable, SOURCE / "python/examples/bind_folder.py", tmp_path],
+        [sys.executable, SOURCE / "examples/bind_folder.py", tmp_path],
         capture_output=True, text=True, timeout=280,
     )
     assert found.returncode == 0, found.stderr

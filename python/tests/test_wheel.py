@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A wheel is built without a network, and works where it is installed."""
 import os
+import re
 import subprocess
 import sys
 import zipfile
@@ -28,6 +29,11 @@ def test_wheel(tmp_path):
     names = zipfile.ZipFile(wheel).namelist()
     for file in ("__init__.py", "_solve.py", "_core.pyi", "py.typed"):
         assert f"flbc/{file}" in names
+    metadata = next(name for name in names if name.endswith("/METADATA"))
+    license = re.search(r"^License: (.*)$", zipfile.ZipFile(wheel).read(metadata).decode(), re.M)[1]
+    if "FLBC_PROGRAM" in os.environ:  # has the same libraries
+        version = subprocess.run([os.environ["FLBC_PROGRAM"], "--version"], capture_output=True, text=True, check=True)
+        assert f"license of this program: {license}" in version.stdout
     target = tmp_path / "target"
     subprocess.run([*pip, "install", *offline, "--target", target, wheel], check=True)
     code = "import flbc; c = flbc.Cage([[0, 0], [1, 0], [0, 1]]); " \

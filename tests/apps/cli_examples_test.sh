@@ -23,3 +23,14 @@ for command in $commands; do
   printed=$(sh -eu "$examples/$command.sh" 2>&1) || fail "$command.sh: $printed"
   [ "$(ls -A | xargs)" = "bin meshes out" ] || fail "$command.sh: wrote outside out/"
 done
+
+# The examples of --help, in a folder with the files that they name.
+mkdir "$work/help"
+cd "$work/help"
+for name in cage model; do cp "$repository/meshes/3d/limb_$name.obj" "$name.obj"; done
+cp "$repository/meshes/3d/limb_cage_pose.obj" pose.obj
+for command in solve sparsify deform export cage run; do
+  flbc $command --help | sed -n '/^Examples:$/,$s/^  flbc /flbc /p' >examples.sh
+  [ "$(wc -l <examples.sh)" = 2 ] || fail "flbc $command --help: not two examples"
+  printed=$(sh -eu examples.sh 2>&1) || fail "flbc $command --help: $printed"
+done

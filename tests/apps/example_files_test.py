@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs an example and judges the file it writes.
+"""Runs an example and checks what it writes.
 
     example_files_test.py EXAMPLE PROGRAM FLBC MESHES OUT_FOLDER
 """
@@ -117,8 +117,31 @@ def bind_and_deform(program, flbc, meshes, out):
     check(away > 0.05 * size(before), "nothing has moved")
 
 
+def printed(*command):
+    return subprocess.run([str(part) for part in command], check=True, capture_output=True, text=True).stdout
+
+
+def core_2d(program, flbc, meshes, out):
+    """The corner (1, 1) moves by (0.5, 0.5), and every vertex by a part of that; far edges are at rest."""
+    rows = [[float(x) for x in line.split()] for line in printed(program).splitlines()]
+    check(len(rows) > 300, f"{len(rows)} vertices")
+    for x, y, new_x, new_y in rows:
+        part = (new_x - x) / 0.5
+        check(abs(new_y - y - 0.5 * part) < 1e-4 and -1e-4 < part < 1 + 1e-4, f"({x}, {y}) moves by {part}")
+        if min(x, y) == 0 or x == y == 1:
+            check(abs(part - (x == y == 1)) < 1e-4, f"({x}, {y}) on the cage moves by {part}")
+
+
+def move_and_resume(program, flbc, meshes, out):
+    """Each solve iterates, and the last weights are coordinates of the moved cage."""
+    first, resumed, moved, error = printed(program, meshes / "2d/letter_cage.obj").split()
+    check(min(int(first), int(resumed), int(moved)) > 0, "a solve without iterations")
+    check(float(error) < 1e-10, f"reproduction to {error}")
+
+
 EXAMPLES = {function.__name__: function
-            for function in (color_a_weight, decimate_and_deform, embedded_surface, bind_and_deform)}
+            for function in (color_a_weight, core_2d, decimate_and_deform, embedded_surface, bind_and_deform,
+                             move_and_resume)}
 EXAMPLES["iterate_on_mesh"] = color_a_weight  # solves in another way
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Whether the lines for NumPy of docs/how-to/use_in_numpy_matlab_libigl.md do what flbc deform does:
+# Whether the lines for NumPy of docs/how-to/weights.md do what flbc deform does:
 #   numpy_page_test.sh PROGRAM REPOSITORY WORK
 # PROGRAM: flbc. WORK: a folder for results, made anew.
 # Ends with 77, which CTest counts as skipped, if Python has no NumPy.
@@ -24,7 +24,7 @@ cd "$work"
   --pose meshes/3d/limb_cage_pose.obj
 {
   awk '/^```python$/ { inside = 1; next } /^```$/ { inside = 0 } inside' \
-    "$repository/docs/how-to/use_in_numpy_matlab_libigl.md"
+    "$repository/docs/how-to/weights.md"
   echo 'rows = [line.split()[1:4] for line in open("deformed.obj") if line.startswith("v ")]'
   echo 'error = abs(moved - np.array(rows, dtype=float)).max()'
   echo 'assert error < 1e-12, error'

@@ -1,10 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables of the docs equal their stored results, and docs.py would notice if one did not."""
+"""Tables and measurements of the docs equal their stored results, and docs.py would notice if one did not."""
 
 import contextlib
 import io
 import pathlib
+import random
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -12,6 +14,7 @@ import tempfile
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "benchmarks" / "paper"))
 import docs  # noqa: E402
+import measured  # noqa: E402
 
 CSV = """# a race
 # a machine; single runs
@@ -19,8 +22,18 @@ CSV = """# a race
 model,control_points,vertices,cells,method,converged,iterations,total_seconds,coarse_levels,error
 logo,6,1000,1900,paper,0,10000,1.25,0,2e-05
 logo,6,1000,1900,value,1,20,0.125,1,9e-06
+cup,6,1000,1900,paper,1,100,1.5,0,2e-05
+cup,6,1000,1900,value,1,20,0.5,1,9e-06
 """
-PAGE = "before\n<!-- results: race -->\n| by hand |\n<!-- end of results -->\nafter\n"
+PAGE = """before, <!--n:race.ratio.paper-->by hand<!--/n--> times
+<!-- results: race -->
+| by hand |
+<!-- end of results -->
+after
+"""
+
+
+RANDOM = random.Random(7)
 
 
 def quietly(action):
@@ -38,15 +51,20 @@ def notices_changes():
         (folder / "race.csv").write_text(CSV)
         assert quietly(lambda: docs.take_over(folder)) == 0
         page = page_file.read_text()
-        for part in ("before", "after", "1.25 (not within 10,000)", "0.12 (20 + 1 level)", "| 6 | 1,000 |", "commit 0123abc"):
+        for part in ("before", "after", "| 1.25 (not reached) |", "| 0.12 |", "| 6 | 1,000 |", "commit 0123abc"):
             assert part in page, part
-        for old, new in (("1.25", "1.24"), ("(20 +", "(19 +"), ("0123abc", "0123abd")):
+        for old, new in (("1.25", "1.24"), ("| 0.12 |", "| 0.13 |"), ("0123abc", "0123abd")):
             page_file.write_text(page.replace(old, new))
             assert quietly(docs.check) == 1, f"{new} for {old} went unnoticed"
         page_file.write_text(page)
         assert quietly(docs.check) == 0
+        (docs.STORED / "SHA256SUMS").unlink()
         (docs.STORED / "table9.csv").write_text(CSV)
         assert quietly(docs.check) == 1, "a result without a table went unnoticed"
+        (docs.STORED / "table9.csv").unlink()
+        page_file.write_text(page.replace("<!--n:race.ratio.paper-->3.0 to 3.0", "<!--n:race.ratio.paper-->3.1 to 3.0"))
+        assert quietly(docs.check) == 1, "another measurement in a sentence went unnoticed"
+        page_file.write_text(page)
         for unfit in ("quick run: small", "only models that were asked for", "incomplete: some"):
             (folder / "race.csv").write_text(f"# {unfit}\n" + CSV)
             try:
@@ -54,6 +72,48 @@ def notices_changes():
             except SystemExit:
                 continue
             raise AssertionError(f"taken over: {unfit}")
+
+
+def with_another_digit(text, spans):
+    """The text with a digit of one of the spans replaced."""
+    at = RANDOM.choice([k for start, end in spans for k in range(start, end) if text[k].isdigit()])
+    digit = RANDOM.choice([c for c in "0123456789" if c != text[at]])
+    return text[:at] + digit + text[at + 1:]
+
+
+def notices_any_digit():
+    """In measurements, tables, and stored results."""
+    pages, stored = docs.PAGES, docs.STORED
+    with tempfile.TemporaryDirectory() as name:
+        docs.STORED = pathlib.Path(name) / "results"
+        shutil.copytree(stored, docs.STORED)
+        docs.PAGES = [pathlib.Path(name) / f"{k}.md" for k in range(len(pages))]
+        for page, copy in zip(pages, docs.PAGES):
+            copy.write_text(page.read_text())
+        shown = [page for page in docs.PAGES if docs.MARKED.search(page.read_text())]
+        for _ in range(10):
+            page = RANDOM.choice(shown)
+            text = page.read_text()
+            numbers = [m.span(3) for m in docs.NUMBER.finditer(text)]
+            rows = [m.span(3) for m in docs.MARKED.finditer(text)]
+            page.write_text(with_another_digit(text, RANDOM.choice([numbers or rows, rows])))
+            assert quietly(docs.check) == 1, f"another digit of {page.name} went unnoticed"
+            page.write_text(text)
+        results = sorted(docs.STORED.glob("*.csv"))
+        for _ in range(10):
+            path = RANDOM.choice(results)
+            text = path.read_text()
+            path.write_text(with_another_digit(text, [(0, len(text))]))
+            assert quietly(docs.check) == 1, f"another digit of {path.name} went unnoticed"
+            path.write_text(text)
+        assert quietly(docs.check) == 0
+    docs.PAGES, docs.STORED = pages, stored
+
+
+def shows_all_measurements():
+    """Each number that measured.py computes is on a page."""
+    shown = {m[2] for page in docs.PAGES for m in docs.NUMBER.finditer(page.read_text())}
+    assert shown == set(measured.NUMBERS), shown ^ set(measured.NUMBERS)
 
 
 def finds_other_behavior():
@@ -76,6 +136,8 @@ def refuses_folders_without_cages():
 
 if __name__ == "__main__":
     result = docs.check()
+    shows_all_measurements()
+    notices_any_digit()
     finds_other_behavior()
     refuses_folders_without_cages()
     notices_changes()

@@ -104,6 +104,7 @@ struct CreaseCheck {
   Index ends[2] = {-1, -1};  //!< vertices of that edge
 };
 
+//! Changes of the angles between neighboring triangles of a surface in a pose.
 //! \param rest  3 x P
 //! \param posed  3 x P, the same surface in a pose
 //! \param triangles  3 x T, consistently oriented

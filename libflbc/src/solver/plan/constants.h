@@ -17,11 +17,11 @@ constexpr double kPenalty = 1.0 / 40, kPenaltyOfSmoothness = 14;
 //! and after a multilevel start they are nearly correct.
 constexpr double kActivePenaltyCold = 0.5, kActivePenaltyWarm = 0.25;
 //! `lbc2014` without a given penalty: on average, rho m is this times the measure of a cell. Best
-//! value measured from 1/120 to 1/10 (lab book).
+//! value measured from 1/120 to 1/10.
 constexpr double kLbc2014Penalty = 1.0 / 30;
 //! `gradient`: mu is this times the measure of a typical facet. Scaled duals are then as large as
 //! gradients. The multiplier of a facet is a potential of the order of cage size times facet
-//! measure, and grows slowest. Best on all models (lab book).
+//! measure, and grows slowest. Best on all models.
 constexpr double gradient_penalty(int dim) {
   return dim == 2 ? 1.0 / 3500 : 1.0 / 6000;
 }

@@ -96,7 +96,7 @@ class GradientAdmm {
     if (!resumed_) restart();
   }
 
-  //! Drops the state and starts from harmonic coordinates.
+  //! Drops the state and starts from harmonic coordinates. \throws SolverError
   void restart() {
     const SparseWeights weights = harmonic_coordinates(problem_.base);
     for (const Cell cell : Elements<Mesh>::cells(mesh_)) {
@@ -141,6 +141,7 @@ class GradientAdmm {
   }
 
   //! Writes the weights whose gradients are nearest to the current ones as a property.
+  //! \throws SolverError
   void recover_weights() {
     const CellFieldView<double, kDim> gradients{gradient_->data(), static_cast<std::size_t>(n_),
                                                 n_};
@@ -152,10 +153,11 @@ class GradientAdmm {
   bool resumed() const { return resumed_; }  //!< whether it started from a state on the mesh
   double penalty() const { return mu_; }     //!< as in GradientAdmmOptions
 
-  //! The state on an element, Dim x n: gradients, the dual of (7), and the dual of (9) or (10),
-  //! positive on the first side of the facet.
+  //! The state on an element, Dim x n: gradients, ...
   Eigen::Map<Rows> gradient(Cell cell) const { return rows(gradient_, cell); }
+  //! ... the dual of (7), ...
   Eigen::Map<Rows> cell_dual(Cell cell) const { return rows(cell_dual_, cell); }
+  //! ... and the dual of (9) or (10), positive on the first side of the facet.
   Eigen::Map<Rows> facet_dual(Facet facet) const { return rows(facet_dual_, facet); }
 
  private:
