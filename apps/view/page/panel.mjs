@@ -217,7 +217,7 @@ function describeSelection(viewer) {
   if (viewer.typed) return `${viewer.tool} ${viewer.typed}${kUnits[viewer.tool]}; press Enter, or Esc to cancel`;
   const chosen = viewer.hovered >= 0 ? [viewer.hovered] : [...selection];
   if (chosen.length === 0) return "drag a control point, or double-click it for the ring around the limb";
-  const moved = portion(deformer.countMovedBy(chosen), deformer.base.length / 3);
+  const moved = deformer.weights.values.length > 0 ? portion(deformer.countMovedBy(chosen), deformer.base.length / 3) : "nothing yet";
   return chosen.length === 1 ? `control point ${chosen[0]} moves ${moved}`
                              : `${chosen.length} control points are selected and move ${moved}`;
 }
