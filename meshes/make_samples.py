@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes the sample cages and models of this folder, the same bytes on every run.
 
-usage: make_samples.py [OUTDIR]        (default: the folder of this script; takes about a minute)
+usage: make_samples.py [OUTDIR]        (default: the folder of this script; takes about two minutes)
 """
 
 import math
@@ -172,6 +172,35 @@ def make_limb(folder):
     write_obj(folder / "3d/limb_model.obj", "an arm with a hand", points, faces=triangles)
 
 
+def make_character(folder):
+    """A little person with long ears, arms held out, in colors. Its cage is to be made."""
+
+    def both(*nodes):
+        """A limb and its mirror image."""
+        return [fields.limb([(side * x, *rest) for x, *rest in nodes]) for side in (1, -1)]
+
+    head = [fields.chain([(0, 3.55, 0, 0.72), (0, 3.62, 0.08, 0.7)]),
+            *both((0.3, 4.1, 0, 0.16), (0.42, 4.75, -0.02, 0.2), (0.5, 5.2, -0.05, 0.12))]
+    hands = both((1.9, 2.42, 0, 0.2), (2.12, 2.42, 0, 0.24), (2.35, 2.42, 0, 0.17))
+    shirt = [fields.limb([(0, 1.75, 0, 0.5), (0, 2.0, 0.02, 0.53), (0, 2.5, 0, 0.46)]),
+             *both((0.3, 2.5, 0, 0.3), (0.8, 2.45, 0, 0.25), (1.25, 2.42, -0.02, 0.22),
+                   (1.9, 2.42, 0, 0.19))]
+    trousers = both((0, 1.4, 0, 0.5), (0.3, 1.25, 0, 0.37), (0.36, 0.85, 0.03, 0.3), (0.38, 0.2, 0, 0.24))
+    shoes = both((0.38, -0.02, -0.02, 0.25), (0.4, -0.05, 0.2, 0.26), (0.42, -0.08, 0.42, 0.22))
+    parts = {(0.95, 0.78, 0.6): head + hands, (0.85, 0.3, 0.25): shirt,
+             (0.25, 0.4, 0.7): trousers, (0.35, 0.22, 0.16): shoes}
+    shape = fields.union([field for some in parts.values() for field in some], fillet=0.12)
+    points, triangles = surface_net.polygonise(shape, (-2.66, -0.46, -0.87), (2.66, 5.42, 0.97),
+                                               0.11)
+    colors = [min(parts, key=lambda color: min(field(p) for field in parts[color])) for p in points]
+    eyes = [(side * 0.26, 3.72, 0.75) for side in (1, -1)]
+    for v, p in enumerate(points):
+        if any(dot(sub(p, eye), sub(p, eye)) < 0.13 ** 2 for eye in eyes):
+            colors[v] = (0.1, 0.1, 0.12)
+    write_obj(folder / "3d/character_model.obj", "a little person",
+              [(*p, *color) for p, color in zip(points, colors)], faces=triangles)
+
+
 def make_star(folder):
     """A star with twelve blunt arms, and a cage whose valleys are the corners of a dodecahedron."""
     golden = (1 + math.sqrt(5)) / 2
@@ -274,8 +303,8 @@ def make_knot(folder):
 
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent)
-    for make in (make_figure, make_letter, make_ring, make_limb, make_star, make_torus,
-                 make_knot):
+    for make in (make_figure, make_letter, make_ring, make_limb, make_character, make_star,
+                 make_torus, make_knot):
         make(folder)
 
 

@@ -37,10 +37,18 @@ function page(assets) {
   const names = /set\(page_modules\s+([^)]*)\)/.exec(read("../apps/view/CMakeLists.txt"))[1].trim().split(/\s+/);
   const script = joined([...names.map((name) => `${view}${name}.mjs`), "js/flbc.mjs", "page/reshaping.mjs",
                          "page/shapes.mjs", "page/cage_edits.mjs", "page/app.mjs"]);
-  const samples = Object.fromEntries(["2d/figure", "3d/limb", "3d/torus"].map((name) => [
-    `${name.slice(3)}.obj`, packed(readFileSync(at(`../meshes/${name}_model.obj`)))]));
+  const kSamples = { Character: "3d/character", Limb: "3d/limb", Torus: "3d/torus", "Figure, in 2D": "2d/figure" };
+  const samples = {};
+  let buttons = "";
+  for (const [label, path] of Object.entries(kSamples)) {
+    const name = path.slice(3);
+    samples[`${name}.obj`] = packed(readFileSync(at(`../meshes/${path}_model.obj`)));
+    const picture = readFileSync(at(`../meshes/pictures/${name}.webp`)).toString("base64");
+    buttons += `<button data-sample="${name}.obj"><img src="data:image/webp;base64,${picture}" alt="">${label}</button>`;
+  }
   const source = address ? `<a href="${address}">source code</a>` : "whoever gave you this page offers its source code";
-  const app = read("page/app.html").replace("{{version}}", version).replace("{{source}}", source);
+  const app = read("page/app.html").replace("{{version}}", version).replace("{{source}}", source)
+    .replace("{{samples}}", buttons).replace("{{moving}}", read("../meshes/pictures/figure_moving.svg"));
   // Base64 has no "<". It comes last, and is read after the page has been drawn.
   const late = `<script type="application/json" id="assets">${JSON.stringify({ ...assets, samples })}</script>\n`;
   const parts = { style: read(`${view}page.css`) + read("page/app.css"), data: "null", script };

@@ -89,7 +89,7 @@ view::PageContent<Dim> load_content(const ViewArguments& arguments, const CageFi
   auto model = load_shown_model<Dim>(arguments.model);
   content.points = std::move(model.points);
   content.surface = std::move(model.surface);
-  content.up = up_axis(up_of(arguments.up, arguments.model), content.points);
+  look_from_front(content, up_of(arguments.up, arguments.model));
   content.poses = load_shown_poses<Dim>(arguments, poses, content.cage.points);
   if (!arguments.picture.empty()) {
     content.picture = data_uri(media_type_of(arguments.picture), io::read_file(arguments.picture));

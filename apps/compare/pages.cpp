@@ -84,7 +84,7 @@ std::string viewer_of(const Comparison<Dim>& all, const Column<Dim>& column) {
   content.cage_file = path_beside(page, arguments.cage);
   content.cage = load_shown_cage<Dim>(arguments.cage);
   content.points = all.points();
-  content.up = up_axis(arguments.view.up, content.points);
+  look_from_front(content, arguments.view.up);
   content.surface = all.shape.surface;
   content.weights = column.settings.coordinates == Coordinates::kBiharmonic
                         ? largest_weights(column.rows.dense())

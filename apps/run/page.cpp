@@ -41,7 +41,7 @@ void write_page(Run<Dim>& run) {
   content.cage = shown_cage(run);
   content.points = shape.points;
   content.surface = shape.surface;
-  content.up = up_axis(run.arguments.up, shape.points);
+  look_from_front(content, run.arguments.up);
   content.weights = view::limit_influences<Dim>(run.cage.points, run.attached(), run.reduced,
                                                 view::kMostInfluences);
   content.poses = shown_poses(run.poses(), times_of(run));

@@ -42,6 +42,12 @@ view::ShownModel<Dim> load_shown_model(const std::string& path) {
   return {model.points(), is_cloud ? gltf::Surface() : model.surface()};
 }
 
+template <int Dim>
+void look_from_front(view::PageContent<Dim>& content, UpAxis up) {
+  content.up = up_axis(up, content.points);
+  if constexpr (Dim == 3) content.front = front_azimuth(content.up, content.points);
+}
+
 std::vector<double> times_of_poses(std::size_t count, double frames_per_second) {
   const double rate = frame_rate(count, frames_per_second);
   std::vector<double> times;
@@ -76,6 +82,7 @@ std::string data_uri(const std::string& media_type, const std::string& bytes) {
   template view::ShownCage<Dim> load_shown_cage(const std::string&);                     \
   template view::ShownCage<Dim> cage_as_shown(const io::ModelFile&, const std::string&); \
   template view::ShownModel<Dim> load_shown_model(const std::string&);                   \
+  template void look_from_front(view::PageContent<Dim>&, UpAxis);                        \
   template std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>&,  \
                                                          const std::vector<double>&);
 FLBC_INSTANTIATE(2)

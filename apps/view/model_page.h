@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "files/up_axis.h"
 #include "flbc/io/model_file.h"
 #include "poses/poses.h"
 #include "view/page.h"
@@ -24,6 +25,10 @@ view::ShownCage<Dim> cage_as_shown(const io::ModelFile& file, const std::string&
 //! \throws IoError, InputError, OptionError
 template <int Dim>
 view::ShownModel<Dim> load_shown_model(const std::string& path);
+
+//! Shows the model upright and from its front at first.
+template <int Dim>
+void look_from_front(view::PageContent<Dim>& content, UpAxis up);
 
 //! When poses are reached from rest at 0 s. \param frames_per_second  0 = 24, but 1 for one pose
 std::vector<double> times_of_poses(std::size_t count, double frames_per_second);

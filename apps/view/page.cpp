@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -12,6 +13,8 @@
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/sparsify.h"
+#include "model/gltf_edit.h"
+#include "model/gltf_writer.h"
 #include "model/srgb.h"
 
 namespace flbc::view {
@@ -108,10 +111,41 @@ std::vector<Index> crease_groups(const gltf::Surface& surface) {
   return groups;
 }
 
+// \param numbers  of pictures, by their files \param pictures  gets their addresses
+Json look_of(const io::Material& material, std::map<std::string, Index>& numbers, Json& pictures) {
+  std::vector<std::string> left_out;
+  const auto [number, is_new] = numbers.emplace(material.texture, -1);
+  const auto bytes = is_new ? io::load_picture(material, left_out) : std::string();
+  if (!bytes.empty()) {
+    number->second = static_cast<Index>(pictures.size());
+    pictures.push_back("data:" + io::media_type_of(bytes) + ";base64," + draw::to_base64(bytes));
+  }
+  const Eigen::Vector3d color = material.color.unaryExpr(&io::to_srgb);
+  return {{"color", std::vector<double>(color.begin(), color.end())},
+          {"opacity", material.opacity},
+          {"cutoff", material.alpha_cutoff},
+          {"picture", number->second}};
+}
+
 Json pack_surface(const gltf::Surface& surface, Eigen::Index num_points) {
   const auto num_vertices = static_cast<Eigen::Index>(surface.sources.size());
-  Json json;
-  json["triangles"] = pack_indices(surface.triangles.reshaped(), num_vertices);
+  std::map<std::pair<double, Index>, std::vector<Index>> parts;  // transparent ones last
+  for (Index t = 0; t < static_cast<Index>(surface.triangles.cols()); ++t) {
+    const Index material = surface.triangle_materials.empty() ? -1 : surface.triangle_materials[t];
+    parts[{material < 0 ? -1 : -surface.materials[material].opacity, material}].push_back(t);
+  }
+  Json json{{"parts", Json::array()}, {"pictures", Json::array()}};
+  std::map<std::string, Index> numbers;
+  std::vector<Index> order;
+  for (const auto& [key, own] : parts) {
+    const auto look = key.second < 0
+                          ? Json::object()
+                          : look_of(surface.materials[key.second], numbers, json["pictures"]);
+    json["parts"].push_back({{"first", 3 * order.size()}, {"count", 3 * own.size()}});
+    json["parts"].back().update(look);
+    order.insert(order.end(), own.begin(), own.end());
+  }
+  json["triangles"] = pack_indices(surface.triangles(Eigen::all, order).reshaped(), num_vertices);
   if (!is_identity(surface.sources, num_points)) {
     json["sources"] = pack_indices(surface.sources, num_points);
     json["groups"] = pack_indices(crease_groups(surface), num_vertices);
@@ -166,6 +200,7 @@ Json to_json(const PageContent<Dim>& content) {
   Json json{{"dim", Dim},
             {"title", content.title},
             {"up", content.up},
+            {"front", content.front},
             {"files",
              {{"model", content.model_file},
               {"weights", content.weights_file},

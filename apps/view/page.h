@@ -58,7 +58,8 @@ struct PageContent {
   SparseWeights weights{};  //!< of P points, at most kMostInfluences of each
   std::vector<ShownPose<Dim>> poses{};
   int up = 1;             //!< 3D: axis that points up at first
-  std::string picture{};  //!< data URI of a texture, or empty
+  double front = 0;       //!< 3D: azimuth of the front in degrees, a multiple of 90
+  std::string picture{};  //!< data URI of a texture in place of all materials, or empty
 };
 
 //! The edges of a cage's polygons; of its facets if there are none.

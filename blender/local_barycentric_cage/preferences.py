@@ -21,7 +21,7 @@ class SceneSettings(bpy.types.PropertyGroup):
         name='Cage', type=bpy.types.Object, poll=lambda _self, item: item.type == 'MESH',
         description='Closed mesh around the models')
     control_points: bpy.props.IntProperty(
-        name='Control Points', default=60, min=0, max=5000,
+        name='Control Points', default=0, min=0, max=5000,
         description='Maximum number of vertices of a new cage. 0: depends on the shape')
     influences: bpy.props.EnumProperty(
         name='Influences', default='8',

@@ -3,11 +3,11 @@
 
 
 def write_obj(path, title, points, loops=(), faces=()):
-    """Points of two or three coordinates; loops and faces number them from 0. A loop is closed
+    """Points of two or three coordinates, and colors if they have six numbers; loops and faces number them from 0. A loop is closed
     by naming its first point again."""
     lines = [f"# {title}"]
     for p in points:
-        lines.append("v " + " ".join(number(x) for x in (tuple(p) + (0.0,))[:3]))
+        lines.append("v " + " ".join(number(x) for x in (p if len(p) > 3 else (*p, 0.0)[:3])))
     for loop in loops:
         lines.append("l " + " ".join(str(v + 1) for v in [*loop, loop[0]]))
     for face in faces:

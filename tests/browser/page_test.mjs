@@ -492,9 +492,10 @@ async function testTouch(name) {
 // A texture, and a place far from the origin.
 async function testTexture() {
   const page = await open("square");
-  const plain = await page.picture();
-  await page.tab.select("#coloring", "texture");
-  assert.ok(countDifferent(plain, await page.picture(join(work, "square_texture.png"))) > 1000);
+  await page.tab.waitForFunction(() => window.flbc.viewer.renderer.pictures.length === 1);
+  const own = await page.picture(join(work, "square_texture.png"));
+  await page.tab.select("#coloring", "shaded");
+  assert.ok(countDifferent(await page.picture(), own) > 1000);
   await page.ask("move", 2, [1001.5, 501.25]);
   const points = await page.points();
   const expected = vertices(join(work, "square_model.obj"), 2).map((value, k, all) => {

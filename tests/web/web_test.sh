@@ -27,9 +27,9 @@ if [ "$kind" = node ]; then
   # The package as others install it, without anything else.
   command -v npm >/dev/null || exit 0
   (cd "$work" && npm pack --silent "$root/web" >/dev/null && npm init --yes >/dev/null &&
-    npm install --silent --offline --no-audit --no-fund ./flbc-*.tgz &&
-    node --input-type=module -e 'import { Flbc } from "flbc"; const flbc = await Flbc.start();
-      console.log(await flbc.version()); flbc.end();')
+    npm install --silent --offline --no-audit --no-fund ./flbc-*.tgz)
+  node "$here/packages_test.mjs" "$work" "$here/../browser/node_modules" \
+    "$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)"
 else
   browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) ||
     skip "there is no browser (Debian: chromium)"

@@ -2,8 +2,10 @@
 /** Receives the name of a stage and its progress in [0, 1]. */
 export type OnProgress = (stage: string, done: number) => void;
 /** Coordinates one after the other: 3 for each point, in 2D 2. */
-export type Numbers = Float64Array | Float32Array | number[];
-export type Indices = Int32Array | Uint32Array | Uint16Array | number[];
+export type Numbers = ArrayLike<number>;
+export type Indices = ArrayLike<number>;
+/** The content of a file. */
+export type Bytes = Uint8Array<ArrayBuffer>;
 
 /** `name` is InputError, OptionError, DefectiveCage, OutOfMemory, Crash, Cancelled or Ended. */
 export class FlbcError extends Error {
@@ -101,16 +103,17 @@ export class Flbc {
   deform(points: Numbers): Promise<Float64Array>;
 
   /** JSON for the page of flbc view. */
-  content(options?: { picture?: string }): Promise<Uint8Array>;
+  content(options?: { picture?: string }): Promise<Bytes>;
   /** A page to deform the model in that needs no other file. */
-  page(options?: { picture?: string }): Promise<Uint8Array>;
-  /** A skin of 4 or 8 influences per vertex. */
-  glb(options?: { influences?: 4 | 8 }): Promise<Uint8Array>;
-  weightFile(options?: { format?: "npy" | "mtx" | "dmat" | "lbw"; of?: "model" | "mesh" }): Promise<Uint8Array>;
-  cageFile(): Promise<Uint8Array>;
-  meshFile(): Promise<Uint8Array>;
+  page(options?: { picture?: string }): Promise<Bytes>;
+  /** A skin of 4 or 8 influences per vertex, with poses of the cage at times in seconds. Of a glTF
+   *  file, its whole document is kept. */
+  glb(options?: { influences?: 4 | 8; times?: number[]; poses?: Numbers[] }): Promise<Bytes>;
+  weightFile(options?: { format?: "npy" | "mtx" | "dmat" | "lbw"; of?: "model" | "mesh" }): Promise<Bytes>;
+  cageFile(): Promise<Bytes>;
+  meshFile(): Promise<Bytes>;
   /** The model where these control points take it. */
-  modelFile(points: Numbers, extension?: string): Promise<Uint8Array>;
+  modelFile(points: Numbers, extension?: string): Promise<Bytes>;
   /** Bytes that the module takes. */
   memory(): Promise<number>;
   version(): Promise<string>;

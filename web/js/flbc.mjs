@@ -24,7 +24,8 @@ async function makeWorker(script) {
   if (typeof Worker === "function") {
     return new Worker(URL.createObjectURL(new Blob([script], { type: "text/javascript" })));
   }
-  const { Worker: NodeWorker } = await import("node:worker_threads");
+  const name = "node:worker_threads";  // which bundlers are not to look for
+  const { Worker: NodeWorker } = await import(/* @vite-ignore */ /* webpackIgnore: true */ name);
   return new NodeWorker(script, { eval: true, execArgv: [] });
 }
 
@@ -108,11 +109,12 @@ export class Flbc {
   setMesh(points, cells) { return this.call("setMesh", { points, cells }); }
   deform(points) { return this.call("deform", { points }); }
   modelFile(points, extension) { return this.call("modelFile", { points, extension }); }
+  glb({ poses = [], ...options } = {}) { return this.call("glb", { ...options, poses: poses.map((pose) => Array.from(pose)) }); }
 }
 
 // The others take an object of options.
 for (const name of ["makeCage", "repairCage", "makeMesh", "solve", "solution", "setSolution", "reduce", "move",
-                    "points", "cage", "weights", "harmonicWeights", "content", "page", "glb", "weightFile",
+                    "points", "cage", "weights", "harmonicWeights", "content", "page", "weightFile",
                     "cageFile", "meshFile", "memory", "version"]) {
   Flbc.prototype[name] = function (options, onProgress) { return this.call(name, options, onProgress); };
 }

@@ -1,44 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page: from a dropped file to a model that is dragged by its cage.
+import { portion } from "../../apps/view/page/colors.mjs";
 import { decodeContent } from "../../apps/view/page/data.mjs";
+import { Deformer } from "../../apps/view/page/deformer.mjs";
 import { show } from "../../apps/view/page/main.mjs";
 import { element, setTheme, tell } from "../../apps/view/page/panel.mjs";
 import { download } from "../../apps/view/page/saving.mjs";
 import { Flbc, unpacked } from "../js/flbc.mjs";
 import { cageToObj, mergePoints, splitEdge } from "./cage_edits.mjs";
 import { bindReshaping, Reshaper } from "./reshaping.mjs";
-import { decodePicture, Sketch, svgToObj } from "./shapes.mjs";
+import { readPicture, Sketch } from "./shapes.mjs";
 
-const kSamples = { "Figure (2D)": "figure.obj", Limb: "limb.obj", Torus: "torus.obj" };
 const kVertices = 6000;   // of the mesh of the interior
 const kMoves = 1e-4;      // of the cage size: less is no movement
 const kPicture = /\.(png|jpe?g)$/i;
+const kDrawing = /\.svg$/i;
 const kScreens = ["start", "busy", "drawing"];
 const kParts = ["stage", "timeline", "panel", "keyHelp"];
-
-// The share of vertices that move by at least so much.
-function shareOfMoved({ starts, controlPoints, values }, steps, least) {
-  let moved = 0;
-  for (let p = 0; p + 1 < starts.length; ++p) {
-    let x = 0, y = 0, z = 0;
-    for (let k = starts[p]; k < starts[p + 1]; ++k) {
-      const owner = 3 * controlPoints[k];
-      x += values[k] * steps[owner];
-      y += values[k] * steps[owner + 1];
-      z += values[k] * steps[owner + 2];
-    }
-    moved += Math.hypot(x, y, z) > least ? 1 : 0;
-  }
-  return moved / (starts.length - 1);
-}
 
 class App {
   constructor() {
     this.fresh = kParts.map((id) => element(id).cloneNode(true));
-    this.model = null;   // the one that is shown: name, bytes, files, picture
+    this.model = null;   // the one that is shown: name, bytes, files, picture, theme
     this.cage = null;    // its cage, as a file: name, bytes
     this.solution = null;
-    this.sketch = new Sketch(element("sketch"), (obj) => this.open([new File([obj], "drawing.obj")]));
+    this.sketch = new Sketch(element("sketch"), (svg) => this.open([new File([svg], "drawing.svg")]));
     this.started = this.start();
     this.started.catch((error) => this.fail(`This browser cannot run WebAssembly as this page needs it: ${error.message}`));
     this.bind();
@@ -86,9 +72,11 @@ class App {
         line.textContent = name;
         element("stages").append(line);
       }
-      element("done").value = done;
+      if (done === undefined) element("done").removeAttribute("value");
+      else element("done").value = done;
     };
     try {
+      if (!this.flbc) onProgress("starting the program");
       await this.started;
       await steps(onProgress);
       return true;
@@ -102,7 +90,7 @@ class App {
   async solve(onProgress) {
     await this.renew();
     const mesh = await this.flbc.makeMesh({ vertices: kVertices }, onProgress);
-    if (mesh.seconds > 4) element("remaining").textContent = `solving takes about ${Math.round(mesh.seconds)} s`;
+    element("remaining").textContent = mesh.seconds > 2 ? `Solving takes about ${Math.round(mesh.seconds)} s` : "";
     await this.flbc.solve({}, onProgress);
     onProgress("showing the model", 0);
     this.solution = await this.flbc.solution();
@@ -113,6 +101,7 @@ class App {
 
   async open(files) {
     element("problem").hidden = true;
+    await this.keepReshaped();
     const { model: oldModel, cage, solution, view } = this;
     const restore = () => Object.assign(this, { model: oldModel, cage, solution, view });
     try {
@@ -136,21 +125,24 @@ class App {
   }
 
   async openSample(name) {
-    await this.started;
+    if (!this.samples) await this.started;
     await this.open([new File([await unpacked(this.samples[name])], name)]);
   }
 
   // What the module reads, of files that were dropped together.
   async modelOf(files) {
     const first = (kind) => files.find(({ name }) => kind.test(name));
-    const main = first(/\.(obj|ply|stl|off|glb|gltf|vrm)$/i) ?? first(/\.svg$/i) ?? first(kPicture);
+    const main = first(/\.(obj|ply|stl|off|glb|gltf|vrm)$/i) ?? first(kDrawing) ?? first(kPicture);
     if (!main) throw new Error(`${files[0].name}: unknown file format; drop a .glb, .gltf, .vrm, .obj, .ply, .stl, .off, .svg, .png, or .jpg`);
-    const pictures = kPicture.test(main.name) ? [main] : files.filter(({ name }) => kPicture.test(name));
-    const { obj, address: picture = "" } = pictures.length === 1 ? await decodePicture(pictures[0]) : {};
-    const made = main === pictures[0] ? obj : /\.svg$/i.test(main.name) ? svgToObj(await main.text()) : null;
-    if (made) return { name: main.name.replace(/[^.]*$/, "obj"), bytes: new TextEncoder().encode(made), files: {}, picture };
+    if (kDrawing.test(main.name) || kPicture.test(main.name)) {
+      const { obj, ...looks } = await readPicture(main, files.find((file) => file !== main && kPicture.test(file.name)));
+      return { name: main.name.replace(/[^.]*$/, "obj"), bytes: new TextEncoder().encode(obj), files: {}, ...looks };
+    }
     const others = {};
     for (const file of files) if (file !== main) others[file.name] = await file.arrayBuffer();
+    const pictures = /obj$/i.test(main.name) ? files.filter(({ name }) => kPicture.test(name)) : [];
+    const isNamed = Object.keys(others).some((name) => /\.mtl$/i.test(name));
+    const { picture = "" } = pictures.length === 1 && !isNamed ? await readPicture(pictures[0]) : {};
     return { name: main.name, bytes: await main.arrayBuffer(), files: others, picture };
   }
 
@@ -160,6 +152,7 @@ class App {
 
   // Another cage for the model. \param make  makes it \param file  it, where it is a file
   async remake(title, make, file = null) {
+    await this.keepReshaped();
     const before = this.cage;
     element("cageProblem").hidden = true;
     element("repair").hidden = true;
@@ -190,8 +183,18 @@ class App {
       this.prepare();
     }
     this.goTo(null);
+    element("cageSection").open = true;
     element("cageProblem").textContent = error.message;
     element("cageProblem").hidden = false;
+  }
+
+  // The cage and the solution of the view, if it has been reshaped.
+  async keepReshaped() {
+    const { reshaper } = this.view ?? {};
+    if (!reshaper || (reshaper.solved === this.kept && !reshaper.isBusy)) return;
+    this.cage = await this.cageFile();
+    this.solution = await this.flbc.solution();
+    this.kept = reshaper.solved;
   }
 
   // A new worker with the model and its cage. The memory of the old one has grown, and never shrinks.
@@ -228,6 +231,7 @@ class App {
     this.listening?.abort();
     this.listening = new AbortController();
     const old = this.view;
+    const open = [...document.querySelectorAll("#panel details[open]")].map(({ id }) => id);
     kParts.forEach((id, k) => element(id).replaceWith(this.fresh[k].cloneNode(true)));
     this.goTo(null);
     const content = decodeContent(json);
@@ -238,22 +242,30 @@ class App {
       const { yaw, pitch, basis } = old.camera;
       Object.assign(this.view.camera, { yaw, pitch, basis });
       setTheme(this.view, old.theme);
+    } else if (this.model.theme) {
+      setTheme(this.view, this.model.theme);
     }
     this.addSections(content.weights.values.length > 0);
+    for (const id of open) element(id).open = true;
   }
 
   addSections(isSolved) {
-    element("panel").querySelector("header").after(element("sections").content.cloneNode(true));
+    element("facts").insertAdjacentHTML("afterend", '<button data-do="home">New model</button>');
+    element("help").closest("section").before(element("sections").content.cloneNode(true));
+    const button = element("saveAnimation").cloneNode(true);
+    button.dataset.save = "animation";
+    element("saveAnimation").replaceWith(button);
     element("savePose").closest("section").append(element("files").content.cloneNode(true));
     element("copyCommand").closest(".row").remove();
     for (const section of document.querySelectorAll(".solved")) section.hidden = !isSolved;
     element("cageFile").addEventListener("change", ({ target }) => this.takeCage(target.files[0]));
     const reshaper = new Reshaper(this.view, async (request) => {
       await this.prepared;
-      return this.flbc.move(request);
+      return this.flbc.move(request).catch((error) => ({ refused: error.message }));
     });
     reshaper.onRefusal = tell;
     bindReshaping(reshaper);
+    this.kept = reshaper.solved;
     // While the visitor takes aim, a new worker sets up its solver.
     element("reshape").addEventListener("click", () => {
       if (reshaper.isOn) this.flbc.move({ refine: true }).catch(() => {});
@@ -291,24 +303,23 @@ class App {
     const { editor, deformer } = this.view;
     element("local").setAttribute("aria-pressed", String(!this.showsHarmonic));
     element("harmonic").setAttribute("aria-pressed", String(this.showsHarmonic));
-    const steps = editor.points.map((place, k) => place - deformer.rest[k]);
-    if (steps.every((step) => step === 0)) {
-      element("share").textContent = "drag a control point, then switch";
-      return;
-    }
     if (!this.showsHarmonic) this.weights.local = deformer.weights;
-    const least = kMoves * 2 * editor.sphere.radius;
-    element("share").textContent = Object.entries(this.weights)
-      .map(([name, weights]) => `${name}: ${Math.round(100 * shareOfMoved(weights, steps, least))}%`)
-      .join(", ") + " of the vertices move";
+    const phrases = Object.entries(this.weights).map(([name, weights]) => {
+      const other = new Deformer(weights, deformer.base, deformer.rest);
+      other.move(editor.points);
+      const moved = other.displacements().filter((length) => length > kMoves * 2 * editor.sphere.radius);
+      return `${name}: ${portion(moved.length, deformer.base.length / 3)} move`;
+    });
+    element("share").textContent = editor.canUndo ? phrases.join("; ") : "drag a control point, then switch";
   }
 
   // ---------------------------------------------------------------------------------------- saving
 
   async save(kind) {
     const { content, editor } = this.view;
-    const points = [...editor.points].filter((_, k) => k % 3 < content.dim);
-    const { title } = content;
+    const inFile = (places) => [...places].filter((_, k) => k % 3 < content.dim);
+    const points = inFile(editor.points);
+    const { title, poses } = content;
     const { name: modelName, picture } = this.model;
     const extension = /[^.]*$/.exec(modelName)[0].toLowerCase();
     const kinds = {
@@ -317,6 +328,8 @@ class App {
       npy: async () => [`${title}_weights.npy`, await this.flbc.weightFile({ format: "npy" })],
       mtx: async () => [`${title}_weights.mtx`, await this.flbc.weightFile({ format: "mtx" })],
       page: async () => [`${title}.html`, await this.flbc.page({ picture })],
+      animation: async () => [`${title}_animation.glb`, await this.flbc.glb(
+        { influences: 8, times: poses.map(({ time }) => time), poses: poses.map((pose) => inFile(pose.points)) })],
       glb4: async () => [`${title}.glb`, await this.flbc.glb({ influences: 4 })],
       glb8: async () => [`${title}_8.glb`, await this.flbc.glb({ influences: 8 })],
     };
@@ -380,13 +393,8 @@ class App {
       const button = target.closest?.("button");
       if (button?.dataset.do) actions[button.dataset.do]();
       if (button?.dataset.save) this.save(button.dataset.save);
+      if (button?.dataset.sample) this.openSample(button.dataset.sample);
     });
-    for (const [label, name] of Object.entries(kSamples)) {
-      const button = document.createElement("button");
-      button.textContent = label;
-      button.addEventListener("click", () => this.openSample(name));
-      element("samples").append(button);
-    }
     element("model").addEventListener("change", ({ target }) => { if (target.files.length) this.open(target.files); });
     window.addEventListener("keydown", (event) => this.key(event), true);
     for (const name of ["dragover", "dragleave", "drop"]) window.addEventListener(name, (event) => this.dragged(event));

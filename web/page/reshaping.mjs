@@ -110,7 +110,8 @@ function showReshaping(reshaper) {
   element("reshape").disabled = reshaper.isBusy;
   element("stop").disabled = !reshaper.isBusy;
   const excess = Math.log10(Math.max(1, reshaper.residual));
-  element("progress").value = reshaper.isBusy ? Math.max(0, 1 - excess / 6) : 1;
+  element("progress").hidden = !reshaper.isBusy;
+  element("progress").value = Math.max(0, 1 - excess / 6);
   element("solving").textContent =
     reshaper.isBusy ? "solving…" : reshaper.isOn ? "drag the cage at rest" : "weights are up to date";
 }

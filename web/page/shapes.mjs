@@ -1,64 +1,77 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Models in 2D from what is not a model's file: paths of .svg, pictures, and shapes that are drawn.
+// Models in 2D from what is not a model's file: drawings, pictures, and shapes that are drawn. The
+// browser paints all of them, so that curves, transforms, and crossing parts are what one sees.
 
-// Closed polygons as OBJ. \param polygons  lists of [x, y], y down
-export function polygonsToObj(polygons) {
-  const lines = [];
-  let first = 1;
-  for (const polygon of polygons) {
-    for (const [x, y] of polygon) lines.push(`v ${x} ${-y} 0`);
-    lines.push(`l ${polygon.map((_, k) => first + k).join(" ")} ${first}`);
-    first += polygon.length;
+const kLargest = 1024;  // pixels along the longer side of what is painted
+const kFaint = 16;       // alpha of pixels that are not to be seen
+const kShapes = ":is(path, polygon, polyline, rect, circle, ellipse):not(defs *, clipPath *, mask *, symbol *)";
+
+async function imageOf(blob, name) {
+  const image = new Image();
+  image.src = URL.createObjectURL(blob);
+  try {
+    await image.decode();
+  } catch {
+    throw new Error(`${name}: the browser cannot read this picture`);
+  } finally {
+    URL.revokeObjectURL(image.src);
   }
-  return `${lines.join("\n")}\n`;
+  return image;
 }
 
-// The corners of a closed polygon that matter by more than a distance.
-function simplified(polygon, distance) {
-  const kept = new Set([0]);
-  const keepBetween = (from, to) => {
-    const [a, b] = [polygon[from], polygon[to % polygon.length]];
-    const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
-    const length = Math.hypot(dx, dy);
-    let farthest = -1, most = distance;
-    for (let k = from + 1; k < to; ++k) {
-      const [x, y] = [polygon[k][0] - a[0], polygon[k][1] - a[1]];
-      const away = length > distance ? Math.abs(x * dy - y * dx) / length : Math.hypot(x, y);
-      if (away > most) [farthest, most] = [k, away];
-    }
-    if (farthest < 0) return;
-    kept.add(farthest);
-    keepBetween(from, farthest);
-    keepBetween(farthest, to);
+// \param filling  picture to fill it with, or null
+function painted(image, filling = null) {
+  const shrink = Math.min(1, kLargest / Math.max(image.width, image.height));
+  const [width, height] = [image.width, image.height].map((size) => Math.max(1, Math.round(shrink * size)));
+  const canvas = document.createElement("canvas");
+  Object.assign(canvas, { width, height });
+  const context = canvas.getContext("2d", { willReadFrequently: true });
+  context.drawImage(image, 0, 0, width, height);
+  context.globalCompositeOperation = "source-in";
+  if (filling) context.drawImage(filling, 0, 0, width, height);
+  return { canvas, pixels: context.getImageData(0, 0, width, height) };
+}
+
+// Of the pixels that are to be seen: their share, mean brightness from 0 to 1, and bounds.
+function seenOf({ data, width, height }) {
+  let count = 0, sum = 0, left = width, top = height, right = 0, bottom = 0;
+  for (let k = 0; k < width * height; ++k) {
+    const [red, green, blue, alpha] = data.subarray(4 * k, 4 * k + 4);
+    if (alpha <= kFaint) continue;
+    const x = k % width, y = Math.floor(k / width);
+    [left, right, top, bottom] = [Math.min(left, x), Math.max(right, x + 1), Math.min(top, y), Math.max(bottom, y + 1)];
+    count += 1;
+    sum += (0.3 * red + 0.6 * green + 0.1 * blue) / 255;
+  }
+  return { share: count / (width * height), mean: sum / Math.max(1, count), left, top, right, bottom };
+}
+
+// A drawing in SVG, without shapes in the back that fill all of it. \throws Error
+async function paintedDrawing(file, filling) {
+  let { documentElement: drawing } = new DOMParser().parseFromString(await file.text(), "image/svg+xml");
+  if (drawing.localName !== "svg") throw new Error(`${file.name}: this is no drawing in SVG`);
+  const lengths = ["width", "height"].map((name) => (/%/.test(drawing.getAttribute(name)) ? NaN : parseFloat(drawing.getAttribute(name))));
+  let box = drawing.getAttribute("viewBox")?.trim().split(/[\s,]+/).map(Number) ?? [0, 0, ...lengths];
+  if (!box.every(Number.isFinite)) box = [-1000, -1000, 4000, 4000];
+  const paint = async (other = null) => {
+    const scale = kLargest / Math.max(box[2], box[3]);
+    Object.entries({ viewBox: box.join(" "), width: scale * box[2], height: scale * box[3] })
+      .forEach(([name, value]) => drawing.setAttribute(name, value));
+    const text = new XMLSerializer().serializeToString(drawing);
+    return painted(await imageOf(new Blob([text], { type: "image/svg+xml" }), file.name), other);
   };
-  keepBetween(0, polygon.length);
-  return polygon.filter((_, k) => kept.has(k));
-}
-
-// The outlines of all shapes in a drawing. \throws Error
-export function svgToObj(text) {
-  const drawing = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
-  const host = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-  host.style.cssText = "position: absolute; visibility: hidden";
-  document.body.append(host);
-  const polygons = [];
-  for (const shape of drawing.querySelectorAll("path, polygon, polyline, rect, circle, ellipse")) {
-    host.append(document.importNode(shape));
-    const outline = host.lastElementChild;
-    // The parts of a path, each of which begins with an M.
-    const parts = (outline.getAttribute("d") ?? "").split(/(?=M)/).filter((part) => part.trim());
-    for (const part of parts.length > 1 ? parts : [null]) {
-      if (part) outline.setAttribute("d", part);
-      const length = outline.getTotalLength();
-      const count = 2000;
-      const points = Array.from({ length: count }, (_, k) => outline.getPointAtLength(length * k / count));
-      const polygon = simplified(points.map(({ x, y }) => [x, y]), 5e-4 * length);
-      if (polygon.length > 2) polygons.push(polygon);
-    }
+  const whole = drawing.cloneNode(true);
+  const shareOf = async () => seenOf((await paint()).pixels).share;
+  let share = await shareOf();
+  if (share === 0) throw new Error(`${file.name}: nothing is to be seen in this drawing`);
+  for (let shape; share > 0.99 && (shape = drawing.querySelector(kShapes)); share = await shareOf()) shape.remove();
+  if (share === 0) drawing = whole;
+  for (let k = 0; k < 2; ++k) {
+    const { pixels } = await paint();
+    const { left, top, right, bottom } = seenOf(pixels), unit = box[2] / pixels.width;
+    box = [box[0] + unit * left, box[1] + unit * top, unit * (right - left), unit * (bottom - top)];
   }
-  host.remove();
-  if (polygons.length === 0) throw new Error("there is no path, polygon, rectangle, or circle in this drawing");
-  return polygonsToObj(polygons);
+  return paint(filling);
 }
 
 // Squares that cover what is to be seen of a picture, as OBJ with texture coordinates.
@@ -77,7 +90,7 @@ function gridToObj({ data, width, height }) {
   };
   const isSeen = (left, top) => {
     for (let y = top; y < Math.min(top + step, height); ++y) {
-      for (let x = left; x < Math.min(left + step, width); ++x) if (data[4 * (x + width * y) + 3] > 16) return true;
+      for (let x = left; x < Math.min(left + step, width); ++x) if (data[4 * (x + width * y) + 3] > kFaint) return true;
     }
     return false;
   };
@@ -89,25 +102,22 @@ function gridToObj({ data, width, height }) {
   return lines.join("\n");
 }
 
-// A picture as a model and as an address. Larger ones are shrunk.
-export async function decodePicture(file) {
-  const kLargest = 1024;
-  const image = await createImageBitmap(file);
-  const shrink = Math.min(1, kLargest / Math.max(image.width, image.height));
-  const width = Math.max(1, Math.round(shrink * image.width));
-  const height = Math.max(1, Math.round(shrink * image.height));
-  const canvas = document.createElement("canvas");
-  Object.assign(canvas, { width, height });
-  const context = canvas.getContext("2d");
-  context.drawImage(image, 0, 0, width, height);
-  return { obj: gridToObj(context.getImageData(0, 0, width, height)), address: canvas.toDataURL("image/png") };
+// A drawing or a picture as a model, its picture as an address, and the theme before which it is
+// seen, if there is one. \param filling  file of another picture for a drawing, or none
+export async function readPicture(file, filling) {
+  const other = filling ? await imageOf(filling, filling.name) : null;
+  const { canvas, pixels } = /\.svg$/i.test(file.name) ? await paintedDrawing(file, other)
+                                                       : painted(await imageOf(file, file.name));
+  const { mean } = seenOf(pixels);
+  return { obj: gridToObj(pixels), picture: canvas.toDataURL("image/png"),
+           theme: mean < 0.25 ? "light" : mean > 0.8 ? "dark" : null };
 }
 
 // A board on which a polygon is drawn.
 export class Sketch {
   constructor(board, onClosed) {
     this.board = board;
-    this.line = board.querySelector("polyline");
+    this.line = board.querySelector("polygon");
     this.onClosed = onClosed;
     board.addEventListener("click", (event) => this.click(event));
     this.clear();
@@ -134,6 +144,6 @@ export class Sketch {
   }
 
   close() {
-    if (this.corners.length > 2) this.onClosed(polygonsToObj([this.corners]));
+    if (this.corners.length > 2) this.onClosed(new XMLSerializer().serializeToString(this.board));
   }
 }

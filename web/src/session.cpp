@@ -28,8 +28,6 @@
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
 #include "gltf/skin.h"
-#include "model/gltf_edit.h"
-#include "model/gltf_writer.h"
 #include "solve/estimate.h"
 #include "solve/make_domain.h"
 #include "view/model_page.h"
@@ -509,21 +507,14 @@ class Work {
   std::string title() const {
     return std::filesystem::path(name_).stem().string();
   }
-  int up() const {
-    return app::up_axis(app::up_of(app::UpAxis::kAuto, file_), points());
-  }
 
-  // \param picture  data URI of a texture, or empty: that of the model's material
-  view::PageContent<Dim> content(std::string picture) const {
-    std::vector<std::string> left_out;
-    for (const Index material : surface_.triangle_materials) {
-      if (!picture.empty()) break;
-      if (material < 0) continue;
-      const auto bytes = io::load_picture(surface_.materials[material], left_out);
-      if (!bytes.empty()) picture = app::data_uri(io::media_type_of(bytes), bytes);
-    }
-    return {title(),         name_, "weights.npy", kCageFile, shown_, points(), surface_,
-            shown_weights(), {},    up(),          picture};
+  // \param picture  data URI of a texture in place of the materials, or empty
+  view::PageContent<Dim> content(const std::string& picture) const {
+    view::PageContent<Dim> result{title(), name_,    "weights.npy", kCageFile,
+                                  shown_,  points(), surface_,      shown_weights()};
+    app::look_from_front(result, app::up_of(app::UpAxis::kAuto, file_));
+    result.picture = picture;
+    return result;
   }
 
   val glb(const Json& options) {
@@ -531,10 +522,16 @@ class Work {
     skin.max_influences = options.value("influences", 4);
     skin.name = title();
     skin.edges = edges_;
-    skin.turn = app::turn_upright(up());
+    const auto up = app::up_of(app::UpAxis::kAuto, file_);
+    skin.turn = app::turn_upright(app::up_axis(up, points()));
     skin.cage_edges = view::as_facets(shown_.edges);
+    gltf::Animation<Dim> animation{options.value("times", std::vector<double>())};
+    for (const auto& pose : options.value("poses", Json::array())) {
+      animation.poses.push_back(points_in(pose));
+    }
     return bytes_of(
-        gltf::export_skin<Dim>(cage_.points, points(), weights(), surface_, skin).content);
+        gltf::export_skin<Dim>(cage_.points, points(), weights(), surface_, skin, animation)
+            .content);
   }
 
   val weight_file(const std::string& of, const std::string& format) {

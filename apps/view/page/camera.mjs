@@ -11,10 +11,12 @@ const kBases = [[[0, -1, 0], [1, 0, 0], [0, 0, 1]], [[1, 0, 0], [0, 1, 0], [0, 0
                 [[1, 0, 0], [0, 0, 1], [0, -1, 0]]];
 
 export class Camera {
-  // \param up  axis, 0 to 2
-  constructor(dim, up = 1) {
+  // \param up  axis, 0 to 2 \param front  azimuth of the front in degrees
+  constructor(dim, up = 1, front = 0) {
     this.dim = dim;
-    this.basis = kBases[up];
+    const [right, above, toward] = kBases[up];
+    const [x, z] = [Math.cos(front * Math.PI / 180), Math.sin(front * Math.PI / 180)].map(Math.round);
+    this.basis = [add(times(x, right), times(-z, toward)), above, add(times(z, right), times(x, toward))];
     this.yaw = dim === 3 ? 0.6 : 0;
     this.pitch = dim === 3 ? 0.3 : 0;
     this.target = [0, 0, 0];

@@ -3,7 +3,7 @@
 
 export const kColorings = {
   shaded: "Plain",
-  texture: "Texture",
+  materials: "Materials",
   displacement: "Displacement",
   weight: "Weight",
   influences: "Influences",
@@ -12,6 +12,13 @@ export const kColorings = {
 // Three digits, without needless zeros.
 export function shortNumber(value) {
   return String(Number(value.toPrecision(3)));
+}
+
+// Some of the vertices, for people: in percent, or counted where these are few.
+export function portion(count, total) {
+  const percent = 100 * count / total;
+  if (percent >= 0.1 || count === 0) return `${Number(percent.toPrecision(3))}% of the vertices`;
+  return `${count} ${count === 1 ? "vertex" : "vertices"}`;
 }
 
 // \return values (null: none are shown) and the legend: title, least and greatest

@@ -45,8 +45,9 @@ function decodeWeights(packed) {
            values: decodeFloats(packed.values) };
 }
 
-function decodeSurface(packed, numPoints) {
-  const surface = { triangles: decodeIndices(packed.triangles), sources: null, groups: null };
+// \param picture  in place of all materials
+function decodeSurface(packed, numPoints, picture) {
+  const surface = { triangles: decodeIndices(packed.triangles), parts: packed.parts, pictures: packed.pictures, sources: null, groups: null };
   if (packed.sources) {
     surface.sources = decodeIndices(packed.sources);
     surface.groups = decodeIndices(packed.groups);
@@ -55,6 +56,11 @@ function decodeSurface(packed, numPoints) {
   surface.textureCoordinates =
     packed.textureCoordinates ? decodeFloats(packed.textureCoordinates) : null;
   surface.colors = packed.colors ? decodeBytes(packed.colors) : null;
+  if (picture || surface.parts.length === 0) {
+    const cutoff = picture ? 0.5 : 0;
+    surface.parts = [{ first: 0, count: surface.triangles.length, opacity: 1, cutoff, picture: picture ? 0 : -1 }];
+    surface.pictures = picture ? [picture] : [];
+  }
   return surface;
 }
 
@@ -75,10 +81,10 @@ export function decodeContent(json) {
   const rest = inSpace(given, dim);
   return {
     dim, center, base, rest, given,
-    title: json.title, up: json.up, files: json.files, picture: json.picture, cageText: json.cage.text,
+    title: json.title, up: json.up, front: json.front, files: json.files, cageText: json.cage.text,
     facets: decodeIndices(json.cage.facets), edges: decodeIndices(json.cage.edges),
     weights: decodeWeights(json.weights), palette: decodeBytes(json.palette),
-    surface: decodeSurface(json.surface, base.length / 3),
+    surface: decodeSurface(json.surface, base.length / 3, json.picture),
     poses: decodePoses(json.poses, dim, rest),
   };
 }

@@ -70,15 +70,13 @@ export class Deformer {
     return sums;
   }
 
-  // The share of the model's points that a control point moves.
-  shareOf(i) {
-    if (this.sharesOf !== this.weights) {
-      const { starts, controlPoints: owners, values } = this.weights;
-      this.sharesOf = this.weights;
-      this.shares = new Float64Array(this.rest.length / 3);
-      owners.forEach((owner, k) => { this.shares[owner] += values[k] > kInfluence ? 1 / (starts.length - 1) : 0; });
+  // How many of the model's points control points move.
+  countMovedBy(indices) {
+    const { weights, moving } = this, key = indices.join();
+    if (moving?.weights !== weights || moving.key !== key) {
+      this.moving = { weights, key, count: this.weightsOf(indices).filter((sum) => sum > kInfluence).length };
     }
-    return this.shares[i];
+    return this.moving.count;
   }
 
   // Eight weights per point for the card, and their control points; null if a point has more.

@@ -19,8 +19,14 @@ function shapeOf({ sources, triangles, groups, numVertices }, deformer, pose) {
   return { POSITION: places, NORMAL: normals };
 }
 
+function materialOf({ color, opacity = 1, cutoff = 0, picture = -1 }) {
+  const factor = [...(color ?? [1, 1, 1]).map((value) => value ** 2.2), opacity];
+  return { pbrMetallicRoughness: { metallicFactor: 0, baseColorFactor: factor, ...(picture >= 0 && { baseColorTexture: { index: picture } }) },
+           ...(opacity < 1 && { alphaMode: "BLEND" }), ...(cutoff > 0 && { alphaMode: "MASK", alphaCutoff: cutoff }) };
+}
+
 // \param basis  right, up and toward the viewer
-export function glbOf({ center, picture, poses, rest, surface, title, weights, base }, basis) {
+export function glbOf({ center, poses, rest, surface, title, weights, base }, basis) {
   const accessors = [], bufferViews = [], arrays = [];
   let byteLength = 0;
   const put = (numbers, type = "SCALAR") => {
@@ -41,9 +47,11 @@ export function glbOf({ center, picture, poses, rest, surface, title, weights, b
     for (const name in shape) shape[name].forEach((value, k) => { shape[name][k] = value - atRest[name][k]; });
     return putShape(shape);
   });
-  const primitive = { attributes: putShape(atRest), targets, indices: put(Uint32Array.from(surface.triangles)), material: 0 };
-  if (surface.textureCoordinates) primitive.attributes.TEXCOORD_0 = put(surface.textureCoordinates, "VEC2");
-  if (surface.colors) primitive.attributes.COLOR_0 = put(Float32Array.from(surface.colors, (byte) => (byte / 255) ** 2.2), "VEC3");
+  const attributes = putShape(atRest);
+  if (surface.textureCoordinates) attributes.TEXCOORD_0 = put(surface.textureCoordinates, "VEC2");
+  if (surface.colors) attributes.COLOR_0 = put(Float32Array.from(surface.colors, (byte) => (byte / 255) ** 2.2), "VEC3");
+  const primitives = surface.parts.map(({ first, count }, material) =>
+    ({ attributes, targets, material, indices: put(Uint32Array.from(surface.triangles.subarray(first, first + count))) }));
   const input = put(Float32Array.from(poses, ({ time }) => time));
   const output = put(Float32Array.from({ length: poses.length ** 2 }, (_, k) => Number(k % (poses.length + 1) === 0)));
   // Of a node with children, because an animation has no node with a matrix.
@@ -51,9 +59,9 @@ export function glbOf({ center, picture, poses, rest, surface, title, weights, b
   const text = new TextEncoder().encode(JSON.stringify({
     asset: { version: "2.0" }, buffers: [{ byteLength }], bufferViews, accessors, scene: 0, scenes: [{ nodes: [0] }],
     nodes: [{ children: [1], matrix: [...matrix, 0, 0, 0, 1] }, { mesh: 0, translation: center }],
-    meshes: [{ name: title, primitives: [primitive], extras: { targetNames: poses.map(({ name }) => name) } }],
-    materials: [{ pbrMetallicRoughness: { metallicFactor: 0, ...(picture && { baseColorTexture: { index: 0 } }) } }],
-    ...(picture && { images: [{ uri: picture }], textures: [{ source: 0 }] }),
+    meshes: [{ name: title, primitives, extras: { targetNames: poses.map(({ name }) => name) } }],
+    materials: surface.parts.map(materialOf),
+    ...(surface.pictures.length > 0 && { images: surface.pictures.map((uri) => ({ uri })), textures: surface.pictures.map((_, source) => ({ source })) }),
     animations: [{ samplers: [{ input, output }], channels: [{ sampler: 0, target: { node: 1, path: "weights" } }] }],
   }));
   const padding = -text.length & 3, length = text.length + padding;

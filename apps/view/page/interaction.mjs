@@ -130,7 +130,7 @@ export class Interaction {
     const { view } = this;
     const spot = this.spotOf(event);
     if (!this.pointers.has(event.pointerId)) {
-      if (event.pointerType === "mouse") view.hover(this.pickAt(spot, event));
+      if (event.pointerType === "mouse") view.hover(this.pickAt(spot, event), spot);
       return;
     }
     this.pointers.set(event.pointerId, spot);

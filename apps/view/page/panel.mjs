@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The buttons beside the picture: what they do, and how they show what is on.
-import { kColorings, shortNumber } from "./colors.mjs";
+import { kColorings, portion } from "./colors.mjs";
 import { inSpace } from "./data.mjs";
 import { kHelp } from "./keyboard.mjs";
 import { readPose } from "./obj.mjs";
@@ -132,7 +132,6 @@ export function makeCommands(viewer) {
       help.scrollTop = 0;  // the focus is on the button below
     },
     closeHelp: () => help.close(),
-    picture: () => element("file").click(),
     fold: () => document.body.classList.toggle("folded"),
   };
 }
@@ -148,22 +147,17 @@ function showFacts(content) {
 
 function fillColorings(viewer) {
   const select = element("coloring");
-  const hasTexture = viewer.content.surface.textureCoordinates !== null;
+  const { colors, parts, pictures } = viewer.content.surface;
+  const isOwn = colors !== null || parts.some(({ color, picture }) => color || picture >= 0);
   for (const [value, label] of Object.entries(kColorings)) {
-    if (value === "texture" && !hasTexture) continue;
-    select.add(new Option(label, value));
+    if (value !== "materials" || isOwn) select.add(new Option(label, value));
   }
   select.addEventListener("change", () => viewer.set("coloring", select.value));
-  element("picture").hidden = !hasTexture;
-  if (!hasTexture) return;
-  element("file").addEventListener("change", (event) => {
-    const [file] = event.target.files;
-    if (file) loadPicture(viewer, URL.createObjectURL(file));
-  });
-  if (viewer.content.picture) loadPicture(viewer, viewer.content.picture);
+  if (isOwn) viewer.coloring = select.value = "materials";
+  pictures.forEach((address, k) => loadPicture(viewer, k, address));
 }
 
-async function loadPicture(viewer, address) {
+async function loadPicture(viewer, k, address) {
   const image = new Image();
   image.src = address;
   try {
@@ -171,9 +165,8 @@ async function loadPicture(viewer, address) {
   } catch {
     return tell("This picture cannot be read");
   }
-  viewer.renderer.setPicture(image);
-  element("coloring").value = "texture";
-  viewer.set("coloring", "texture");
+  viewer.renderer.setPicture(k, image);
+  viewer.redraw();
 }
 
 function fillHelp() {
@@ -222,13 +215,11 @@ const kUnits = { move: "", rotate: "°", scale: " times" };
 function describeSelection(viewer) {
   const { editor: { selection }, deformer } = viewer;
   if (viewer.typed) return `${viewer.tool} ${viewer.typed}${kUnits[viewer.tool]}; press Enter, or Esc to cancel`;
-  if (viewer.hovered >= 0) {
-    const share = 100 * deformer.shareOf(viewer.hovered);
-    return `control point ${viewer.hovered} moves ${shortNumber(share)}% of the vertices`;
-  }
-  if (selection.size === 0) return "drag a control point, or double-click it for the ring around the limb";
-  return selection.size === 1 ? `control point ${[...selection][0]} selected`
-                              : `${selection.size} control points selected`;
+  const chosen = viewer.hovered >= 0 ? [viewer.hovered] : [...selection];
+  if (chosen.length === 0) return "drag a control point, or double-click it for the ring around the limb";
+  const moved = deformer.weights.values.length > 0 ? portion(deformer.countMovedBy(chosen), deformer.base.length / 3) : "nothing yet";
+  return chosen.length === 1 ? `control point ${chosen[0]} moves ${moved}`
+                             : `${chosen.length} control points are selected and move ${moved}`;
 }
 
 function showState(viewer) {

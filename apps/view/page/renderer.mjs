@@ -3,8 +3,6 @@
 import { atVertices, edgesOf, sumNormals } from "./surface_normals.mjs";
 import { kDotShader, kEdgeShader, kSurfaceShader, kWireShader, onCard } from "./shaders.mjs";
 
-const kCheckerSize = 256, kCheckerFields = 16;
-
 function compile(gl, source) {
   const program = gl.createProgram();
   for (const [type, text] of [[gl.VERTEX_SHADER, source.vertex],
@@ -30,20 +28,6 @@ function compile(gl, source) {
   return { program, places };
 }
 
-// The texture of models without a picture: fields in two shades.
-function checkerboard() {
-  const pixels = new Uint8Array(4 * kCheckerSize * kCheckerSize);
-  for (let y = 0; y < kCheckerSize; ++y) {
-    for (let x = 0; x < kCheckerSize; ++x) {
-      const field = Math.floor(kCheckerFields * x / kCheckerSize)
-                  + Math.floor(kCheckerFields * y / kCheckerSize);
-      pixels.set(field % 2 === 0 ? [236, 233, 226, 255] : [120, 150, 186, 255],
-                 4 * (kCheckerSize * y + x));
-    }
-  }
-  return pixels;
-}
-
 export class Renderer {
   // \param weights  null, or what weightsForCard() gives: then the card moves the model
   // \throws Error where there is no WebGL2
@@ -51,6 +35,7 @@ export class Renderer {
     this.canvas = canvas;
     this.content = content;
     this.weights = weights;
+    this.images = [];
     const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: false });
     if (!gl) throw new Error("there is no WebGL2");
     this.gl = gl;
@@ -199,17 +184,15 @@ export class Renderer {
                                  [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE]]) {
       gl.texParameteri(gl.TEXTURE_2D, name, value);
     }
-    this.picture = gl.createTexture();
-    gl.bindTexture(gl.TEXTURE_2D, this.picture);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, kCheckerSize, kCheckerSize, 0, gl.RGBA,
-                  gl.UNSIGNED_BYTE, checkerboard());
-    gl.generateMipmap(gl.TEXTURE_2D);
+    this.pictures = [];
+    this.images.forEach((image, k) => this.setPicture(k, image));
   }
 
-  // Takes an image in place of the checkerboard.
-  setPicture(image) {
+  setPicture(k, image) {
     const { gl } = this;
-    gl.bindTexture(gl.TEXTURE_2D, this.picture);
+    this.images[k] = image;
+    this.pictures[k] = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, this.pictures[k]);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, image);
     gl.generateMipmap(gl.TEXTURE_2D);
   }
@@ -272,10 +255,10 @@ export class Renderer {
     if (this.content.dim === 3) gl.enable(gl.DEPTH_TEST);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     const matrix = camera.matrix(this.content.center);
-    this.drawSurface(matrix, camera, look);
     gl.enable(gl.BLEND);
+    this.drawSurface(matrix, camera, look);
     if (look.showsEdges) this.drawEdges(matrix, look);
-    if (look.showsCage) this.drawCage(matrix, look);
+    if (look.showsCage) this.drawCage(matrix, camera, look);
     gl.disable(gl.BLEND);
   }
 
@@ -286,13 +269,8 @@ export class Renderer {
     gl.useProgram(program);
     gl.uniformMatrix4fv(places.toClip, false, matrix);
     gl.uniformMatrix3fv(places.toView, true, [...right, ...up, ...toward]);
-    const isValue = !["shaded", "texture"].includes(look.coloring);
-    gl.uniform1i(places.coloring, isValue ? 1 : look.coloring === "texture" ? 2 : 0);
     gl.uniform1i(places.isLit, this.content.dim === 3 ? 1 : 0);
     gl.uniform1i(places.hasIsolines, look.coloring === "weight" ? 1 : 0);
-    gl.uniform3fv(places.plainColor, this.content.surface.colors ? [1, 1, 1] : look.plain);
-    gl.activeTexture(gl.TEXTURE1);
-    gl.bindTexture(gl.TEXTURE_2D, this.picture);
     gl.activeTexture(gl.TEXTURE0);
     gl.bindTexture(gl.TEXTURE_2D, this.palette);
     gl.uniform1i(places.palette, 0);
@@ -301,14 +279,26 @@ export class Renderer {
     gl.bindVertexArray(this.surfaceArray);
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(1, 1);
-    const count = this.content.surface.triangles.length;
-    if (count > 0) {
-      gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, 0);
-    } else {
-      gl.drawArrays(gl.POINTS, 0, this.content.surface.numVertices);
-    }
+    for (const part of this.content.surface.parts) this.drawPart(part, places, look);
     gl.disable(gl.POLYGON_OFFSET_FILL);
     gl.bindVertexArray(null);
+  }
+
+  // Triangles of one material. Without triangles, all points.
+  drawPart({ first, count, color, opacity = 1, cutoff = 0, picture = -1 }, places, { coloring, plain }) {
+    const { gl } = this;
+    const { colors, numVertices, textureCoordinates } = this.content.surface;
+    const isOwn = coloring === "materials";
+    const hasPicture = isOwn && textureCoordinates && this.pictures[picture];
+    gl.uniform1i(places.coloring, hasPicture ? 2 : isOwn || coloring === "shaded" ? 0 : 1);
+    const own = color ?? (hasPicture || colors ? [1, 1, 1] : plain);
+    gl.uniform4fv(places.tint, isOwn ? [...own, opacity] : [...(colors ? [1, 1, 1] : plain), 1]);
+    gl.uniform1f(places.cutoff, isOwn ? cutoff : 0);
+    gl.activeTexture(gl.TEXTURE1);
+    gl.bindTexture(gl.TEXTURE_2D, this.pictures[picture] ?? null);
+    gl.activeTexture(gl.TEXTURE0);
+    if (count > 0) gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, 4 * first);
+    else gl.drawArrays(gl.POINTS, 0, numVertices);
   }
 
   makeEdges() {
@@ -338,7 +328,7 @@ export class Renderer {
   }
 
   // First what the model hides, pale, then the rest.
-  drawCage(matrix, look) {
+  drawCage(matrix, camera, look) {
     const { gl } = this;
     const passes = this.content.dim === 3 ? [[gl.GREATER, 0.28], [gl.LEQUAL, 1]] : [[gl.LEQUAL, 1]];
     gl.depthMask(false);
@@ -348,7 +338,7 @@ export class Renderer {
     }
     for (const [test, opacity] of passes) {
       gl.depthFunc(test);
-      this.drawDots(matrix, look, opacity);
+      this.drawDots(matrix, camera, look, opacity);
     }
     gl.depthFunc(gl.LESS);
     gl.depthMask(true);
@@ -367,12 +357,13 @@ export class Renderer {
     gl.bindVertexArray(null);
   }
 
-  drawDots(matrix, look, opacity) {
+  drawDots(matrix, camera, look, opacity) {
     const { gl } = this;
     const { program, places } = this.dotProgram;
     gl.useProgram(program);
     gl.uniformMatrix4fv(places.toClip, false, matrix);
     gl.uniform1f(places.size, look.dotSize * this.ratio);
+    gl.uniform3f(places.pointer, ...look.pointer, camera.width / camera.height);
     gl.uniform4f(places.ink, ...look.ink, Math.min(1, 1.4 * opacity));
     gl.uniform4f(places.highlight, ...look.highlight, Math.min(1, 2.2 * opacity));
     gl.uniform3fv(places.rim, look.background);

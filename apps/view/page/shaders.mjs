@@ -42,7 +42,7 @@ export const kSurfaceShader = {
     layout(location = 1) in vec3 normal;
     layout(location = 2) in float value;
     layout(location = 3) in vec2 textureCoordinate;
-    layout(location = 4) in vec3 tint;
+    layout(location = 4) in vec3 vertexColor;
     out vec3 viewNormal;
     out float shownValue;
     out vec2 texturePlace;
@@ -58,15 +58,16 @@ export const kSurfaceShader = {
     #endif
       shownValue = value;
       texturePlace = textureCoordinate;
-      ownColor = tint;
+      ownColor = vertexColor;
     }`,
-  // 0: the model's own colour; 1: a value; 2: a texture.
+  // 0: a color; 1: a value; 2: a color and a picture.
   fragment: `#version 300 es
     precision highp float;
     uniform int coloring;
     uniform bool isLit;
     uniform bool hasIsolines;
-    uniform vec3 plainColor;
+    uniform vec4 tint;
+    uniform float cutoff;
     uniform sampler2D palette;
     uniform sampler2D picture;
     in vec3 viewNormal;
@@ -75,20 +76,19 @@ export const kSurfaceShader = {
     in vec3 ownColor;
     out vec4 color;
     void main() {
-      vec3 base = plainColor * ownColor;
+      vec4 base = tint * vec4(ownColor, 1.0);
       if (coloring == 1) {
         float value = clamp(shownValue, 0.0, 1.0);
-        base = texture(palette, vec2((value * 255.0 + 0.5) / 256.0, 0.5)).rgb;
+        base = texture(palette, vec2((value * 255.0 + 0.5) / 256.0, 0.5));
         if (hasIsolines && value > 0.05) {
           float steps = 10.0 * shownValue;
           float distance = abs(fract(steps - 0.5) - 0.5) / max(fwidth(steps), 1e-6);
-          base *= mix(0.6, 1.0, smoothstep(0.4, 1.2, distance));
+          base.rgb *= mix(0.6, 1.0, smoothstep(0.4, 1.2, distance));
         }
       } else if (coloring == 2) {
-        vec4 seen = texture(picture, texturePlace);
-        if (seen.a < 0.5) discard;
-        base = seen.rgb;
+        base *= texture(picture, texturePlace);
       }
+      if (base.a < cutoff) discard;
       if (isLit) {
     #ifdef ON_CARD
         vec3 across = cross(dFdx(viewNormal), dFdy(viewNormal));
@@ -100,9 +100,9 @@ export const kSurfaceShader = {
         if (normal.z < 0.0) normal = -normal;
         float light = 0.30 + 0.50 * max(0.0, dot(normal, normalize(vec3(-0.35, 0.55, 0.75))))
                     + 0.26 * normal.z;
-        base *= min(light, 1.06);
+        base.rgb *= min(light, 1.06);
       }
-      color = vec4(base, 1.0);
+      color = vec4(base.rgb, tint.a < 1.0 ? base.a : 1.0);
     }`,
 };
 
@@ -157,6 +157,7 @@ export const kDotShader = {
   vertex: `#version 300 es
     uniform mat4 toClip;
     uniform float size;
+    uniform vec3 pointer;  // in clip coordinates, and the aspect ratio
     layout(location = 0) in vec3 place;
     layout(location = 1) in float state;  // share of a step, 1: selected; 2 more: under the pointer
     out float isSelected;
@@ -165,7 +166,9 @@ export const kDotShader = {
       gl_Position = toClip * vec4(place, 1.0);
       isSelected = mod(state, 2.0);
       float isNear = step(1.5, state);
-      pixels = size * (1.0 + 0.25 * isSelected + 0.35 * isNear);
+      vec2 away = (gl_Position.xy / gl_Position.w - pointer.xy) * vec2(pointer.z, 1.0);
+      float closeness = 1.0 - smoothstep(0.0, 0.3, length(away));
+      pixels = size * (1.0 + 0.25 * isSelected + 0.35 * isNear + 0.6 * closeness);
       gl_PointSize = pixels;
     }`,
   fragment: `#version 300 es

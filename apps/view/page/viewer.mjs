@@ -16,6 +16,7 @@ const kThemes = {
 };
 // Larger models move on the card, which shades their triangles flat.
 const kManyVertices = 100000;
+const kNowhere = [9, 9];  // in clip coordinates
 const kViews = { front: [0, 0], side: [Math.PI / 2, 0], top: [0, Math.PI / 2 - 0.03] };
 
 export class Viewer {
@@ -27,7 +28,7 @@ export class Viewer {
     const movesOnCard = content.movesOnCard ?? content.surface.numVertices > kManyVertices;
     const weights = movesOnCard ? this.deformer.weightsForCard() : null;
     this.renderer = new Renderer(canvas, content, weights);
-    this.camera = new Camera(content.dim, content.up);
+    this.camera = new Camera(content.dim, content.up, content.front);
     this.editor = new Editor(content.rest, content.dim, content.facets);
     this.coloring = "shaded";
     this.tool = "move";
@@ -38,6 +39,7 @@ export class Viewer {
     this.showsEdges = false;
     this.theme = "light";
     this.hovered = -1;
+    this.pointer = kNowhere;
     this.time = 0;       // of the poses
     this.playing = null;
     this.isStale = true;  // the cage or colours have changed since the model was moved
@@ -99,16 +101,16 @@ export class Viewer {
     if (!this.isFramed) this.frame();
     this.update();
     this.onPivot(this.editor.pivot ? camera.project(this.editor.pivot) : null);
-    renderer.draw(camera, { ...kThemes[this.theme], coloring: this.coloring, dotSize: this.dotSize(),
+    renderer.draw(camera, { ...kThemes[this.theme], coloring: this.coloring, dotSize: this.dotSize(), pointer: this.pointer,
                             showsCage: this.showsCage, showsEdges: this.showsEdges });
   }
 
-  // Dots shrink where control points are dense.
+  // Dots shrink where control points are dense, and grow near the pointer.
   dotSize() {
     const { camera, content } = this;
     const extent = camera.sphere.radius * camera.height / camera.halfHeight;
     const spacing = extent / Math.sqrt(content.rest.length / 3);
-    return Math.max(6, Math.min(14, 0.35 * spacing));
+    return Math.max(4, Math.min(12, 0.3 * spacing));
   }
 
   // Shows the selection, or the cage as it is and in all of its poses.
@@ -132,12 +134,15 @@ export class Viewer {
     this.frame();
   }
 
-  hover(i) {
+  // \param spot  of the pointer, null: elsewhere
+  hover(i, spot = null) {
+    const { width, height } = this.camera;
+    this.pointer = spot ? [2 * spot.x / width - 1, 1 - 2 * spot.y / height] : kNowhere;
+    this.redraw();
     if (i === this.hovered) return;
     this.hovered = i;
     this.canvas.style.cursor = i >= 0 ? "pointer" : "";
     this.renderer.setCage(this.editor.points, this.editor.shares(), i);
-    this.redraw();
     this.onState();
   }
 
