@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "commands/commands.h"
+#include "draw/base64.h"
 #include "files/load.h"
 #include "files/movable_model.h"
 #include "files/upright.h"
@@ -69,7 +70,10 @@ std::vector<view::ShownPose<Dim>> load_shown_poses(const ViewArguments& argument
                                                    const PointList<Dim>& rest) {
   if (arguments.keyframes.empty()) {
     const auto poses = load_poses(files, RestCage<Dim>(arguments.cage, arguments.quiet));
-    return shown_poses(poses, times_of_poses(poses.size(), arguments.frames_per_second));
+    const double rate = frame_rate(poses.size(), arguments.frames_per_second);
+    std::vector<double> times;
+    for (std::size_t k = 1; k <= poses.size(); ++k) times.push_back(static_cast<double>(k) / rate);
+    return shown_poses(poses, times);
   }
   const auto keyframes = load_keyframes<Dim>(arguments.keyframes, rest);
   std::vector<double> times;
@@ -92,7 +96,8 @@ view::PageContent<Dim> load_content(const ViewArguments& arguments, const CageFi
   look_from_front(content, up_of(arguments.up, arguments.model));
   content.poses = load_shown_poses<Dim>(arguments, poses, content.cage.points);
   if (!arguments.picture.empty()) {
-    content.picture = data_uri(media_type_of(arguments.picture), io::read_file(arguments.picture));
+    content.picture = "data:" + media_type_of(arguments.picture) + ";base64," +
+                      draw::to_base64(io::read_file(arguments.picture));
   }
   return content;
 }

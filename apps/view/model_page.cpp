@@ -5,7 +5,6 @@
 #include <system_error>
 #include <variant>
 
-#include "draw/base64.h"
 #include "files/movable_model.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/files.h"
@@ -45,14 +44,8 @@ view::ShownModel<Dim> load_shown_model(const std::string& path) {
 template <int Dim>
 void look_from_front(view::PageContent<Dim>& content, UpAxis up) {
   content.up = up_axis(up, content.points);
-  if constexpr (Dim == 3) content.front = front_azimuth(content.up, content.points);
-}
-
-std::vector<double> times_of_poses(std::size_t count, double frames_per_second) {
-  const double rate = frame_rate(count, frames_per_second);
-  std::vector<double> times;
-  for (std::size_t k = 1; k <= count; ++k) times.push_back(static_cast<double>(k) / rate);
-  return times;
+  const bool is_known = Dim == 2 || up != UpAxis::kAuto;  // as for glTF
+  if constexpr (Dim == 3) content.front = is_known ? 0 : front_azimuth(content.up, content.points);
 }
 
 template <int Dim>
@@ -72,10 +65,6 @@ std::string path_beside(const std::string& page, const std::string& file) {
   const auto folder = fs::absolute(page, error).parent_path();
   const auto path = fs::proximate(file, folder, error);
   return error ? file : path.string();
-}
-
-std::string data_uri(const std::string& media_type, const std::string& bytes) {
-  return "data:" + media_type + ";base64," + draw::to_base64(bytes);
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                            \

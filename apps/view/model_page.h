@@ -30,9 +30,6 @@ view::ShownModel<Dim> load_shown_model(const std::string& path);
 template <int Dim>
 void look_from_front(view::PageContent<Dim>& content, UpAxis up);
 
-//! When poses are reached from rest at 0 s. \param frames_per_second  0 = 24, but 1 for one pose
-std::vector<double> times_of_poses(std::size_t count, double frames_per_second);
-
 //! Poses at their times, named by their files without folders.
 template <int Dim>
 std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>& poses,
@@ -40,7 +37,5 @@ std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>& pose
 
 //! A file as commands name it that run in the folder of the page.
 std::string path_beside(const std::string& page, const std::string& file);
-
-std::string data_uri(const std::string& media_type, const std::string& bytes);
 
 }  // namespace flbc::app

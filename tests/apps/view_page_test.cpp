@@ -120,6 +120,33 @@ TEST_IN_2D_AND_3D(ViewPage, HoldsWhatItWasGiven) {
   EXPECT_EQ(indices_from(content["surface"]["triangles"]), (std::vector<Index>{0, 1, 2, 1, 2, 4}));
 }
 
+TEST_IN_2D_AND_3D(ViewPage, ShowsMaterialsAndWhatIsTransparentLast) {
+  auto content = cube_content<Dim>();
+  io::Material glass, paint;
+  glass.opacity = 0.25;
+  paint.color = {1, 0, 0};
+  paint.alpha_cutoff = 0.5;
+  paint.texture = "paint.png";
+  paint.picture = std::string("\x89PNG\r\n\x1a\n", 8);
+  content.surface.materials = {glass, paint};
+  content.surface.triangle_materials = {0, 1};
+  const auto surface = content_of(make_page(content))["surface"];
+  EXPECT_EQ(indices_from(surface["triangles"]), (std::vector<Index>{1, 2, 4, 0, 1, 2}));
+  ASSERT_EQ(surface["parts"].size(), 2u);
+  const auto &first = surface["parts"][0], &last = surface["parts"][1];
+  EXPECT_NEAR(first["color"][0], 1, 1e-12);
+  EXPECT_EQ(first["cutoff"], 0.5);
+  EXPECT_EQ(first["picture"], 0);
+  EXPECT_EQ(last["opacity"], 0.25);
+  EXPECT_EQ(last["picture"], -1);
+  EXPECT_EQ(last["first"], 3);
+  EXPECT_EQ(last["count"], 3);
+  ASSERT_EQ(surface["pictures"].size(), 1u);
+  const std::string address = surface["pictures"][0], begin = "data:image/png;base64,";
+  EXPECT_EQ(address.substr(0, begin.size()), begin);
+  EXPECT_EQ(from_base64(address.substr(begin.size())), paint.picture);
+}
+
 TEST_IN_2D_AND_3D(ViewPage, IsOneFileWithoutNetwork) {
   const auto page = make_page(cube_content<Dim>());
   for (const char* word :

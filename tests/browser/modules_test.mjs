@@ -7,6 +7,7 @@ import test from "node:test";
 const page = new URL("../../apps/view/page/", import.meta.url);
 const load = (name) => import(new URL(`${name}.mjs`, page));
 const { Camera } = await load("camera");
+const { portion } = await load("colors");
 const { Deformer } = await load("deformer");
 const { Editor } = await load("editor");
 const { decodeIndices } = await load("data");
@@ -69,6 +70,23 @@ test("camera: the axis that points up, and turns by 90 degrees", () => {
     near(camera.axes().up.map(Math.abs), axis);
     assert.ok(Math.abs(camera.axes().toward.reduce((sum, value, k) => sum + value * toward[k], 0)) < 1e-9);
   }
+});
+
+test("camera: the front is where it was found", () => {
+  for (const [front, expected] of [[0, [0, 0, 1]], [90, [1, 0, 0]], [180, [0, 0, -1]], [-90, [-1, 0, 0]]]) {
+    const camera = new Camera(3, 1, front);
+    camera.look(0, 0);
+    near(camera.axes().toward, expected);
+    near(camera.axes().up, [0, 1, 0]);
+  }
+});
+
+test("portions of the vertices are never 0% of something", () => {
+  assert.equal(portion(0, 5000), "0% of the vertices");
+  assert.equal(portion(1, 5000), "1 vertex");
+  assert.equal(portion(4, 50000), "4 vertices");
+  assert.equal(portion(5, 5000), "0.1% of the vertices");
+  assert.equal(portion(617, 5000), "12.3% of the vertices");
 });
 
 for (const dim of [2, 3]) {

@@ -3,15 +3,16 @@
 // With files of models as further arguments it measures how long they take instead.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { setTimeout as sleep } from "node:timers/promises";
-import { pathToFileURL } from "node:url";
+import { fileURLToPath, pathToFileURL } from "node:url";
 import { largestDifference, launch, Page, vertices } from "../browser/page.mjs";
 
 const [executablePath, pagePath, program, meshes, work, ...measured] = process.argv.slice(2);
 const browser = await launch(executablePath);
 const url = pathToFileURL(pagePath).href;
+const here = fileURLToPath(new URL(".", import.meta.url));
 const downloads = join(work, "downloads");
 rmSync(downloads, { recursive: true, force: true });
 mkdirSync(downloads, { recursive: true });
@@ -297,6 +298,30 @@ async function testElbow() {
   await app.close();
 }
 
+// Icons with a black box behind them (g), of relative commands without a box (m), of strokes (s), of
+// drawing programs with groups (i), and with styles (x): a cage around what is seen, with its picture.
+async function testIcons() {
+  const app = await new App().open(browser, url);
+  const folder = join(here, "icons");
+  for (const name of readdirSync(folder)) {
+    const title = basename(name, ".svg");
+    await app.drop([join(folder, name)]);
+    await app.tab.waitForFunction((word) => document.title.startsWith(word) || !document.getElementById("problem").hidden, { timeout: 60000 }, title);
+    assert.equal(await app.text("problem"), "", name);
+    await app.shown();
+    const seen = await app.tab.evaluate(() => {
+      const { base, rest, surface } = window.flbc.viewer.content;
+      const extents = [0, 1].map((c) => { const all = base.filter((_, k) => k % 3 === c); return Math.max(...all) - Math.min(...all); });
+      return { controlPoints: rest.length / 3, pictures: surface.pictures.length, vertices: base.length / 3, extents };
+    });
+    assert.ok(seen.controlPoints >= 12 && seen.controlPoints < 80 && seen.vertices > 1000, `${name}: ${JSON.stringify(seen)}`);
+    assert.equal(seen.pictures, 1, name);
+    assert.ok(Math.max(...seen.extents) > 1000, `${name} does not fill its picture`);
+    if (name.startsWith("g_")) assert.ok(seen.vertices < 7000, `${name}: the box behind it is a part`);
+  }
+  await app.close();
+}
+
 // The document of a .glb.
 function documentIn(file) {
   const bytes = readFileSync(file);
@@ -359,6 +384,7 @@ if (measured.length > 0) {
   await testElbow();
   await testErrors();
   await testShapes();
+  await testIcons();
   await testGltf();
 }
 await browser.close();

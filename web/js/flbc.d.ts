@@ -15,32 +15,25 @@ export class FlbcError extends Error {
 
 /** Weights of the model's vertices: those of vertex v are entries starts[v] .. starts[v + 1] - 1. */
 export interface Weights {
-  starts: Uint32Array;
-  controlPoints: Uint32Array;
-  values: Float32Array;
+  starts: Uint32Array; controlPoints: Uint32Array; values: Float32Array;
 }
 
 export interface SolveOptions {
-  smoothness?: number;
-  tolerance?: number;
+  smoothness?: number; tolerance?: number;
   distances?: "auto" | "exact" | "interpolated";
   precision?: "auto" | "single" | "double";
 }
 
 /** A mesh, and the weights of its vertices. */
 export interface Solution {
-  points: Float64Array;
-  cells: Int32Array;
-  starts: Uint32Array;
-  controlPoints: Uint32Array;
-  values: Float64Array;
+  points: Float64Array; cells: Int32Array;
+  starts: Uint32Array; controlPoints: Uint32Array; values: Float64Array;
   /** Of `solve()`, for later moves. */
   options?: SolveOptions;
 }
 
 export interface CageFacts {
-  controlPoints: number;
-  facets: number;
+  controlPoints: number; facets: number;
   /** Distance from the model, relative to its size. */
   offset?: number;
   symmetry?: "none" | "x" | "y" | "z";
@@ -74,12 +67,10 @@ export class Flbc {
   repairCage(): Promise<CageFacts>;
 
   /** `seconds` is about how long solve() takes. */
-  makeMesh(options?: { vertices?: number }, onProgress?: OnProgress):
-    Promise<{ vertices: number; cells: number; note: string; seconds: number }>;
+  makeMesh(options?: { vertices?: number }, onProgress?: OnProgress): Promise<{ vertices: number; cells: number; note: string; seconds: number }>;
   setMesh(points: Numbers, cells: Indices): Promise<void>;
 
-  solve(options?: SolveOptions, onProgress?: OnProgress):
-    Promise<{ iterations: number; objective: number; converged: boolean }>;
+  solve(options?: SolveOptions, onProgress?: OnProgress): Promise<{ iterations: number; objective: number; converged: boolean }>;
   /** What makeMesh() and solve() have computed. */
   solution(): Promise<Solution>;
   /** In place of both, for the same model and cage: in another worker, or after cancel(). */
@@ -89,9 +80,7 @@ export class Flbc {
   /** Another shape of the rest cage; the model stays. Ends after 0.25 s, if need be before it has
    *  converged; { refine: true } resumes. */
   move(request: { points: number[] } | { refine: true }):
-    Promise<{ converged: boolean; iterations: number; residual: number;
-               rest: Float64Array; weights: Weights }
-            | { refused: string }>;
+    Promise<{ converged: boolean; iterations: number; residual: number; rest: Float64Array; weights: Weights } | { refused: string }>;
 
   /** The vertices of the model at rest. */
   points(): Promise<Float64Array>;

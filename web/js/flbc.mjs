@@ -87,9 +87,7 @@ export class Flbc {
     });
   }
 
-  async addFile(name, bytes) {
-    await this.call("addFile", { name, bytes: new Uint8Array(bytes) });
-  }
+  addFile(name, bytes) { return this.call("addFile", { name, bytes: new Uint8Array(bytes) }); }
 
   async readModel(name, bytes, files = {}) {
     for (const [other, content] of Object.entries(files)) await this.addFile(other, content);

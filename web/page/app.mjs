@@ -109,7 +109,8 @@ class App {
       const isDone = await this.work(model.name, async (onProgress) => {
         onProgress("reading the model", 0);
         await this.flbc.cancel();  // what is prepared
-        await this.flbc.readModel(model.name, model.bytes, model.files);
+        const { vertices } = await this.flbc.readModel(model.name, model.bytes, model.files);
+        if (vertices > 20000) element("remaining").textContent = `This model takes about ${Math.round(vertices / 7000)} s`;
         await this.flbc.makeCage({}, onProgress);
         Object.assign(this, { model, cage: await this.cageFile(), view: null });
         await this.solve(onProgress);
@@ -184,8 +185,7 @@ class App {
     }
     this.goTo(null);
     element("cageSection").open = true;
-    element("cageProblem").textContent = error.message;
-    element("cageProblem").hidden = false;
+    Object.assign(element("cageProblem"), { textContent: error.message, hidden: false });
   }
 
   // The cage and the solution of the view, if it has been reshaped.
@@ -218,8 +218,7 @@ class App {
   }
 
   fail(message) {
-    element("problem").textContent = message;
-    element("problem").hidden = false;
+    Object.assign(element("problem"), { textContent: message, hidden: false });
     this.goTo("start");
   }
 
@@ -321,7 +320,7 @@ class App {
     const points = inFile(editor.points);
     const { title, poses } = content;
     const { name: modelName, picture } = this.model;
-    const extension = /[^.]*$/.exec(modelName)[0].toLowerCase();
+    const extension = /[^.]*$/.exec(modelName)[0].toLowerCase().replace("gltf", "glb");
     const kinds = {
       posed: async () => [`${title}_posed.${extension}`, await this.flbc.modelFile(points, extension)],
       cage: async () => [`${title}_cage.obj`, await this.flbc.cageFile()],

@@ -7,7 +7,7 @@ const kPerspective = 0.27;  // tangent of half of the vertical field of view
 const kMargin = 1.12;
 
 // Right, up and toward a viewer in front of a model on which this axis points up.
-const kBases = [[[0, -1, 0], [1, 0, 0], [0, 0, 1]], [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+export const kBases = [[[0, -1, 0], [1, 0, 0], [0, 0, 1]], [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
                 [[1, 0, 0], [0, 0, 1], [0, -1, 0]]];
 
 export class Camera {
@@ -35,8 +35,7 @@ export class Camera {
 
   // Toward the eye, in the basis.
   direction() {
-    return [Math.cos(this.pitch) * Math.sin(this.yaw), Math.sin(this.pitch),
-            Math.cos(this.pitch) * Math.cos(this.yaw)];
+    return [Math.cos(this.pitch) * Math.sin(this.yaw), Math.sin(this.pitch), Math.cos(this.pitch) * Math.cos(this.yaw)];
   }
 
   inModel(place) {
@@ -140,8 +139,7 @@ export class Camera {
     let wanted = 0.02 * radius;
     for (let i = 0; i < points.length / 3; ++i) {
       const offset = times(kMargin, subtract(pointAt(points, i), center));
-      const extent = Math.max(Math.abs(dot(up, offset)),
-                              Math.abs(dot(right, offset)) * this.height / this.width);
+      const extent = Math.max(Math.abs(dot(up, offset)), Math.abs(dot(right, offset)) * this.height / this.width);
       // Nearer points than the target appear larger.
       wanted = Math.max(wanted, extent + perspective * dot(toward, offset));
     }

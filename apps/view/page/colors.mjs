@@ -17,7 +17,7 @@ export function shortNumber(value) {
 // Some of the vertices, for people: in percent, or counted where these are few.
 export function portion(count, total) {
   const percent = 100 * count / total;
-  if (percent >= 0.1 || count === 0) return `${Number(percent.toPrecision(3))}% of the vertices`;
+  if (percent >= 0.1 || count === 0) return `${shortNumber(percent)}% of the vertices`;
   return `${count} ${count === 1 ? "vertex" : "vertices"}`;
 }
 

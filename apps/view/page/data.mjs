@@ -53,8 +53,7 @@ function decodeSurface(packed, numPoints, picture) {
     surface.groups = decodeIndices(packed.groups);
   }
   surface.numVertices = surface.sources ? surface.sources.length : numPoints;
-  surface.textureCoordinates =
-    packed.textureCoordinates ? decodeFloats(packed.textureCoordinates) : null;
+  surface.textureCoordinates = packed.textureCoordinates ? decodeFloats(packed.textureCoordinates) : null;
   surface.colors = packed.colors ? decodeBytes(packed.colors) : null;
   if (picture || surface.parts.length === 0) {
     const cutoff = picture ? 0.5 : 0;

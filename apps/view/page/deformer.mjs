@@ -50,12 +50,8 @@ export class Deformer {
   // How far every point is from where it rests.
   displacements() {
     const { base, points } = this;
-    const lengths = new Float32Array(points.length / 3);
-    for (let p = 0; p < lengths.length; ++p) {
-      lengths[p] = Math.hypot(points[3 * p] - base[3 * p], points[3 * p + 1] - base[3 * p + 1],
-                              points[3 * p + 2] - base[3 * p + 2]);
-    }
-    return lengths;
+    const step = (k) => points[k] - base[k];
+    return Float32Array.from({ length: points.length / 3 }, (_, p) => Math.hypot(step(3 * p), step(3 * p + 1), step(3 * p + 2)));
   }
 
   // The sum of the weights of some control points, at every point.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The keys as an animation in glTF. Every key is a morph target, because readers interpolate targets
 // along straight lines, as the page does, and need no limit of influences.
+import { decodeBytes } from "./data.mjs";
 import { Deformer } from "./deformer.mjs";
 import { atVertices, sumNormals } from "./surface_normals.mjs";
 
@@ -29,13 +30,17 @@ function materialOf({ color, opacity = 1, cutoff = 0, picture = -1 }) {
 export function glbOf({ center, poses, rest, surface, title, weights, base }, basis) {
   const accessors = [], bufferViews = [], arrays = [];
   let byteLength = 0;
+  const putBytes = (bytes) => {
+    const padding = -bytes.byteLength & 3;
+    arrays.push(bytes, new Uint8Array(padding));
+    byteLength += bytes.byteLength + padding;
+    return bufferViews.push({ buffer: 0, byteOffset: byteLength - padding - bytes.byteLength, byteLength: bytes.byteLength }) - 1;
+  };
   const put = (numbers, type = "SCALAR") => {
     const size = kSizes[type];
     const extreme = (best) => Array.from({ length: size }, (_, k) =>
       numbers.reduce((far, value, j) => (j % size === k ? best(far, value) : far), numbers[k]));
-    bufferViews.push({ buffer: 0, byteOffset: byteLength, byteLength: numbers.byteLength });
-    byteLength += numbers.byteLength;
-    return accessors.push({ bufferView: arrays.push(numbers) - 1, type, count: numbers.length / size,
+    return accessors.push({ bufferView: putBytes(numbers), type, count: numbers.length / size,
                             componentType: numbers instanceof Uint32Array ? 5125 : 5126,
                             min: extreme(Math.min), max: extreme(Math.max) }) - 1;
   };
@@ -52,6 +57,8 @@ export function glbOf({ center, poses, rest, surface, title, weights, base }, ba
   if (surface.colors) attributes.COLOR_0 = put(Float32Array.from(surface.colors, (byte) => (byte / 255) ** 2.2), "VEC3");
   const primitives = surface.parts.map(({ first, count }, material) =>
     ({ attributes, targets, material, indices: put(Uint32Array.from(surface.triangles.subarray(first, first + count))) }));
+  const images = surface.pictures.map((address) =>
+    ({ mimeType: /:(.*);/.exec(address)[1], bufferView: putBytes(decodeBytes(address.split(",")[1])) }));
   const input = put(Float32Array.from(poses, ({ time }) => time));
   const output = put(Float32Array.from({ length: poses.length ** 2 }, (_, k) => Number(k % (poses.length + 1) === 0)));
   // Of a node with children, because an animation has no node with a matrix.
@@ -61,7 +68,7 @@ export function glbOf({ center, poses, rest, surface, title, weights, base }, ba
     nodes: [{ children: [1], matrix: [...matrix, 0, 0, 0, 1] }, { mesh: 0, translation: center }],
     meshes: [{ name: title, primitives, extras: { targetNames: poses.map(({ name }) => name) } }],
     materials: surface.parts.map(materialOf),
-    ...(surface.pictures.length > 0 && { images: surface.pictures.map((uri) => ({ uri })), textures: surface.pictures.map((_, source) => ({ source })) }),
+    ...(images.length > 0 && { images, textures: images.map((_, source) => ({ source })) }),
     animations: [{ samplers: [{ input, output }], channels: [{ sampler: 0, target: { node: 1, path: "weights" } }] }],
   }));
   const padding = -text.length & 3, length = text.length + padding;

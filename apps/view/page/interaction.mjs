@@ -33,8 +33,7 @@ export class Interaction {
 
   pickAt(spot, event) {
     const { editor, camera, showsCage } = this.view;
-    return showsCage ? pick(editor.points, camera, spot.x, spot.y, kReach[event.pointerType] ?? 12)
-                     : -1;
+    return showsCage ? pick(editor.points, camera, spot.x, spot.y, kReach[event.pointerType] ?? 12) : -1;
   }
 
   down(event) {

@@ -10,10 +10,9 @@ import { pointAt } from "./vectors.mjs";
 import { Viewer } from "./viewer.mjs";
 
 function apologize(error) {
-  const message = document.getElementById("message");
-  message.hidden = false;
-  message.textContent = `This page draws with WebGL2, which this browser does not offer (${error.message}). `
+  const textContent = `This page draws with WebGL2, which this browser does not offer (${error.message}). `
     + "A recent Firefox, Chrome, Edge or Safari with hardware acceleration switched on shows it.";
+  Object.assign(document.getElementById("message"), { hidden: false, textContent });
 }
 
 // The interface for scripts and tests. Points have as many coordinates as the cage.

@@ -17,8 +17,7 @@ function pairsAt(points, axis, plane, tolerance) {
     const [x, y, z] = reflected(points, i, axis, plane);
     let least = tolerance;
     for (let j = 0; j < count; ++j) {
-      const distance =
-        Math.hypot(points[3 * j] - x, points[3 * j + 1] - y, points[3 * j + 2] - z);
+      const distance = Math.hypot(points[3 * j] - x, points[3 * j + 1] - y, points[3 * j + 2] - z);
       if (distance < least) {
         least = distance;
         nearest[i] = j;

@@ -27,7 +27,7 @@ function rewrite(text, given, places, dim) {
 export function readPose(text, dim, count) {
   const places = text.split("\n").filter((line) => /^\s*v\s/.test(line))
     .map((line) => line.trim().split(/\s+/).slice(1, dim + 1).map(Number));
-  if (places.length !== count) throw new Error(`has ${places.length} vertices, but the cage has ${count} control points`);
+  if (places.length !== count) throw new Error(`has ${places.length} vertices, but the cage has ${count} control points; a pose belongs to the cage that it was made with`);
   if (!places.every((place) => place.length === dim && place.every(Number.isFinite))) throw new Error("a coordinate is no number");
   return Float64Array.from(places.flat());
 }

@@ -11,8 +11,7 @@ export function pick(points, camera, x, y, reach) {
     const spot = camera.project(pointAt(points, i));
     const distance = Math.hypot(spot.x - x, spot.y - y);
     if (distance > reach) continue;
-    const isBetter = Math.abs(distance - bestDistance) < kSame ? spot.nearness > bestNearness
-                                                              : distance < bestDistance;
+    const isBetter = Math.abs(distance - bestDistance) < kSame ? spot.nearness > bestNearness : distance < bestDistance;
     if (!isBetter) continue;
     best = i;
     bestDistance = distance;

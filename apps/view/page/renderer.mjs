@@ -112,9 +112,7 @@ export class Renderer {
     this.attachWeights();
     this.cage = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, this.cage);
-    for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) {
-      gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
-    }
+    for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.NEAREST);
   }
 
   attachWeights() {
@@ -177,13 +175,9 @@ export class Renderer {
     this.palette = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, this.palette);
     gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB, 256, 1, 0, gl.RGB, gl.UNSIGNED_BYTE,
-                  this.content.palette);
-    for (const [name, value] of [[gl.TEXTURE_MIN_FILTER, gl.LINEAR],
-                                 [gl.TEXTURE_MAG_FILTER, gl.LINEAR],
-                                 [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE]]) {
-      gl.texParameteri(gl.TEXTURE_2D, name, value);
-    }
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB, 256, 1, 0, gl.RGB, gl.UNSIGNED_BYTE, this.content.palette);
+    for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.LINEAR);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
     this.pictures = [];
     this.images.forEach((image, k) => this.setPicture(k, image));
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Downloads of poses, models and pictures, and a command to copy.
+import { kBases } from "./camera.mjs";
 import { glbOf } from "./glb.mjs";
 import { modelText, poseText } from "./obj.mjs";
 
@@ -30,13 +31,7 @@ export function poseOf(viewer) {
 export function pointsOf(viewer) {
   viewer.update();
   const { dim, center } = viewer.content;
-  const { points } = viewer.deformer;
-  const result = new Float32Array(points.length / 3 * dim);
-  for (let k = 0; k < result.length; ++k) {
-    const axis = k % dim;
-    result[k] = points[3 * ((k - axis) / dim) + axis] + center[axis];
-  }
-  return result;
+  return viewer.deformer.points.map((value, k) => value + center[k % 3]).filter((_, k) => k % 3 < dim);
 }
 
 export function savePose(viewer) {
@@ -48,8 +43,8 @@ export function saveModel(viewer) {
   saveText(`${title}_posed.obj`, modelText(pointsOf(viewer), dim, surface));
 }
 
-export function saveAnimation({ content, camera }) {
-  download(`${content.title}_animation.glb`, glbOf(content, camera.basis));
+export function saveAnimation({ content }) {
+  download(`${content.title}_animation.glb`, glbOf(content, kBases[content.up]));
 }
 
 export function savePicture(viewer) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The programs of the graphics card.
-
 // Moves vertices as engines/deform.glsl does: the cage is the texture `cage`.
 export const kWeightedSum = `
 vec3 controlPoint(uint i) { return texelFetch(cage, ivec2(i & 1023u, i >> 10), 0).xyz; }

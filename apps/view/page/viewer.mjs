@@ -45,10 +45,7 @@ export class Viewer {
     this.isStale = true;  // the cage or colours have changed since the model was moved
     this.isAwaited = false;
     this.milliseconds = -1;  // of the last step, which may be too short for the clock; none yet
-    this.onState = () => {};
-    this.onLegend = () => {};
-    this.onOutline = () => {};
-    this.onPivot = () => {};
+    this.onState = this.onLegend = this.onOutline = this.onPivot = () => {};
     this.editor.onChange = () => this.changed();
     this.camera.sphere = this.editor.sphere;
   }
@@ -118,8 +115,7 @@ export class Viewer {
     const { editor, camera, content } = this;
     const everything = () => [editor.points, ...content.poses.map((pose) => pose.points)]
       .flatMap((points) => Array.from(points));
-    camera.frame(indices.length > 1 ? indices.flatMap((i) => pointAt(editor.points, i))
-                                    : everything());
+    camera.frame(indices.length > 1 ? indices.flatMap((i) => pointAt(editor.points, i)) : everything());
     this.isFramed = true;
     this.redraw();
   }
