@@ -102,7 +102,8 @@ def frames(work):
         draw.line((450, 20, 450, SIZE[1] - 20), fill=(222, 224, 228))
         for column, (title, _) in enumerate(METHODS):
             write(draw, (24 + 450 * column, 34), title, 24, weight="Bold", anchor="ls")
-            write(draw, (24 + 450 * column, 58), f"{100 * moves[column].mean():.0f}% of the vertices move", 17, anchor="ls")
+            write(draw, (24 + 450 * column, 58), f"{100 * moves[column].mean():.0f}% of the vertices move", 17,
+                  anchor="ls")
         yield page
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What MkDocs does not do on its own: command pages, the Python module, the changelog, and links to files outside docs/.
+"""What MkDocs does not do on its own: command pages, the Python module, the changelog, and links to files
+outside docs/.
 
 The command pages come from the folder FLBC_HELP, where the build writes them (`apps/help/pages.py`).
 """
