@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the pictures of the documents, or those that are named, in docs/images:
 #   scripts/pictures.sh [--models FOLDER] [NAME...]
-# NAME: hero locality view before_after deformation smoothness automatic_cages blender
+# NAME: hero ring locality view before_after deformation smoothness automatic_cages blender
 # FOLDER: the papers' models, for automatic_cages. Working files go to out/pictures.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -13,7 +13,7 @@ if [ "${1:-}" = --models ]; then
 fi
 names=("$@")
 if [ $# -eq 0 ]; then
-  names=(hero locality view before_after deformation smoothness)
+  names=(hero ring locality view before_after deformation smoothness)
   [ -z "$models" ] || names+=(automatic_cages)
   ! command -v blender >/dev/null || names+=(blender)
 fi
@@ -37,6 +37,7 @@ for name in "${names[@]}"; do
   echo "$name"
   case $name in
     hero) scripts/pictures/hero.py "$images/hero.png" "$work/hero" ;;
+    ring) scripts/pictures/ring.py "$images/ring.gif" "$work/ring" ;;
     locality) scripts/pictures/locality.py "$images/locality.gif" "$work/locality" ;;
     automatic_cages) scripts/pictures/automatic_cages.py "$images/automatic_cages.png" "$work/cages" "$models" ;;
     smoothness) scripts/pictures/smoothness.py "$images/smoothness.png" "$work/smoothness" ;;

@@ -84,7 +84,8 @@ def distorted(rows):
 
 
 NUMBERS = {
-    "race.seconds.weights": lambda rows: span(value(r, "total_seconds") for r in rows if r["method"] == "weights"),
+    "race.seconds.weights": lambda rows: span(
+        (value(r, "total_seconds") for r in rows if r["method"] == "weights"), lambda seconds: f"{seconds:.2f}"),
     **{f"race.ratio.{name}": against_default(name) for name in ("lbc2014-tuned", "gradient", "paper")},
     "race.gap": lambda rows: f"{max(value(r, 'reference_gap') for r in rows):.1e}",
     "authors2014.ratio": lambda rows: span((value(r, "lbc_over_flbc") for r in rows), factor),

@@ -60,7 +60,8 @@ def sized(row):
 
 
 SIZE = [("model", "model"), ("n", "control_points"), ("V", "vertices:,.0f")]
-HARMONIC = [("Model", lambda row: row["model"] + (" (2D)" if row["model"] in ("logo", "woody", "cactus", "figure", "letter", "ring") else "")),
+IN_2D = ("logo", "woody", "cactus", "figure", "letter", "ring")
+HARMONIC = [("Model", lambda row: row["model"] + " (2D)" * (row["model"] in IN_2D)),
             ("Control points", "control_points"), ("Mesh vertices", "vertices:,.0f"),
             ("Influences: local", lambda row: f"**{value(row, 'mean_influences'):.1f}**"),
             ("Influences: harmonic", "harmonic_influences:.1f"),
@@ -201,7 +202,8 @@ def sparsify(rows):
     return grouped(sparsified, *SPARSIFY)([row for row in rows if row["k"] != "6" and "another" not in row["weights"]])
 
 
-MESH_ERROR = [("model", "model"), *((f"mesh of {thousands(number)}", f"mesh_{number}") for number in (5000, 10000, 20000)),
+MESH_ERROR = [("model", "model"),
+              *((f"mesh of {thousands(number)}", f"mesh_{number}") for number in (5000, 10000, 20000)),
               *((f"iteration, tolerance {t}", f"iteration_{t}") for t in ("1e-5", "1e-6", "1e-7"))]
 BLENDER = [("deformer", "deformer"), ("bind, s", "bind_seconds"), ("frame, ms", "frame_milliseconds"),
            ("error of an affine map", "affine_error")]
@@ -221,4 +223,5 @@ TABLES = {"models": lines(*MODELS), "harmonic": lines(*HARMONIC), "race": race,
           "many": lines(*MANY), "tolerance": tolerance, "smoothness": smoothness, "cages": lines(*CAGES),
           "compare": compare, "sparsify": sparsify,
           "pipeline": lines(*PIPELINE),
-          "samples": lines(*SAMPLES), "mesh_error": lines(*MESH_ERROR), "blender": lines(*BLENDER), "points": lines(*POINTS), "table1": lines(*TABLE1), "table2": table2}
+          "samples": lines(*SAMPLES), "mesh_error": lines(*MESH_ERROR), "blender": lines(*BLENDER),
+          "points": lines(*POINTS), "table1": lines(*TABLE1), "table2": table2}

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What MkDocs does not do on its own: command pages, the changelog, and links to files outside docs/.
+"""What MkDocs does not do on its own: command pages, the Python module, the changelog, and links to files
+outside docs/.
 
 The command pages come from the folder FLBC_HELP, where the build writes them (`apps/help/pages.py`).
 """
@@ -7,8 +8,12 @@ import os
 import pathlib
 import re
 import shutil
+import sys
 
 from mkdocs.structure.files import File
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import python_reference  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
@@ -19,7 +24,7 @@ LINK = re.compile(r"(\]\()([^)\s#]+)(#[^)\s]*)?(\))")
 
 def generated(folder):
     """Pages that are not in docs/, by their path on the site."""
-    pages = {"changelog.md": (ROOT / "CHANGELOG.md").read_text()}
+    pages = {"changelog.md": (ROOT / "CHANGELOG.md").read_text(), "reference/python.md": python_reference.page()}
     for page in sorted(folder.glob("*.md")):
         text = page.read_text()
         example = DOCS / "reference" / "cli" / f"{page.stem}.sh"
