@@ -175,6 +175,12 @@ async function testModel(sample, file, dim) {
 
 async function testErrors() {
   const app = await new App().open(browser, url, { theme: "dark" });
+  const isStill = () => app.tab.$eval("#moving", (picture) => picture.animationsPaused());
+  assert.equal(await isStill(), false);
+  await app.tab.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "dark" }, { name: "prefers-reduced-motion", value: "reduce" }]);
+  await app.tab.reload();
+  await app.loaded();
+  assert.equal(await isStill(), true);
   const bad = join(work, "bad.obj");
   writeFileSync(bad, "v 0 0 zero\n");
   await app.drop([bad]);

@@ -20,6 +20,7 @@ const kParts = ["stage", "timeline", "panel", "keyHelp"];
 
 class App {
   constructor() {
+    if (matchMedia("(prefers-reduced-motion: reduce)").matches) element("moving").pauseAnimations();
     this.fresh = kParts.map((id) => element(id).cloneNode(true));
     this.model = null;   // the one that is shown: name, bytes, files, picture, theme
     this.cage = null;    // its cage, as a file: name, bytes
