@@ -37,8 +37,8 @@ constexpr Index kMostActiveControlPoints = 65000;
 //! there are masks.
 bool active_set(const Sizes& sizes, const Settings& settings);
 
-//! Whether the active set has all pairs that masks allow. A small problem starts so without others,
-//! because masks move weights to control points that harmonic coordinates do not find.
+//! Whether the active set has all pairs that masks allow. A small problem without another start has
+//! them, because masks move weights to control points that harmonic coordinates do not find.
 bool active_set_is_complete(const Sizes& sizes, const Settings& settings, bool cold);
 
 //! Whether a certificate is wanted, which needs the duals of all pairs.
