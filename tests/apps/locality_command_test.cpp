@@ -100,8 +100,8 @@ TEST_F(LocalityCommand, DefectiveFilesAreRefused) {
 TEST_F(LocalityCommand, GroupsOfAnObjModelAreRegions) {
   const auto cage = points_in<2>("2d/figure_cage.obj");
   const double x = cage.row(0).mean(), y = cage.row(1).mean();
-  const auto at = [](double x, double y) {
-    return "v " + std::to_string(x) + ' ' + std::to_string(y) + " 0\n";
+  const auto at = [](double px, double py) {
+    return "v " + std::to_string(px) + ' ' + std::to_string(py) + " 0\n";
   };
   const double step = 0.01 * (cage.row(0).maxCoeff() - cage.row(0).minCoeff());
   file("model.obj", at(x, y) + at(x + step, y) + at(x, y + step) + "g body\nf 1 2 3\n" +
