@@ -39,7 +39,7 @@ class NpzWriter {
     if (bytes > std::numeric_limits<std::uint32_t>::max() - offset_ - 4096)
       throw IoError(path_ + ": the certificate is larger than 4 GB; use a coarser mesh");
     auto sum = crc32(0, bytes_of(head.data()), static_cast<uInt>(head.size()));
-    sum = crc32(sum, bytes_of(data), static_cast<uInt>(bytes));
+    if (bytes > 0) sum = crc32(sum, bytes_of(data), static_cast<uInt>(bytes));  // null: starts over
     const auto file = name + ".npy";
     // Version, flags, compression, time, date, check sum, both sizes, length of the name, no extra.
     std::string entry;
