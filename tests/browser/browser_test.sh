@@ -66,7 +66,7 @@ awk -v OFMT=%.17g 'BEGIN {
 awk 'BEGIN { print "%%MatrixMarket matrix coordinate real general\n81 4 324" }
   { for (k = 1; k <= 4; ++k) print NR, k, $k }' square.rows >square.mtx
 "$flbc" view square_model.obj --weights square.mtx --cage square_cage.obj \
-  --texture "$here/../../docs/images/figure.png" -q -o square.html
+  --texture "$here/../../docs/images/deformation.png" -q -o square.html
 
 # The example for engines.
 mkdir engine
