@@ -139,9 +139,20 @@ def move_and_resume(program, flbc, meshes, out):
     check(float(error) < 1e-10, f"reproduction to {error}")
 
 
+def protect_a_region(program, flbc, meshes, out):
+    """One end of the limb is posed; not one vertex of the half at the other end moves."""
+    model, result = meshes / "3d/limb_model.obj", out / "limb_protected.off"
+    moved, _, protected, *_ = printed(program, meshes / "3d/limb_cage.obj", model,
+                                      meshes / "3d/limb_cage_pose.obj", result).split()
+    check(int(moved) == 0 and int(protected) > 500, f"{moved} of {protected} protected vertices have moved")
+    before, (rows, _) = read_obj(model), read_off(result)
+    away = max(math.dist(row[:3], point) for row, point in zip(rows, before))
+    check(away > 0.02 * size(before), "nothing has moved")
+
+
 EXAMPLES = {function.__name__: function
             for function in (color_a_weight, core_2d, decimate_and_deform, embedded_surface, bind_and_deform,
-                             move_and_resume)}
+                             move_and_resume, protect_a_region)}
 EXAMPLES["iterate_on_mesh"] = color_a_weight  # solves in another way
 
 if __name__ == "__main__":
