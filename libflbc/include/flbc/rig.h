@@ -74,7 +74,9 @@ class Rig {
  private:
   Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindOptions& options);
 
-  PlacedMasks placed_masks(const PointList<Dim>& points, const BindOptions& options) const;
+  const Placement<Dim>& placed();
+  PlacedMasks placed_masks(const PointList<Dim>& points, const Placement<Dim>& placement,
+                           const BindOptions& options) const;
   SparseWeights reduced(const Placement<Dim>& placement, const SparseWeights& weights) const;
   SparseWeights reduced_inside(const std::vector<Index>& outside);
 

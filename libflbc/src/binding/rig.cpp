@@ -94,7 +94,7 @@ Rig<Dim>::Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindO
   report_.mesher = std::move(made.mesher);
   report_.note = std::move(made.note);
   report_.mesh_seconds = watch.seconds();
-  masks_ = placed_masks(points_, options_);
+  if (!options_.masks.empty()) masks_ = placed_masks(points_, placed(), options_);
 }
 
 template <int Dim>
@@ -103,15 +103,22 @@ Rig<Dim>::Rig(Cage<Dim> cage, DomainMesh<Dim> domain, PointList<Dim> points, Edg
     : Rig(std::move(cage), std::move(points), std::move(edges), options) {
   mesh_ = std::move(domain);
   normalize_and_validate(mesh_);
-  masks_ = placed_masks(points_, options_);
+  if (!options_.masks.empty()) masks_ = placed_masks(points_, placed(), options_);
 }
 
 template <int Dim>
-PlacedMasks Rig<Dim>::placed_masks(const PointList<Dim>& points, const BindOptions& options) const {
-  if (options.masks.empty()) return {};
-  const ThreadScope threads(options.solver.threads);
-  return place_masks(cage(), mesh(), place_points(cage(), mesh(), points, options.outside),
-                     masks_of(cage(), points, options));
+const Placement<Dim>& Rig<Dim>::placed() {
+  if (placement_.points.cols() != points_.cols()) {
+    const ThreadScope threads(options_.solver.threads);
+    placement_ = place_points(cage(), mesh(), points_, options_.outside);
+  }
+  return placement_;
+}
+
+template <int Dim>
+PlacedMasks Rig<Dim>::placed_masks(const PointList<Dim>& points, const Placement<Dim>& placement,
+                                   const BindOptions& options) const {
+  return place_masks(cage(), mesh(), placement, masks_of(cage(), points, options));
 }
 
 template <int Dim>
@@ -155,6 +162,7 @@ const Solution& Rig<Dim>::reshape(const PointList<Dim>& control_points, const Bu
   require_inside(moved, points_, options_);
   if (!solver_) solve();
   solver_->move(control_points, budget, options_.observer);
+  placement_ = {};
   weights_ = {};
   return solution();
 }
@@ -163,9 +171,15 @@ template <int Dim>
 void Rig<Dim>::set_model(PointList<Dim> points, EdgeList edges) {
   require_model<Dim>(points, edges);
   require_inside(cage(), points, options_);
-  auto masks = placed_masks(points, options_);
-  if (solver_ && !options_.masks.empty()) solver_->set_options(solver_options(options_, masks));
-  masks_ = std::move(masks);
+  Placement<Dim> placement;
+  if (!options_.masks.empty()) {
+    const ThreadScope threads(options_.solver.threads);
+    placement = place_points(cage(), mesh(), points, options_.outside);
+    auto masks = placed_masks(points, placement, options_);
+    if (solver_) solver_->set_options(solver_options(options_, masks));
+    masks_ = std::move(masks);
+  }
+  placement_ = std::move(placement);
   points_ = std::move(points);
   edges_ = std::move(edges);
   weights_ = {};
@@ -174,11 +188,18 @@ void Rig<Dim>::set_model(PointList<Dim> points, EdgeList edges) {
 template <int Dim>
 void Rig<Dim>::set_options(const BindOptions& options) {
   require_valid<Dim>(options);
-  require_inside(cage(), points_, options);
-  auto masks = placed_masks(points_, options);
+  const bool moves = options.outside != options_.outside;
+  if (moves) require_inside(cage(), points_, options);
+  Placement<Dim> placement;
+  PlacedMasks masks;
+  if (!options.masks.empty()) {
+    const ThreadScope threads(options.solver.threads);
+    if (moves) placement = place_points(cage(), mesh(), points_, options.outside);
+    masks = placed_masks(points_, moves ? placement : placed(), options);
+  }
   if (solver_) solver_->set_options(solver_options(options, masks));
-  if (options.outside != options_.outside || options.masks != options_.masks ||
-      options.mirror_axis != options_.mirror_axis) {
+  if (moves) placement_ = std::move(placement);
+  if (moves || options.masks != options_.masks || options.mirror_axis != options_.mirror_axis) {
     weights_ = {};
   }
   masks_ = std::move(masks);
@@ -191,13 +212,12 @@ const SparseWeights& Rig<Dim>::weights_of_points() {
   if (solution().weights.num_points() == 0) solve();
   const ThreadScope threads(options_.solver.threads);
   const Stopwatch watch;
-  placement_ = place_points(cage(), mesh(), points_, options_.outside);
-  auto weights = weights_at(cage(), mesh(), solution().weights, placement_);
+  auto weights = weights_at(cage(), mesh(), solution().weights, placed());
   const auto enforce = [&] {
     if (!options_.masks.empty()) weights = enforce_masks(cage(), placement_, weights, masks_);
   };
   if (!options_.masks.empty()) {  // the cage may have moved
-    masks_ = place_masks(cage(), mesh(), placement_, masks_of(cage(), points_, options_));
+    masks_ = placed_masks(points_, placement_, options_);
   }
   enforce();
   if (options_.mirror_axis >= 0) {
