@@ -77,8 +77,7 @@ std::vector<Index> indices_of(const LocalityJson& chosen, const PointList<Dim>& 
   }
   throw InputError(
       "give a list of numbers, {\"vertices\": [...]}, {\"box\": [lowest, highest]}, or, for "
-      "regions "
-      "of a model, {\"group\": name}");
+      "regions of a model, {\"group\": name}");
 }
 
 }  // namespace
@@ -106,8 +105,12 @@ std::vector<flbc::Mask> load_locality(const std::string& path, const Cage<Dim>& 
     }
     entry.clear();
     PointMasks(masks, cage.size(), static_cast<Index>(points.cols()));  // checks the numbers
-  } catch (const LocalityJson::exception& error) {
-    throw InputError(path + ": " + entry + "not a list of masks: " + error.what());
+  } catch (const LocalityJson::parse_error& error) {
+    throw InputError(path + ": not JSON, at byte " + std::to_string(error.byte));
+  } catch (const LocalityJson::exception&) {
+    throw InputError(path + ": " + entry +
+                     "not a list of masks such as [{\"control_points\": [3], \"region\": "
+                     "{\"vertices\": [0, 1]}}]");
   } catch (const InputError& error) {
     throw InputError(path + ": " + entry + error.what());
   }
