@@ -56,8 +56,8 @@ SparseWeights in_order(const SparseWeights& weights, const std::vector<Index>& o
           std::move(values)};
 }
 
-// By a breadth-first search, so that neighbors get close numbers and share cache lines. Without
-// regard to places: a moved model has the same results.
+// Reverse to a breadth-first search (reverse Cuthill-McKee), so that neighbors get close numbers
+// and share cache lines. Without regard to places: a moved model has the same results.
 std::vector<Index> breadth_first_order(Index num_points, const EdgeList& edges) {
   const auto around = items_by_vertex<Index>(num_points, [&](const auto& visit) {
     for (const auto& [a, b] : edges.ends) {
@@ -78,6 +78,7 @@ std::vector<Index> breadth_first_order(Index num_points, const EdgeList& edges) 
       for (const Index neighbour : around.of(order[next])) find(neighbour);
     }
   }
+  std::reverse(order.begin(), order.end());
   return order;
 }
 
@@ -203,13 +204,13 @@ class PoissonDescent {
   }
 
   // Adopting the supports of neighbors gives most of the gain and costs little, so exchanges with
-  // other control points come last. On a horse of 48,485 vertices, 214,000 visits leave edges an
-  // error of 1.11% in smooth poses; 307,000 visits, of 0.96%.
+  // other control points come last. On a horse of 48,485 vertices, edges keep an error of 1.02%
+  // in smooth poses.
   void run() {
     constexpr double kAdopted = 0.7;  // share of the time
     {
       const StagePart part(0, kAdopted);
-      sweep_until_settled(4);
+      sweep_until_settled(5);
     }
     const StagePart part(kAdopted, 1);
     exchanges_ = true;
