@@ -215,7 +215,7 @@ class PoissonDescent {
     const StagePart part(kAdopted, 1);
     exchanges_ = true;
     std::fill(open_.begin(), open_.end(), true);
-    sweep_until_settled(2);
+    sweep_until_settled(3);
   }
 
   // The weights of a point with exact sum and reproduction. Points without edges, or where
