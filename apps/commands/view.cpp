@@ -11,13 +11,13 @@
 #include "files/load.h"
 #include "files/movable_model.h"
 #include "files/upright.h"
-#include "flbc/bounding_box.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/poses.h"
 #include "flbc/sparsify_error.h"
 #include "poses/poses.h"
+#include "report/sparsify_report.h"
 #include "solve/weights_of_model.h"
 #include "view/model_page.h"
 #include "view/page.h"
@@ -108,15 +108,13 @@ std::string describe_reduction(const view::PageContent<Dim>& content, const Spar
   const auto before = count_influences(given).max;
   const auto after = count_influences(content.weights).max;
   if (before == after) return "at most " + std::to_string(after) + " influences per vertex";
-  constexpr int kRandomPoses = 20;
-  const auto error =
-      deformation_error(smooth_poses(content.cage.points, kRandomPoses), given, content.weights);
-  const double size = bounding_box_diagonal<Dim>(content.points);
+  const auto error = relative_deformation_error<Dim>(
+      content.points, smooth_poses(content.cage.points, kRandomPoses), given, content.weights);
   std::ostringstream text;
   text.precision(3);
   text << "at most " << after << " influences per vertex (before " << before
-       << "); deformation error over random smooth poses " << 100 * error.rms / size
-       << "% of the size rms, " << 100 * error.max / size << "% max";
+       << "); deformation error over random smooth poses " << 100 * error.rms
+       << "% of the size rms, " << 100 * error.max << "% max";
   return text.str();
 }
 

@@ -93,13 +93,20 @@ Json weights_json(const std::string& file, std::uintmax_t bytes, const SparseWei
 }
 
 template <int Dim>
+ErrorNorms relative_deformation_error(const PointList<Dim>& points,
+                                      const std::vector<PointList<Dim>>& poses,
+                                      const SparseWeights& before, const SparseWeights& after) {
+  const auto norms = deformation_error(poses, before, after);
+  const double size = bounding_box_diagonal<Dim>(points);
+  return size > 0 ? ErrorNorms{norms.rms / size, norms.max / size} : norms;
+}
+
+template <int Dim>
 Json errors_json(const SparsifiedWeights<Dim>& weights) {
   using Poses = std::vector<PointList<Dim>>;
   Json errors{{"weight", norms_json(weight_error(weights.before, weights.after))}};
-  const double size = bounding_box_diagonal<Dim>(weights.points);
   errors["deformation"] = over_poses(weights, [&](const Poses& poses) {
-    const auto norms = deformation_error(poses, weights.before, weights.after);
-    return size > 0 ? ErrorNorms{norms.rms / size, norms.max / size} : norms;
+    return relative_deformation_error<Dim>(weights.points, poses, weights.before, weights.after);
   });
   if (weights.edges.ends.empty()) return errors;
   errors["edge"] = over_poses(weights, [&](const Poses& poses) {
@@ -130,7 +137,10 @@ std::string summary_of(const Json& report) {
 #define FLBC_INSTANTIATE(Dim)                                                          \
   template Json weights_json(const std::string&, std::uintmax_t, const SparseWeights&, \
                              const PointList<Dim>&, const PointList<Dim>&);            \
-  template Json errors_json(const SparsifiedWeights<Dim>&);
+  template Json errors_json(const SparsifiedWeights<Dim>&);                            \
+  template ErrorNorms relative_deformation_error(const PointList<Dim>&,                \
+                                                 const std::vector<PointList<Dim>>&,   \
+                                                 const SparseWeights&, const SparseWeights&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -10,6 +10,7 @@
 
 #include "flbc/domain_mesh.h"
 #include "flbc/sparse_weights.h"
+#include "flbc/sparsify_error.h"
 #include "flbc/types.h"
 
 namespace flbc::app {
@@ -29,6 +30,12 @@ std::string reduction_for(const std::string& asked, const std::string& points_fi
 
 //! Over so many the error of a reduction is measured, where none are given.
 constexpr int kRandomPoses = 20;
+
+//! deformation_error() relative to the size of the points. \param poses  of n control points
+template <int Dim>
+ErrorNorms relative_deformation_error(const PointList<Dim>& points,
+                                      const std::vector<PointList<Dim>>& poses,
+                                      const SparseWeights& before, const SparseWeights& after);
 
 //! Weights before and after, and what they are measured with. All kept by reference.
 template <int Dim>

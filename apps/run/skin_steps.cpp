@@ -57,9 +57,7 @@ SparseWeights reduce(const Run<Dim>& run, const std::string& method,
 template <int Dim>
 ErrorNorms error_of_reduction(const Run<Dim>& run, const std::vector<PointList<Dim>>& given) {
   const auto& poses = given.empty() ? smooth_poses(run.cage.points, kRandomPoses) : given;
-  const auto error = deformation_error(poses, run.weights(), run.reduced);
-  const double size = bounding_box_diagonal<Dim>(run.shape().points);
-  return size > 0 ? ErrorNorms{error.rms / size, error.max / size} : error;
+  return relative_deformation_error<Dim>(run.shape().points, poses, run.weights(), run.reduced);
 }
 
 std::string facts_of(const SparseWeights& before, const SparseWeights& after,

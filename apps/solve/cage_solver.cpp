@@ -325,19 +325,12 @@ SparseWeights CageSolver<Dim>::weights_of_model() const {
       return number < 0 ? rows.at(p) : domain_weights().at(cage_.size() + number);
     });
   }
-  const auto enforce = [&] {
-    if (!settings_.locality.empty()) rows = enforce_masks(cage_, placement_, rows, masks_);
-  };
-  enforce();
-  if (settings_.mirror_axis >= 0) {
-    const MirroredModel<Dim> mirrored(cage_, settings_.mirror_axis, placement_.points);
-    rows = mirrored.symmetrized(rows, [&](const PointList<Dim>& points) {
-      return weights_of_points(cage_, domain_, domain_weights(),
-                               place_points(cage_, domain_, points, outside_), settings_);
-    });
-    enforce();  // at vertices without an image
-  }
-  return rows;
+  return enforce_locality<Dim>(cage_, placement_, std::move(rows), masks_, settings_.mirror_axis,
+                               [&](const PointList<Dim>& points) {
+                                 return weights_of_points(
+                                     cage_, domain_, domain_weights(),
+                                     place_points(cage_, domain_, points, outside_), settings_);
+                               });
 }
 
 // Of weights of a method that does not minimize it.

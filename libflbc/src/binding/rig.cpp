@@ -212,23 +212,18 @@ const SparseWeights& Rig<Dim>::weights_of_points() {
   if (solution().weights.num_points() == 0) solve();
   const ThreadScope threads(options_.solver.threads);
   const Stopwatch watch;
-  auto weights = weights_at(cage(), mesh(), solution().weights, placed());
-  const auto enforce = [&] {
-    if (!options_.masks.empty()) weights = enforce_masks(cage(), placement_, weights, masks_);
+  const auto weights_in = [&](const Placement<Dim>& placement) {
+    return weights_at(cage(), mesh(), solution().weights, placement);
   };
+  auto weights = weights_in(placed());
   if (!options_.masks.empty()) {  // the cage may have moved
     masks_ = placed_masks(points_, placement_, options_);
   }
-  enforce();
-  if (options_.mirror_axis >= 0) {
-    const MirroredModel<Dim> mirrored(cage(), options_.mirror_axis, placement_.points);
-    weights = mirrored.symmetrized(weights, [&](const PointList<Dim>& points) {
-      return weights_at(cage(), mesh(), solution().weights,
-                        place_points(cage(), mesh(), points, options_.outside));
-    });
-    enforce();  // at points without an image
-  }
-  weights_ = std::move(weights);
+  weights_ = enforce_locality<Dim>(
+      cage(), placement_, std::move(weights), masks_, options_.mirror_axis,
+      [&](const PointList<Dim>& points) {
+        return weights_in(place_points(cage(), mesh(), points, options_.outside));
+      });
   report_.evaluate_seconds = watch.seconds();
   return weights_;
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/messages.h"
+#include "base/take_points.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
 
@@ -127,8 +128,7 @@ SparseWeights MirroredModel<Dim>::reduced(
       part.edges.ends.push_back({a, b});
       if (!model.edges.weights.empty()) part.edges.weights.push_back(model.edges.weights[e]);
     }
-    part.weights = SparseWeights::of(n, static_cast<Index>(chosen.size()),
-                                     [&](Index k) { return model.weights.at(chosen[k]); });
+    part.weights = take_points(model.weights, chosen);
     part.masks = masks.list([&](Index p) { return number[p] >= 0; });
     for (auto& mask : part.masks) {
       for (Index& point : mask.points) point = number[point];

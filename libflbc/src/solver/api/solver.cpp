@@ -222,9 +222,9 @@ void require_points_for(const Cage<Dim>& cage, const PointList<Dim>& control_poi
                    " control points were given for a cage that has " + std::to_string(cage.size()));
 }
 
-// Options that stay the same during a run; all others take effect when it resumes, or masks when
-// another run starts from its duals. Names all
-// options, so that a new one cannot be forgotten.
+// Options that stay the same during a run. All others take effect when it resumes, except for
+// masks, for which another run starts from its duals. Names all options, so that a new one cannot
+// be forgotten.
 auto fixed_in_a_run(const SolverOptions& options) {
   const auto& [method, phi, smoothness, distances, precision, non_negative, tolerance, gap,
                active_set, max_iterations, penalty, certify, masks, threads] = resolve(options);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdint>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "base/parallel.h"
 #include "base/shape_checks.h"
 #include "base/stage_progress.h"
+#include "base/take_points.h"
 #include "flbc/non_negative.h"
 #include "flbc/types.h"
 #include "polytope/scaling.h"
@@ -36,24 +36,6 @@ void gather(const Eigen::Ref<const Eigen::VectorXd>& column, PointWeights& weigh
   weights.support = positive_entries(column);
   weights.values.clear();
   for (const Index i : weights.support) weights.values.push_back(column[i]);
-}
-
-SparseWeights in_order(const SparseWeights& weights, const std::vector<Index>& order) {
-  std::vector<std::int64_t> starts{0};
-  std::vector<std::uint32_t> control_points;
-  std::vector<double> values;
-  starts.reserve(order.size() + 1);
-  control_points.reserve(weights.control_points().size());
-  values.reserve(weights.values().size());
-  for (const Index p : order) {
-    const auto begin = weights.starts()[p], end = weights.starts()[p + 1];
-    const auto* numbers = weights.control_points().data();
-    control_points.insert(control_points.end(), numbers + begin, numbers + end);
-    values.insert(values.end(), weights.values().data() + begin, weights.values().data() + end);
-    starts.push_back(static_cast<std::int64_t>(values.size()));
-  }
-  return {weights.num_control_points(), std::move(starts), std::move(control_points),
-          std::move(values)};
 }
 
 // Reverse to a breadth-first search (reverse Cuthill-McKee), so that neighbors get close numbers
@@ -500,8 +482,8 @@ SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const Poin
   std::vector<Index> place(order.size());
   for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = static_cast<Index>(k);
   const PointList<Dim> sorted_points = points(Eigen::all, order);
-  const auto sorted_given = in_order(given, order);
-  const auto sorted_projected = in_order(projected, order);
+  const auto sorted_given = take_points(given, order);
+  const auto sorted_projected = take_points(projected, order);
   SparsifyOptions sorted_options = options;
   for (auto& mask : sorted_options.masks) renumber(mask.points, place);
   const auto sorted_masks = masks_of(sorted_options, sorted_given);
