@@ -66,6 +66,14 @@ TEST_IN_2D_AND_3D(RecoveryTest, ConstraintsHoldToRoundingForGradientsThatAreNotI
       (integrate_breadth_first(problem, gradients.view).array() == breadth_first.array()).all());
 }
 
+TEST_IN_2D_AND_3D(RecoveryTest, GradientsOfOtherControlPointsAreRefused) {
+  const auto sample = make_sample<Dim>(Shape::kBox, 2);
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kConstant, 0);
+  const auto fewer = gradients_of<double>(problem.mesh, feasible_weights(problem).topRows(2));
+  EXPECT_THROW(integrate_breadth_first(problem, fewer.view), InputError);
+  EXPECT_THROW(integrate_least_squares(problem, fewer.view), InputError);
+}
+
 // Where no angle between facets of a cell is obtuse, a vertex is a mean of its neighbors.
 TEST_IN_2D_AND_3D(RecoveryTest, HarmonicCoordinatesObeyTheMaximumPrinciple) {
   for (const Index subdivisions : {3, 4, 5}) {

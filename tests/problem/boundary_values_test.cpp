@@ -64,6 +64,7 @@ TEST_IN_2D_AND_3D(BoundaryValuesTest, SnapsVerticesThatLostDigits) {
       EXPECT_LT((reproduced - rounded.points.col(boundary.vertices[b])).norm(), 1e-13);
     }
     auto exact = sample.mesh;
+    EXPECT_THROW(snap_to_cage(sample.cage, topology, -1, exact), OptionError);
     snap_to_cage(sample.cage, topology, 1e-6, exact);
     EXPECT_LT((exact.points - sample.mesh.points).cwiseAbs().maxCoeff(), 1e-14);
     auto far = sample.mesh;

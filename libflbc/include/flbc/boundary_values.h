@@ -72,6 +72,7 @@ BoundaryValues<Dim> boundary_values(const Cage<Dim>& cage, const DomainMesh<Dim>
 //! \param topology  of the mesh
 //! \param tolerance  maximum displacement of a vertex relative to cage size, >= 0
 //! \param mesh  V vertices, changed in place
+//! \throws OptionError if the tolerance is negative
 template <int Dim>
 void snap_to_cage(const Cage<Dim>& cage, const MeshTopology<Dim>& topology, double tolerance,
                   DomainMesh<Dim>& mesh);

@@ -3,6 +3,7 @@
 //! Masks: regions that some control points must not move.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "flbc/types.h"
@@ -47,7 +48,10 @@ class PointMasks {
   std::vector<Index> allowed(Index point) const;
 
   //! Whether a sorted support has no masked control point.
-  bool permits(Index point, const std::vector<Index>& support) const;
+  bool permits(Index point, const std::vector<Index>& support) const {
+    return !at(point) ||
+           std::none_of(support.begin(), support.end(), [&](Index i) { return forbids(point, i); });
+  }
 
   //! Whether the same control points are masked at two points.
   bool same(Index a, Index b) const { return empty() || kind_of_[a] == kind_of_[b]; }

@@ -37,6 +37,7 @@ Quality measure_quality(const PointList<Dim>& control_points, const PointList<Di
 //! \param weights  of V points
 //! \param smoothness  epsilon >= 0, a length in units of the mesh
 //! \return in units of phi times the mesh^(Dim - 1)
+//! \throws InputError if phi or weights are of other sizes, or a cell names no vertex
 template <int Dim>
 double objective(const DomainMesh<Dim>& mesh, const WeightFunctions& phi,
                  const SparseWeights& weights, double smoothness = 0);

@@ -14,6 +14,7 @@ namespace flbc {
 //! \param problem  mesh and boundary values
 //! \param gradients  one vector per cell and control point, in 1 / units of the mesh
 //! \return n x V
+//! \throws InputError if the gradients are not of the control points of the problem
 template <class Scalar, int Dim>
 WeightMatrix integrate_breadth_first(const LbcProblem<Dim>& problem,
                                      const CellFieldView<Scalar, Dim>& gradients);
@@ -25,7 +26,7 @@ WeightMatrix integrate_breadth_first(const LbcProblem<Dim>& problem,
 //! \param problem  mesh and boundary values
 //! \param gradients  one vector per cell and control point, in 1 / units of the mesh
 //! \return n x V
-//! \throws SolverError if the Poisson problem cannot be solved
+//! \throws InputError as above; SolverError if the Poisson problem cannot be solved
 template <class Scalar, int Dim>
 WeightMatrix integrate_least_squares(const LbcProblem<Dim>& problem,
                                      const CellFieldView<Scalar, Dim>& gradients);

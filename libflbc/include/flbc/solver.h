@@ -55,6 +55,7 @@ Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {}
 
 //! Whether a solve of this size uses an active set (SolverOptions::active_set) if the supports of
 //! the weights are small enough. It then takes much less memory.
+//! \param dim  2 or 3
 bool tries_active_set(int dim, Index control_points, Index vertices,
                       const SolverOptions& options = {});
 

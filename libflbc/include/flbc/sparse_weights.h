@@ -43,6 +43,7 @@ class SparseWeights {
   //! Calls a function for the weights of each point.
   //! \param num_control_points  n \param num_points  P
   //! \param of_point  returns n weights; called by several threads
+  //! \throws InputError naming a point with another number of weights; what of_point throws
   static SparseWeights of(Index num_control_points, Index num_points,
                           const std::function<Eigen::VectorXd(Index)>& of_point);
 

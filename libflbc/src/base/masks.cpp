@@ -66,10 +66,6 @@ std::vector<Index> PointMasks::allowed(Index point) const {
   return others;
 }
 
-bool PointMasks::permits(Index point, const std::vector<Index>& support) const {
-  return std::none_of(support.begin(), support.end(), [&](Index i) { return forbids(point, i); });
-}
-
 std::vector<Mask> PointMasks::with_points(std::vector<Mask> masks) {
   masks.erase(std::remove_if(masks.begin(), masks.end(),
                              [](const Mask& mask) { return mask.points.empty(); }),

@@ -85,6 +85,7 @@ SparseWeights SparseWeights::of(Index num_control_points, Index num_points,
     auto& [control_points, values] = blocks[b];
     for (Index p = b * kBlock; p < std::min(num_points, (b + 1) * kBlock); ++p) {
       const Eigen::VectorXd weights = of_point(p);
+      if (weights.size() != num_control_points) refuse(p, "are not as many as control points");
       for (Index i = 0; i < num_control_points; ++i) {
         if (weights[i] == 0) continue;
         control_points.push_back(static_cast<std::uint32_t>(i));

@@ -2,11 +2,13 @@
 #include "flbc/recovery.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "base/parallel.h"
 #include "coordinates/poisson_weights.h"
+#include "flbc/errors.h"
 #include "flbc/harmonic.h"
 #include "linear/dense.h"
 #include "mesh/cell_geometry.h"
@@ -14,6 +16,15 @@
 
 namespace flbc {
 namespace {
+
+template <class Scalar, int Dim>
+void require_gradients_of(const LbcProblem<Dim>& problem,
+                          const CellFieldView<Scalar, Dim>& gradients) {
+  if (gradients.n == problem.num_control_points()) return;
+  throw InputError("the gradients are of " + std::to_string(gradients.n) +
+                   " control points, but the problem has " +
+                   std::to_string(problem.num_control_points()));
+}
 
 // The vertices by their distance from the boundary, counted in edges; a level is ascending.
 template <int Dim>
@@ -45,6 +56,7 @@ std::vector<std::vector<Index>> breadth_first_levels(const LbcProblem<Dim>& prob
 template <class Scalar, int Dim>
 WeightMatrix integrate_breadth_first(const LbcProblem<Dim>& problem,
                                      const CellFieldView<Scalar, Dim>& gradients) {
+  require_gradients_of(problem, gradients);
   const auto& mesh = problem.mesh;
   const VertexCells around(mesh);
   std::vector<Index> level_of;
@@ -77,6 +89,7 @@ template <class Scalar, int Dim>
 WeightMatrix integrate_least_squares(const LbcProblem<Dim>& problem,
                                      const CellFieldView<Scalar, Dim>& gradients,
                                      const DirichletProblem<Dim>& poisson) {
+  require_gradients_of(problem, gradients);
   const auto& mesh = problem.mesh;
   const VertexCells around(mesh);
   Eigen::MatrixXd divergence = Eigen::MatrixXd::Zero(gradients.n, mesh.num_vertices());

@@ -94,6 +94,7 @@ FLBC_INSTANTIATE_FUNCTION(boundary_values)
 template <int Dim>
 void snap_to_cage(const Cage<Dim>& cage, const MeshTopology<Dim>& topology, double tolerance,
                   DomainMesh<Dim>& mesh) {
+  if (!(tolerance >= 0)) throw OptionError("the tolerance of snap_to_cage() must be 0 or more");
   constexpr double kExact = 1e-12;
   const double size = bounding_box_diagonal(cage.points);
   const FacetLocator<Dim> locator(cage, tolerance * size);
