@@ -40,8 +40,9 @@ HABITS = {
 NUMBER = r"<!--n:[\w.-]+-->.*?<!--/n-->"
 GENERATED = r"<!-- results: \w+ -->.*?<!-- end of results -->"
 HASH = r"\b(?=[a-f]*\d)(?=\d*[a-f])[0-9a-f]{7,8}\b"
-MEASUREMENT = (r"\b\d[\d.,]*(?: to \d[\d.]*)? ?(?:s|ms|min|minutes|seconds|hours|KiB|MiB|GiB|MB|GB)\b(?!\w)"
-               r"|\b\d[\d.,]* times (?:as |faster|slower|the )")
+COUNT = r"\b(?:\d[\d.,]*|(?:two|three|four|five|six|seven|eight|nine|ten|twenty)(?= ))"
+MEASUREMENT = (rf"{COUNT}(?: to {COUNT})? ?(?:s|ms|min|minutes|seconds|hours|KiB|MiB|GiB|MB|GB)\b(?!\w)"
+               rf"|{COUNT} times (?:as |faster|slower)|\b\d[\d.,]* times the ")
 # Limits and settings are no measurements.
 LIMIT = r"(?i)default|limit|at most|at least|more than|less than|smaller than|within|timeout|target"
 ROOT = pathlib.Path(__file__).resolve().parent.parent

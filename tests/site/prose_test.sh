@@ -7,7 +7,8 @@ repository=$1 work=$2
 mkdir -p "$work"
 long=$(seq -s ' ' 1 40)
 for text in "A sentence of $long words." "It lies beside the cage." "See \`apps/absent.cpp\`." "It took 3 % longer." \
-  "Commit 0123abc is faster." "The solve takes 0.3 s." "It needs 12 MiB." "It is 3 times as long."; do
+  "Commit 0123abc is faster." "The solve takes 0.3 s." "It needs 12 MiB." "It is 3 times as long." \
+  "It takes about seven seconds." "It is two to three times as fast."; do
   printf '# Title\n\n%s\n' "$text" >"$work/page.md"
   if /usr/bin/python3 -B "$repository/scripts/check_prose.py" "$work/page.md" >/dev/null; then
     echo "not noticed: $text" >&2
