@@ -4,28 +4,37 @@
 #include <memory>
 
 #include "commands/commands.h"
-#include "files/convert_weights.h"
 #include "files/load.h"
 #include "files/movable_model.h"
 #include "flbc/errors.h"
+#include "flbc/io/weights_io.h"
+#include "solve/weights_of_model.h"
 #include "system/held_signals.h"
 
 namespace flbc::app {
 namespace {
 
 struct ConvertArguments {
-  WeightConversion files;
+  std::string input;
+  std::string output;
+  std::string cage;        // of weights; empty = not known
+  std::string points;      // model or mesh of weights; empty = not known
+  bool transpose = false;  // the input has control points as rows
   bool quiet = false;
 };
 
-void check_weight_arguments(const WeightConversion& files) {
+bool is_weight_file(const std::string& path) {
+  return io::holds(path, {io::Content::kWeights});
+}
+
+void check_weight_arguments(const ConvertArguments& files) {
   if (io::holds(files.output, kMeshFiles))
     throw OptionError(files.output + ": weights cannot be written as a mesh; choose from " +
                       io::extensions_of({io::Content::kWeights}));
   require_writable(files.output, {io::Content::kWeights});
 }
 
-void check_mesh_arguments(const WeightConversion& files) {
+void check_mesh_arguments(const ConvertArguments& files) {
   if (!io::holds(files.input, kMeshFiles)) {
     throw OptionError(files.input + ": unknown file format; weights end in " +
                       io::extensions_of({io::Content::kWeights}) + ", meshes in " +
@@ -41,8 +50,7 @@ void check_mesh_arguments(const WeightConversion& files) {
   }
 }
 
-void check_arguments(const ConvertArguments& arguments) {
-  const auto& files = arguments.files;
+void check_arguments(const ConvertArguments& files) {
   if (is_weight_file(files.input)) {
     check_weight_arguments(files);
   } else {
@@ -53,25 +61,52 @@ void check_arguments(const ConvertArguments& arguments) {
   for (const auto& output : files_of_model(files.output)) require_distinct(inputs, {output});
 }
 
+SparseWeights load_weights(const ConvertArguments& files) {
+  auto weights = io::read_weights(files.input);
+  if (files.transpose) weights = WeightMatrix(weights.dense().transpose());
+  const Index given_controls = weights.num_control_points(), given_points = weights.num_points();
+  const Index num_controls = files.cage.empty() ? given_controls : count_vertices(files.cage);
+  const Index num_points = files.points.empty() ? given_points : count_vertices(files.points);
+  const bool is_turned = num_controls == given_points && num_points == given_controls;
+  if (is_turned && num_controls != num_points) {
+    throw InputError(files.input + (files.transpose
+                                        ? ": has points as rows; leave out --transpose"
+                                        : ": has control points as rows; give --transpose"));
+  }
+  check_sizes(weights, num_controls, num_points, {files.input, files.cage, files.points});
+  return weights;
+}
+
+void convert_weights(const ConvertArguments& files) {
+  const auto weights = load_weights(files);
+  naming(files.input, [&] {
+    const HeldSignals held;
+    io::write_weights(files.output, weights);
+  });
+  if (files.quiet) return;
+  std::cerr << files.output << ": weights of " << weights.num_points() << " points for "
+            << weights.num_control_points() << " control points\n";
+}
+
 // Reports what the new format loses.
-void convert_mesh(const std::string& input, const std::string& output, bool quiet) {
+void convert_mesh(const ConvertArguments& files) {
   const auto convert = [&](const auto& any) {
     {
       const HeldSignals held;
-      naming(input, [&] { any.write(output, any.points(), {}, 0); });
+      naming(files.input, [&] { any.write(files.output, any.points(), {}, 0); });
     }
-    if (quiet) return;
-    std::cerr << output << ": " << any.points().cols() << " vertices\n";
+    if (files.quiet) return;
+    std::cerr << files.output << ": " << any.points().cols() << " vertices\n";
     any.print_losses();
   };
-  std::visit(convert, load_any_model({input, output, false, true}));
+  std::visit(convert, load_any_model({files.input, files.output, false, true}));
 }
 
 }  // namespace
 
 void add_convert_command(CLI::App& app, int&) {
   auto arguments = std::make_shared<ConvertArguments>();
-  auto& a = arguments->files;
+  auto& a = *arguments;
   auto* command =
       app.add_subcommand("convert", "convert weights, a mesh, or a model to another format");
   command->footer(
@@ -90,15 +125,10 @@ void add_convert_command(CLI::App& app, int&) {
   command->add_option("--points", a.points,
                       "model or mesh of the weights, to check the number of vertices");
   command->add_flag("--transpose", a.transpose, "read control points as rows");
-  command->add_flag("-q,--quiet", arguments->quiet, "print only errors");
+  command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);
-    const auto& files = arguments->files;
-    if (is_weight_file(files.input)) {
-      convert_weights(files, arguments->quiet);
-    } else {
-      convert_mesh(files.input, files.output, arguments->quiet);
-    }
+    is_weight_file(arguments->input) ? convert_weights(*arguments) : convert_mesh(*arguments);
   });
 }
 

@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "commands/commands.h"
+#include "commands/pose_options.h"
 #include "files/deform_points.h"
 #include "files/load.h"
 #include "files/movable_model.h"
-#include "flbc/bounding_box.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
@@ -35,8 +35,7 @@ struct DeformArguments {
   std::string weights;
   std::string method;  // instead of weights
   bool is_relative = false;
-  std::vector<std::string> cages;
-  std::string keyframes;
+  PoseArguments poses;
   std::string rest;
   std::string domain;
   OutsidePoints outside = OutsidePoints::kFail;
@@ -54,7 +53,7 @@ bool needs_jacobians(const DeformArguments& arguments) {
 }
 
 void check_arguments(const DeformArguments& arguments) {
-  if (arguments.cages.empty() && arguments.keyframes.empty()) {
+  if (arguments.poses.empty()) {
     throw OptionError("no pose given; add --pose or --keyframes");
   }
   if (arguments.weights.empty() && arguments.method.empty()) {
@@ -66,7 +65,7 @@ void check_arguments(const DeformArguments& arguments) {
   if (arguments.rest.empty() && arguments.is_relative) {
     throw OptionError("--relative needs --rest, from which displacements are measured");
   }
-  if (arguments.rest.empty() && !arguments.keyframes.empty()) {
+  if (arguments.rest.empty() && !arguments.poses.keyframes.empty()) {
     throw OptionError(
         "--keyframes needs --rest, because keyframes are displacements of the rest cage");
   }
@@ -111,7 +110,7 @@ void check_outputs(const DeformArguments& arguments, const CageFiles& cages,
                    const std::vector<std::string>& outputs) {
   auto inputs = files_of_model(arguments.file.model);
   inputs.insert(inputs.end(),
-                {arguments.weights, arguments.keyframes, arguments.rest, arguments.domain});
+                {arguments.weights, arguments.poses.keyframes, arguments.rest, arguments.domain});
   inputs.insert(inputs.end(), cages.paths.begin(), cages.paths.end());
   require_distinct(inputs, {arguments.displacement});
   for (const auto& output : outputs) {
@@ -202,8 +201,7 @@ Binding<Dim> bind_points(const PointList<Dim>& points, const RestCage<Dim>& rest
   const auto cage = std::get<Cage<Dim>>(load_cage(arguments.rest));
   const auto placement = placing<Dim>(
       arguments.file.model, [&] { return place_points(cage, domain, points, arguments.outside); });
-  const double size = bounding_box_diagonal(cage.points);
-  if (!arguments.quiet) warn_outside(placement, size, arguments.file.model);
+  if (!arguments.quiet) warn_outside(placement, cage, arguments.file.model);
   auto of_points = weights_at(cage, domain, weights, placement);
   auto moved = moved_by(of_points);
   if (!needs_jacobians(arguments)) return {std::move(moved), {}, std::move(of_points)};
@@ -344,9 +342,7 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
   // Without a rest cage, the poses of a sequence must at least be poses of one cage.
   const bool has_rest = !arguments.rest.empty();
   const RestCage<Dim> cage(has_rest ? arguments.rest : cages.paths.front(), arguments.quiet);
-  const auto poses = arguments.keyframes.empty()
-                         ? load_poses(cages, cage)
-                         : load_keyframes<Dim>(arguments.keyframes, cage.points());
+  const auto poses = load_poses(arguments.poses, cages, cage);
   const auto outputs = name_outputs(poses, arguments.file.output);
   check_outputs(arguments, cages, outputs);
   if (layout) return deform_in_batches<Dim>(*layout, cage, poses, outputs, arguments);
@@ -404,10 +400,7 @@ void add_deform_command(CLI::App& app, int&) {
           ->check(CLI::IsMember({"green"}))
           ->type_name("green")
           ->excludes(weights);
-  auto* pose = command->add_option(
-      "--pose", a.cages, "deformed cage: one or more files, or a pattern such as pose_%d.obj");
-  command->add_option("--keyframes", a.keyframes, "poses as displacements of the rest cage")
-      ->excludes(pose);
+  add_pose_options(*command, a.poses);
   command->add_option(
       "--rest", a.rest,
       "rest cage, to check that the weights belong to MODEL; also needed to move vertices "
@@ -436,8 +429,8 @@ void add_deform_command(CLI::App& app, int&) {
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);
-    const auto cages = find_cages(arguments->cages);
-    const auto& first = arguments->keyframes.empty() ? cages.paths.front() : arguments->rest;
+    const auto cages = find_cages(arguments->poses.cages);
+    const auto& first = arguments->poses.keyframes.empty() ? cages.paths.front() : arguments->rest;
     dimension_of_cage(first) == 2 ? deform_model<2>(*arguments, cages)
                                   : deform_model<3>(*arguments, cages);
   });

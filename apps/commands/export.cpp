@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "commands/commands.h"
+#include "commands/pose_options.h"
 #include "files/load.h"
 #include "files/locality_file.h"
 #include "files/movable_model.h"
@@ -107,10 +108,8 @@ struct ExportArguments {
   std::string weights;
   std::string cage;
   std::string locality;
-  std::vector<std::string> poses;
-  std::string keyframes;
-  double frames_per_second = 0;  // 0 = 24, or one second for a single pose
-  int bits = 0;                  // 0 = float
+  PoseArguments poses;
+  int bits = 0;  // 0 = float
   std::string output;
   UpAxis up = UpAxis::kAuto;
   bool quiet = false;
@@ -134,7 +133,7 @@ void check_arguments(ExportArguments& arguments) {
     throw OptionError(arguments.output +
                       ": vertex groups do not turn the imported model; leave out --up");
   }
-  if (arguments.bits != 0 || !arguments.poses.empty() || !arguments.keyframes.empty()) {
+  if (arguments.bits != 0 || !arguments.poses.empty()) {
     throw OptionError(arguments.output +
                       ": vertex groups have no quantized weights and no poses; leave out "
                       "--quantize, --pose, and --keyframes");
@@ -163,7 +162,7 @@ void write_vertex_groups(const Cage<Dim>& rest, const PointList<Dim>& points, co
 void check_files(const ExportArguments& arguments, const CageFiles& poses) {
   auto inputs = files_of_model(arguments.model);
   inputs.insert(inputs.end(),
-                {arguments.weights, arguments.cage, arguments.keyframes, arguments.locality});
+                {arguments.weights, arguments.cage, arguments.poses.keyframes, arguments.locality});
   inputs.insert(inputs.end(), poses.paths.begin(), poses.paths.end());
   require_distinct(inputs, {arguments.output});
 }
@@ -171,17 +170,15 @@ void check_files(const ExportArguments& arguments, const CageFiles& poses) {
 template <int Dim>
 gltf::Animation<Dim> load_motion(const ExportArguments& arguments, const CageFiles& poses,
                                  const RestCage<Dim>& rest) {
-  const auto& keyframes = arguments.keyframes;
-  if (keyframes.empty()) {
-    const double rate = frame_rate(poses.paths.size(), arguments.frames_per_second);
-    auto animation = animation_of(load_poses(poses, rest, rate));
-    if (animation.poses.size() == 1) {  // one pose does not move: it begins at rest
-      animation.times = {0, 1 / rate};
-      animation.poses.insert(animation.poses.begin(), rest.points());
-    }
-    return animation;
+  // One pose does not move: it begins at rest.
+  const bool is_alone = poses.paths.size() == 1;
+  auto animation = animation_of(load_poses(arguments.poses, poses, rest, is_alone ? 1 : 0));
+  if (is_alone) {
+    animation.times.insert(animation.times.begin(), 0);
+    animation.poses.insert(animation.poses.begin(), rest.points());
   }
-  auto animation = animation_of(load_keyframes<Dim>(keyframes, rest.points()));
+  const auto& keyframes = arguments.poses.keyframes;
+  if (keyframes.empty()) return animation;
   naming(keyframes, [&] { gltf::validate(animation, rest.points().cols()); });
   return animation;
 }
@@ -225,9 +222,8 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
   const auto& points = model.points();
   const auto surface = model.surface();
   const auto weights = io::read_weights(arguments.weights);
-  const WeightFiles files{arguments.weights, arguments.cage, arguments.model};
-  check_sizes(weights, rest.cols(), points.cols(), files);
-  check_reproduction(weights, cage.cage(), points, files);
+  check_reproduction(weights, cage.cage(), points,
+                     {arguments.weights, arguments.cage, arguments.model});
   if (!arguments.quiet) warn_outside(weights, cage.cage(), points, arguments.model);
   auto options = arguments.options;
   options.masks = load_locality_inside(arguments.locality, cage.cage(), points, arguments.model);
@@ -281,18 +277,7 @@ void add_export_command(CLI::App& app, int&) {
       ->required();
   command->add_option("--weights", a.weights, describe_weight_file())->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
-  auto* poses = command->add_option(
-      "--pose", a.poses, "animation: one or more deformed cages, or a pattern such as pose_%d.obj");
-  command
-      ->add_option("--keyframes", a.keyframes,
-                   "animation: displacements of the cage, with times in seconds")
-      ->excludes(poses);
-  command
-      ->add_option(
-          "--fps", a.frames_per_second,
-          "poses of --pose per second (default: 24, or 1 for one pose, which begins at rest)")
-      ->check(in_range(1e-3, 1e6))
-      ->needs(poses);
+  add_rate_option(*command, a.poses, add_pose_options(*command, a.poses)[0]);
   command->add_option("-k,--max-influences", a.options.max_influences,
                       "maximum influences per vertex, 4 or 8 (default: 8)");
   add_choice(
@@ -308,7 +293,7 @@ void add_export_command(CLI::App& app, int&) {
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);
-    const auto pose_files = find_cages(arguments->poses);
+    const auto pose_files = find_cages(arguments->poses.cages);
     check_files(*arguments, pose_files);
     dimension_of_cage(arguments->cage) == 2 ? export_model<2>(*arguments, pose_files)
                                             : export_model<3>(*arguments, pose_files);

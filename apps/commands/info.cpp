@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "commands/commands.h"
-#include "files/convert_weights.h"
 #include "files/gltf_facts.h"
 #include "files/movable_model.h"
 #include "flbc/errors.h"
@@ -135,7 +134,7 @@ void print_polygons(const InfoArguments& arguments) {
 
 void print_info(const InfoArguments& arguments) {
   const auto& path = arguments.path;
-  if (is_weight_file(path)) return print_weights(path);
+  if (io::holds(path, {io::Content::kWeights})) return print_weights(path);
   if (is_gltf_file(path)) {
     std::cout << describe_gltf(path);
     return;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "commands/commands.h"
+#include "commands/pose_options.h"
 #include "draw/canvas.h"
 #include "files/load.h"
 #include "flbc/errors.h"
@@ -39,14 +40,19 @@ void check_arguments(const RunArguments& arguments) {
   }
 }
 
+// What the steps report, in this order. Steps at the same time write to different ones.
+constexpr const char* kSteps[] = {"cage",   "mesh",   "solve",  "check",    "sparsify",
+                                  "deform", "border", "export", "pictures", "page"};
+
 // Errors of a step begin with its name.
-template <class Action>
-void naming_step(const std::string& step, const Action& action) {
+template <int Dim>
+void take(Run<Dim>& run, const char* name, void (*step)(Run<Dim>&)) {
+  const auto start = std::chrono::steady_clock::now();
   const auto text = [&](const std::exception& error) {
-    return "step " + step + ": " + error.what();
+    return std::string("step ") + name + ": " + error.what();
   };
   try {
-    action();
+    step(run);
   } catch (const OptionError& error) {
     throw OptionError(text(error));
   } catch (const IoError& error) {
@@ -56,16 +62,6 @@ void naming_step(const std::string& step, const Action& action) {
   } catch (const std::exception& error) {
     throw InputError(text(error));
   }
-}
-
-// What the steps report, in this order. Steps at the same time write to different ones.
-constexpr const char* kSteps[] = {"cage",   "mesh",   "solve",  "check",    "sparsify",
-                                  "deform", "border", "export", "pictures", "page"};
-
-template <int Dim>
-void take(Run<Dim>& run, const char* name, void (*step)(Run<Dim>&)) {
-  const auto start = std::chrono::steady_clock::now();
-  naming_step(name, [&] { step(run); });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   auto& sum = run.report["seconds"][name];
   sum = sum.template get<double>() + seconds.count();
@@ -168,8 +164,7 @@ int run_cage(const Cage<Dim>& cage, const RunArguments& arguments,
   validate<Dim>(SparsifyOptions{arguments.max_influences});
   if (arguments.control_point != -1) require_control_point(arguments.control_point, cage.size());
   auto inputs = load_inputs(cage, arguments);
-  const PointList<Dim> model = inputs.shape.points;
-  CageSolver<Dim> solver(cage, model, settings);
+  CageSolver<Dim> solver(cage, inputs.shape.points, inputs.shape.edges, settings);
   RunFolder folder(arguments.output, {inputs.files, names_of_results(inputs), arguments.force,
                                       arguments.quiet, "run", kReport});
   Run<Dim> run{arguments, cage, cage_file, inputs, solver, folder};
@@ -286,11 +281,7 @@ void add_shapes(CLI::App& command, RunArguments& a) {
 void add_rare_options(CLI::App& command, RunArguments& a, CLI::Option* poses) {
   command.add_flag("--embed", a.settings.embed, "use the model vertices as vertices of the mesh");
   add_reduction_option(command, a.reduction);
-  command
-      .add_option("--fps", a.frames_per_second,
-                  "poses of --pose per second in model.glb (default: 24, or 1 for one pose)")
-      ->check(in_range(1e-3, 1e6))
-      ->needs(poses);
+  add_rate_option(command, a.poses, poses);
   add_up_option(command, a.up);
   add_choice(command, "--pictures", {"png", "svg", "pdf"}, a.pictures,
              "format of the pictures (default: png)");
@@ -313,13 +304,8 @@ void add_run_command(CLI::App& app, int& exit_status) {
       "  flbc run model.obj --auto-cage -o out\n"
       "  flbc run cage.obj model.obj --pose pose.obj -o posed");
   add_shapes(*command, a);
-  auto* poses = command->add_option(
-      "--pose", a.poses, "deformed cage: one or more files, or a pattern such as pose_%d.obj");
-  command
-      ->add_option("--keyframes", a.keyframes,
-                   "poses as displacements of the cage, with times in seconds")
-      ->excludes(poses)
-      ->group(kMore);
+  const auto [poses, keyframes] = add_pose_options(*command, a.poses);
+  keyframes->group(kMore);
   command->option_defaults()->group("Output");
   command->add_option("-o,--output", a.output, "folder for all results")
       ->required()

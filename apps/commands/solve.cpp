@@ -7,7 +7,6 @@
 #include "commands/commands.h"
 #include "files/certificate_file.h"
 #include "files/load.h"
-#include "flbc/bounding_box.h"
 #include "flbc/gradients.h"
 #include "flbc/io/files.h"
 #include "flbc/io/mesh_io.h"
@@ -62,7 +61,7 @@ void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solve
   if (is_certified(report)) {
     std::cerr << ", within " << 100 * report.certificate.relative_gap << "% of the optimum";
   }
-  std::cerr << describe(solver.placement(), bounding_box_diagonal(solver.cage().points)) << '\n';
+  std::cerr << describe(solver.placement(), solver.cage()) << '\n';
 }
 
 // Programs that read VTK show the coordinate functions as fields.
@@ -109,7 +108,8 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
   PointList<Dim> model;
   if (!settings.model.empty()) model = load_model<Dim>(settings.model);
 
-  CageSolver<Dim> solver(cage, model, settings);
+  const EdgeList none;
+  CageSolver<Dim> solver(cage, model, none, settings);
   solver.make_domain(arguments.quiet);
   if (!arguments.certificate.empty() && count_parts(solver.domain()) > 1) {
     throw InputError(settings.cage +
@@ -188,7 +188,8 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   command->callback([arguments, command, &exit_status] {
     if (!arguments->certificate.empty()) arguments->settings.options.certify = true;
     validate_settings(arguments->settings);
-    arguments->settings.needs_domain = !arguments->save_domain.empty();
+    arguments->settings.needs_domain =
+        !arguments->save_domain.empty() || !arguments->gradients.empty();
     refuse_unread_options(*command, arguments->settings);
     if (!arguments->certificate.empty() && arguments->settings.coordinates) {
       throw OptionError("--certificate: this method minimizes nothing; leave out this option");

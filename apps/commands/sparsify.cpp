@@ -80,7 +80,7 @@ SparseWeights load_weights(const SparsifyArguments& arguments, const PointList<D
 }
 
 template <int Dim>
-std::vector<PointList<Dim>> load_poses(const SparsifyArguments& arguments) {
+std::vector<PointList<Dim>> poses_of(const SparsifyArguments& arguments) {
   const RestCage<Dim> rest(arguments.cage, arguments.quiet);
   std::vector<PointList<Dim>> poses;
   for (const auto& path : arguments.poses) poses.push_back(rest.load_pose(path));
@@ -101,13 +101,9 @@ SparseWeights make_sparse(const Cage<Dim>& cage, const ConnectedPoints<Dim>& mod
   ProgressBar bar(arguments.quiet, stage);
   auto options = arguments.options;
   options.masks = load_locality_inside(arguments.locality, cage, model.points, arguments.points);
-  const auto& control_points = cage.points;
   options.progress = [&](double done) { bar.show(stage, done); };
-  if (method == kPoisson) {
-    return reduce_by_poisson<Dim>(control_points, model.points, model.edges, weights, poses,
-                                  options);
-  }
-  return sparsify<Dim>(control_points, model.points, weights, options);
+  return reduce_influences<Dim>(cage.points, model.points, model.edges, weights, poses, options,
+                                reduction_named(method));
 }
 
 template <int Dim>
@@ -116,7 +112,7 @@ void sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments)
   const auto model = load_connected_points<Dim>(arguments.points);
   const auto method = reduction_for(arguments.reduction, arguments.points, model.edges);
   const auto before = load_weights(arguments, cage.points, model.points);
-  const auto poses = load_poses<Dim>(arguments);
+  const auto poses = poses_of<Dim>(arguments);
   const ConnectedPoints<Dim> attached{attached_points(cage, model.points, before), model.edges};
   const auto start = std::chrono::steady_clock::now();
   const auto after = naming(arguments.points, [&] {

@@ -54,15 +54,12 @@ template <int Dim>
 Transferred<Dim> from_domain(const Cage<Dim>& cage, const SparseWeights& weights,
                              const TransferArguments& arguments) {
   const auto domain = io::read_domain<Dim>(arguments.domain);
-  check_sizes(weights, cage.size(), domain.num_vertices(),
-              {arguments.weights, arguments.cage, arguments.domain});
   check_reproduction(weights, cage, domain.points,
                      {arguments.weights, arguments.cage, arguments.domain});
   const auto to = load_model<Dim>(arguments.to);
   const auto placement =
       placing<Dim>(arguments.to, [&] { return place_points(cage, domain, to, arguments.outside); });
-  const double size = bounding_box_diagonal(cage.points);
-  if (!arguments.quiet) warn_outside(placement, size, arguments.to);
+  if (!arguments.quiet) warn_outside(placement, cage, arguments.to);
   auto transferred = weights_at(cage, domain, weights, placement);
   if (!arguments.locality.empty()) {
     const auto masks = load_locality(arguments.locality, cage, to, arguments.to);
@@ -71,15 +68,13 @@ Transferred<Dim> from_domain(const Cage<Dim>& cage, const SparseWeights& weights
                            place_masks(cage, domain, placement, masks));
     });
   }
-  return {std::move(transferred), placement.points, describe(placement, size)};
+  return {std::move(transferred), placement.points, describe(placement, cage)};
 }
 
 template <int Dim>
 Transferred<Dim> from_model(const Cage<Dim>& cage, const SparseWeights& weights,
                             const TransferArguments& arguments) {
   const auto from = load_model_elements<Dim>(arguments.from);
-  check_sizes(weights, cage.size(), from.points.cols(),
-              {arguments.weights, arguments.cage, arguments.from});
   check_reproduction(weights, cage, from.points,
                      {arguments.weights, arguments.cage, arguments.from});
   auto to = load_model<Dim>(arguments.to);

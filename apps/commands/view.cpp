@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "commands/commands.h"
+#include "commands/pose_options.h"
 #include "draw/base64.h"
 #include "files/load.h"
 #include "files/movable_model.h"
@@ -29,9 +30,7 @@ struct ViewArguments {
   std::string model;
   std::string weights;
   std::string cage;
-  std::vector<std::string> poses;
-  std::string keyframes;
-  double frames_per_second = 0;
+  PoseArguments poses;
   std::optional<Index> max_influences;  // none: by the number of vertices
   std::string picture;
   UpAxis up = UpAxis::kAuto;
@@ -59,27 +58,9 @@ void check_arguments(const ViewArguments& arguments) {
 void check_files(const ViewArguments& arguments, const CageFiles& poses) {
   auto inputs = files_of_model(arguments.model);
   inputs.insert(inputs.end(),
-                {arguments.weights, arguments.cage, arguments.keyframes, arguments.picture});
+                {arguments.weights, arguments.cage, arguments.poses.keyframes, arguments.picture});
   inputs.insert(inputs.end(), poses.paths.begin(), poses.paths.end());
   require_distinct(inputs, {arguments.output});
-}
-
-template <int Dim>
-std::vector<view::ShownPose<Dim>> load_shown_poses(const ViewArguments& arguments,
-                                                   const CageFiles& files,
-                                                   const PointList<Dim>& rest) {
-  if (arguments.keyframes.empty()) {
-    const auto poses = load_poses(files, RestCage<Dim>(arguments.cage, arguments.quiet));
-    const double rate = frame_rate(poses.size(), arguments.frames_per_second);
-    std::vector<double> times;
-    for (std::size_t k = 1; k <= poses.size(); ++k) times.push_back(static_cast<double>(k) / rate);
-    return shown_poses(poses, times);
-  }
-  const auto keyframes = load_keyframes<Dim>(arguments.keyframes, rest);
-  std::vector<double> times;
-  times.reserve(keyframes.size());
-  for (const auto& keyframe : keyframes) times.push_back(keyframe.time);
-  return shown_poses(keyframes, times);
 }
 
 template <int Dim>
@@ -94,7 +75,8 @@ view::PageContent<Dim> load_content(const ViewArguments& arguments, const CageFi
   content.points = std::move(model.points);
   content.surface = std::move(model.surface);
   look_from_front(content, up_of(arguments.up, arguments.model));
-  content.poses = load_shown_poses<Dim>(arguments, poses, content.cage.points);
+  const RestCage<Dim> rest(arguments.cage, arguments.quiet);
+  content.poses = shown_poses(load_poses(arguments.poses, poses, rest, 1));
   if (!arguments.picture.empty()) {
     content.picture = "data:" + media_type_of(arguments.picture) + ";base64," +
                       draw::to_base64(io::read_file(arguments.picture));
@@ -122,10 +104,9 @@ template <int Dim>
 void write_page(const ViewArguments& arguments, const CageFiles& poses) {
   auto content = load_content<Dim>(arguments, poses);
   const auto given = io::read_weights(arguments.weights);
-  const WeightFiles files{arguments.weights, arguments.cage, arguments.model};
-  check_sizes(given, content.cage.points.cols(), content.points.cols(), files);
   const Cage<Dim> rest{content.cage.points, content.cage.facets};
-  check_reproduction<Dim>(given, rest, content.points, files);
+  check_reproduction<Dim>(given, rest, content.points,
+                          {arguments.weights, arguments.cage, arguments.model});
   // The page moves larger models on the graphics card, which takes 8 influences per vertex.
   constexpr Eigen::Index kManyVertices = 100'000;
   const Index usual = content.points.cols() > kManyVertices ? 8 : view::kMostInfluences;
@@ -166,17 +147,7 @@ void add_view_command(CLI::App& app, int&) {
       ->required();
   command->add_option("--weights", a.weights, describe_weight_file())->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
-  auto* poses = command->add_option(
-      "--pose", a.poses, "deformed cage: one or more files, or a pattern such as pose_%d.obj");
-  command
-      ->add_option("--keyframes", a.keyframes,
-                   "poses as displacements of the cage, with times in seconds")
-      ->excludes(poses);
-  command
-      ->add_option("--fps", a.frames_per_second,
-                   "poses of --pose per second (default: 24, or 1 for one pose)")
-      ->check(in_range(1e-3, 1e6))
-      ->needs(poses);
+  add_rate_option(*command, a.poses, add_pose_options(*command, a.poses)[0]);
   command->add_option(
       "-k,--max-influences", a.max_influences,
       "maximum influences per vertex, up to 16 (default: 16; above 100,000 vertices: 8)");
@@ -187,7 +158,7 @@ void add_view_command(CLI::App& app, int&) {
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);
-    const auto files = find_cages(arguments->poses);
+    const auto files = find_cages(arguments->poses.cages);
     check_files(*arguments, files);
     dimension_of_cage(arguments->cage) == 2 ? write_page<2>(*arguments, files)
                                             : write_page<3>(*arguments, files);

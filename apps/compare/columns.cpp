@@ -17,6 +17,7 @@
 #include "flbc/solver.h"
 #include "flbc/sparsify_error.h"
 #include "help/wording.h"
+#include "instantiate.h"
 #include "report/properties.h"
 #include "solve/cage_solver.h"
 #include "solve/make_domain.h"
@@ -50,8 +51,7 @@ void mesh_domain(Comparison<Dim>& all) {
   settings.vertices = arguments.vertices;
   settings.meshing = arguments.meshing;
   settings.needs_domain = true;
-  const PointList<Dim> model = all.shape.points;
-  CageSolver<Dim> solver(all.cage, model, settings);
+  CageSolver<Dim> solver(all.cage, all.shape.points, all.shape.edges, settings);
   solver.make_domain(arguments.quiet);
   all.domain = solver.domain();
   all.placement = solver.placement();
@@ -202,11 +202,7 @@ void solve_columns(Comparison<Dim>& all) {
   }
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                    \
-  template std::vector<Column<Dim>> columns_of(const std::vector<std::string>&); \
-  template void solve_columns(Comparison<Dim>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(columns_of)
+FLBC_INSTANTIATE_FUNCTION(solve_columns)
 
 }  // namespace flbc::app

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "compare/distortion.h"
 
+#include "instantiate.h"
+
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
@@ -71,11 +73,7 @@ std::vector<PointList<Dim>> test_poses(const PointList<Dim>& control_points) {
   return poses;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                       \
-  template Distortion distortion_of(const DomainMesh<Dim>&, const PointList<Dim>&); \
-  template std::vector<PointList<Dim>> test_poses(const PointList<Dim>& control_points);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(distortion_of)
+FLBC_INSTANTIATE_FUNCTION(test_poses)
 
 }  // namespace flbc::app

@@ -65,20 +65,6 @@ std::string grid(const Comparison<3>& all, bool posed) {
       options_of(all.arguments));
 }
 
-// The one that moves most, or else the one with the largest sum of weights.
-template <int Dim>
-Index choose_control_point(const Comparison<Dim>& all) {
-  if (all.arguments.control_point >= 0) return all.arguments.control_point;
-  Eigen::VectorXd moved = all.succeeded().front()->rows.dense().rowwise().sum();
-  if (all.pose.cols() > 0) {
-    const Eigen::VectorXd lengths = displacements<Dim>(all.cage.points, all.pose);
-    if (lengths.maxCoeff() > 0) moved = moved.cwiseProduct(lengths);
-  }
-  Eigen::Index chosen = 0;
-  moved.maxCoeff(&chosen);
-  return static_cast<Index>(chosen);
-}
-
 }  // namespace
 
 std::vector<std::string> names_of_grids(const CompareArguments& arguments) {
@@ -87,7 +73,12 @@ std::vector<std::string> names_of_grids(const CompareArguments& arguments) {
 
 template <int Dim>
 std::vector<std::string> draw_grids(Comparison<Dim>& all) {
-  all.control_point = choose_control_point(all);
+  std::vector<Pose<Dim>> poses;
+  if (all.pose.cols() > 0) poses.push_back({all.arguments.pose, 0, all.pose});
+  const Index given = all.arguments.control_point;
+  all.control_point =
+      given >= 0 ? given
+                 : main_control_point(all.succeeded().front()->rows, all.cage.points, poses);
   std::vector<std::string> drawn;
   if (!draw::can_draw()) return drawn;
   const auto names = names_of_grids(all.arguments);

@@ -8,6 +8,7 @@
 #include "compare/comparison.h"
 #include "draw/canvas.h"
 #include "flbc/io/files.h"
+#include "instantiate.h"
 #include "report/properties.h"
 #include "text/text_writer.h"
 #include "view/model_page.h"
@@ -170,12 +171,8 @@ std::string comparison_page(const Comparison<Dim>& all, const std::vector<std::s
   return page.str();
 }
 
-#define FLBC_INSTANTIATE(Dim)                                   \
-  template void write_viewers(Comparison<Dim>&);                \
-  template std::string comparison_text(const Comparison<Dim>&); \
-  template std::string comparison_page(const Comparison<Dim>&, const std::vector<std::string>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(write_viewers)
+FLBC_INSTANTIATE_FUNCTION(comparison_text)
+FLBC_INSTANTIATE_FUNCTION(comparison_page)
 
 }  // namespace flbc::app

@@ -10,6 +10,7 @@
 #include "flbc/io/files.h"
 #include "flbc/io/formats.h"
 #include "flbc/place_masks.h"
+#include "instantiate.h"
 
 namespace flbc::app {
 namespace {
@@ -124,13 +125,7 @@ std::vector<flbc::Mask> load_locality_inside(const std::string& path, const Cage
   return end_at_facets(cage, points, load_locality(path, cage, points, model));
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                \
-  template std::vector<flbc::Mask> load_locality(const std::string&, const Cage<Dim>&,       \
-                                                 const PointList<Dim>&, const std::string&); \
-  template std::vector<flbc::Mask> load_locality_inside(                                     \
-      const std::string&, const Cage<Dim>&, const PointList<Dim>&, const std::string&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(load_locality)
+FLBC_INSTANTIATE_FUNCTION(load_locality_inside)
 
 }  // namespace flbc::app

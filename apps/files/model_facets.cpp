@@ -13,6 +13,7 @@
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/splat_file.h"
+#include "instantiate.h"
 
 namespace flbc::app {
 namespace {
@@ -196,15 +197,10 @@ void require_cage_writable(const std::string& path) {
   require_writable(path, Dim == 2 ? Extensions{"obj"} : Extensions{"obj", "off", "ply"});
 }
 
-template bool only_loose_are_outside(const Cage<2>&, const PointList<2>&, const io::PolygonSoup&);
-template bool only_loose_are_outside(const Cage<3>&, const PointList<3>&, const io::PolygonSoup&);
-template ModelElements<2> load_model_elements(const std::string&);
-template ModelElements<3> load_model_elements(const std::string&);
-template io::PolygonSoup to_polygons(const Cage<2>&, double);
-template io::PolygonSoup to_polygons(const Cage<3>&, double);
-template void write_cage(const std::string&, const Cage<2>&, double);
-template void write_cage(const std::string&, const Cage<3>&, double);
-template void require_cage_writable<2>(const std::string&);
-template void require_cage_writable<3>(const std::string&);
+FLBC_INSTANTIATE_FUNCTION(only_loose_are_outside)
+FLBC_INSTANTIATE_FUNCTION(load_model_elements)
+FLBC_INSTANTIATE_FUNCTION(to_polygons)
+FLBC_INSTANTIATE_FUNCTION(write_cage)
+FLBC_INSTANTIATE_FUNCTION(require_cage_writable)
 
 }  // namespace flbc::app

@@ -14,17 +14,17 @@ namespace flbc::app {
 template <int Dim>
 struct MovedBy {
   SparseWeights weights{};  // of n control points and k further vectors, P points
-  // From the control points of a pose, Dim x n, to these vectors, Dim x (n + k).
+  // From the control points of a pose, Dim x n, to these vectors, Dim x (n + k); empty if k is 0.
   std::function<PointList<Dim>(const PointList<Dim>&)> vectors{};
+  PointList<Dim> offsets{};  // Dim x P, what is added to the sums; no columns if all are zero
 
   // The points in a pose. \param pose  Dim x n
   PointList<Dim> at(const PointList<Dim>& pose) const;
 };
 
 // A point x moves to x + sum_i w_i (c'_i - c_i). Where the weights reproduce x up to the
-// tolerance, this is sum_i w_i c'_i. Elsewhere the unit vectors join the control points, and their
-// weights are what the weights do not reproduce: points outside the cage, and all by weights of
-// method bbw.
+// tolerance, this is sum_i w_i c'_i. Elsewhere the offset is what the weights do not reproduce:
+// points outside the cage, and all by weights of method bbw.
 // \param rest  Dim x n; no column if it is not known. Then only points without weights are
 // considered, which stay where they are
 // \param points  Dim x P

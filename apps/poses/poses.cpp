@@ -13,6 +13,7 @@
 #include "flbc/io/keyframes.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/same_vertices.h"
+#include "instantiate.h"
 
 namespace flbc::app {
 namespace {
@@ -57,6 +58,24 @@ std::vector<NumberedFile> find_files(const std::string& pattern) {
                   with_number(pattern, 1));
   }
   return files;
+}
+
+// One pose per keyframe, at its time; in 2D displacements along z are passed over.
+template <int Dim>
+std::vector<Pose<Dim>> load_keyframes(const std::string& path, const PointList<Dim>& rest) {
+  const auto keyframes = io::read_keyframes(path);
+  std::vector<Pose<Dim>> poses;
+  for (const auto& keyframe : keyframes) {
+    const auto number = static_cast<std::int64_t>(poses.size());
+    if (keyframe.displacements.cols() != rest.cols()) {
+      throw InputError(path + ": the keyframes are for " +
+                       std::to_string(keyframe.displacements.cols()) +
+                       " control points, but the rest cage has " + std::to_string(rest.cols()));
+    }
+    poses.push_back({path + ", keyframe " + std::to_string(number), number,
+                     rest + keyframe.displacements.template topRows<Dim>(), keyframe.time});
+  }
+  return poses;
 }
 
 }  // namespace
@@ -151,23 +170,6 @@ PointList<Dim> RestCage<Dim>::load_pose(const std::string& path) const {
   return io::to_points<Dim>(pose, path)(Eigen::all, same.numbers);
 }
 
-double frame_rate(std::size_t num_poses, double asked) {
-  constexpr double kVideo = 24;
-  if (asked > 0) return asked;
-  return num_poses == 1 ? 1 : kVideo;
-}
-
-template <int Dim>
-std::vector<Pose<Dim>> load_poses(const CageFiles& files, const RestCage<Dim>& rest,
-                                  double frames_per_second) {
-  std::vector<Pose<Dim>> poses;
-  for (std::size_t k = 0; k < files.paths.size(); ++k) {
-    poses.push_back({files.paths[k], files.numbers[k], rest.load_pose(files.paths[k]),
-                     static_cast<double>(k) / frames_per_second});
-  }
-  return poses;
-}
-
 template <int Dim>
 gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>& poses) {
   gltf::Animation<Dim> animation;
@@ -179,29 +181,40 @@ gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>& poses) {
 }
 
 template <int Dim>
-std::vector<Pose<Dim>> load_keyframes(const std::string& path, const PointList<Dim>& rest) {
-  const auto keyframes = io::read_keyframes(path);
+std::vector<Pose<Dim>> load_poses(const PoseArguments& arguments, const CageFiles& files,
+                                  const RestCage<Dim>& rest, int first) {
+  if (!arguments.keyframes.empty()) return load_keyframes<Dim>(arguments.keyframes, rest.points());
+  constexpr double kVideo = 24;
+  const double usual = files.paths.size() == 1 ? 1 : kVideo;
+  const double rate = arguments.frames_per_second > 0 ? arguments.frames_per_second : usual;
   std::vector<Pose<Dim>> poses;
-  for (const auto& keyframe : keyframes) {
-    const auto number = static_cast<std::int64_t>(poses.size());
-    if (keyframe.displacements.cols() != rest.cols()) {
-      throw InputError(path + ": the keyframes are for " +
-                       std::to_string(keyframe.displacements.cols()) +
-                       " control points, but the rest cage has " + std::to_string(rest.cols()));
-    }
-    poses.push_back({path + ", keyframe " + std::to_string(number), number,
-                     rest + keyframe.displacements.template topRows<Dim>(), keyframe.time});
+  for (std::size_t k = 0; k < files.paths.size(); ++k) {
+    poses.push_back({files.paths[k], files.numbers[k], rest.load_pose(files.paths[k]),
+                     (static_cast<double>(k) + first) / rate});
   }
   return poses;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                 \
-  template class RestCage<Dim>;                                                               \
-  template std::vector<Pose<Dim>> load_poses(const CageFiles&, const RestCage<Dim>&, double); \
-  template std::vector<Pose<Dim>> load_keyframes(const std::string&, const PointList<Dim>&);  \
-  template gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+template <int Dim>
+Index main_control_point(const SparseWeights& weights, const PointList<Dim>& rest,
+                         const std::vector<Pose<Dim>>& poses) {
+  Eigen::VectorXd shares = Eigen::VectorXd::Zero(rest.cols());
+  for (Index p = 0; p < weights.num_points(); ++p) {
+    weights.visit(p, [&](Index i, double weight) { shares[i] += weight; });
+  }
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(rest.cols());
+  for (const auto& pose : poses) {
+    moved += shares.cwiseProduct(displacements<Dim>(rest, pose.points));
+  }
+  Eigen::Index chosen = 0;
+  (moved.isZero(0) ? shares : moved).maxCoeff(&chosen);
+  return static_cast<Index>(chosen);
+}
+
+template class RestCage<2>;
+template class RestCage<3>;
+FLBC_INSTANTIATE_FUNCTION(load_poses)
+FLBC_INSTANTIATE_FUNCTION(animation_of)
+FLBC_INSTANTIATE_FUNCTION(main_control_point)
 
 }  // namespace flbc::app

@@ -32,6 +32,15 @@ struct CageFiles {
 };
 CageFiles find_cages(const std::vector<std::string>& cages);
 
+//! The poses that a command takes (commands/pose_options.h).
+struct PoseArguments {
+  std::vector<std::string> cages;  //!< files or a pattern of them
+  std::string keyframes;           //!< file of poses instead
+  double frames_per_second = 0;    //!< 0 = 24, or one second for a single pose
+
+  bool empty() const { return cages.empty() && keyframes.empty(); }
+};
+
 //! 2 or 3: as io::to_cage() decides, but by the points only where facets would not do, because
 //! poses need none.
 int dimension_of_cage(const std::string& path);
@@ -63,23 +72,20 @@ class RestCage {
   PointList<Dim> points_;
 };
 
-//! Frames per second of a sequence: as asked, or, if that is 0, a single pose within a second and
-//! several as a video.
-double frame_rate(std::size_t num_poses, double asked);
-
-//! One pose per file, `frames_per_second` of them in a second, the first one at 0.
+//! Poses of keyframes at their times, or else one pose per file.
+//! \param files  of the arguments \param first  the time of the first file, in poses
 template <int Dim>
-std::vector<Pose<Dim>> load_poses(const CageFiles& files, const RestCage<Dim>& rest,
-                                  double frames_per_second = 1);
+std::vector<Pose<Dim>> load_poses(const PoseArguments& arguments, const CageFiles& files,
+                                  const RestCage<Dim>& rest, int first = 0);
 
 //! The poses at their times.
 template <int Dim>
 gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>& poses);
 
-//! One pose per keyframe, at its time; in 2D displacements along z are passed over.
-//! \throws InputError if the file is for another number of control points than `rest` (Dim x n) has
+//! The control point that moves most of a model in the poses, or has the largest sum of weights.
 template <int Dim>
-std::vector<Pose<Dim>> load_keyframes(const std::string& path, const PointList<Dim>& rest);
+Index main_control_point(const SparseWeights& weights, const PointList<Dim>& rest,
+                         const std::vector<Pose<Dim>>& poses);
 
 // Sequences of files are written as pose_%d.obj or pose_%03d.obj.
 

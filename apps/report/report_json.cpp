@@ -37,7 +37,7 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
           {"embed", settings.embed},
           {"outside", name_of(settings.outside)},
           {"vertices", settings.vertices},
-          {"mesher", name_of(settings.meshing.mesher)},
+          {"mesher", settings.meshing.mesher},
           {"method", name_of_method(settings, given.method)},
           {"non_negative", name_of(options.non_negative)},
           {"active", name_of(options.active_set)},

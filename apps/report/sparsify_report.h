@@ -10,6 +10,7 @@
 
 #include "flbc/domain_mesh.h"
 #include "flbc/sparse_weights.h"
+#include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "flbc/types.h"
 
@@ -27,6 +28,11 @@ void add_reduction_option(CLI::App& command, std::string& reduction);
 //! \throws InputError if poisson was asked for without neighbors
 std::string reduction_for(const std::string& asked, const std::string& points_file,
                           const EdgeList& edges);
+
+//! The reduction of a name other than kAutomatic.
+inline Reduction reduction_named(const std::string& name) {
+  return name == kQuadratic ? Reduction::kQuadratic : Reduction::kPoisson;
+}
 
 //! Over so many the error of a reduction is measured, where none are given.
 constexpr int kRandomPoses = 20;

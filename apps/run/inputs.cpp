@@ -10,30 +10,23 @@
 namespace flbc::app {
 namespace {
 
-// Files of cages in their poses.
 template <int Dim>
-void load_deformed(const Cage<Dim>& cage, const RunArguments& arguments, RunInputs<Dim>& inputs) {
-  const auto files = find_cages(arguments.poses);
+void load_motion(const Cage<Dim>& cage, const RunArguments& arguments, RunInputs<Dim>& inputs) {
+  const auto& given = arguments.poses;
+  if (given.empty()) return;
+  const auto files = find_cages(given.cages);
   inputs.files.insert(inputs.files.end(), files.paths.begin(), files.paths.end());
-  if (files.paths.empty()) return;
-  const double rate = frame_rate(files.paths.size(), arguments.frames_per_second);
-  const auto& file = arguments.settings.cage;
+  if (!given.keyframes.empty()) inputs.files.push_back(given.keyframes);
   const auto rest = arguments.makes_cage ? RestCage<Dim>(cage, "the cage", arguments.quiet)
-                                         : RestCage<Dim>(file, arguments.quiet);
-  inputs.poses = load_poses<Dim>(files, rest, rate);
-  inputs.animation = animation_of(inputs.poses);
-  auto& [times, poses] = inputs.animation;
+                                         : RestCage<Dim>(arguments.settings.cage, arguments.quiet);
+  inputs.poses = load_poses(given, files, rest, 1);
+  auto& animation = inputs.animation = animation_of(inputs.poses);
+  if (!given.keyframes.empty()) {
+    return naming(given.keyframes, [&] { gltf::validate(animation, cage.size()); });
+  }
   // The cage starts where it rests.
-  times.push_back(static_cast<double>(poses.size()) / rate);
-  poses.insert(poses.begin(), cage.points);
-}
-
-template <int Dim>
-void load_keyframe_file(const Cage<Dim>& cage, const std::string& path, RunInputs<Dim>& inputs) {
-  inputs.files.push_back(path);
-  inputs.poses = load_keyframes<Dim>(path, cage.points);
-  inputs.animation = animation_of(inputs.poses);
-  naming(path, [&] { gltf::validate(inputs.animation, cage.size()); });
+  animation.times.insert(animation.times.begin(), 0);
+  animation.poses.insert(animation.poses.begin(), cage.points);
 }
 
 template <int Dim>
@@ -83,11 +76,7 @@ RunInputs<Dim> load_inputs(const Cage<Dim>& cage, const RunArguments& arguments)
   inputs.picture_format = arguments.pictures;
   if (!arguments.makes_cage) inputs.files.push_back(settings.cage);
   if (!arguments.picture.empty()) inputs.files.push_back(arguments.picture);
-  if (arguments.keyframes.empty()) {
-    load_deformed(cage, arguments, inputs);
-  } else {
-    load_keyframe_file(cage, arguments.keyframes, inputs);
-  }
+  load_motion(cage, arguments, inputs);
   if (!settings.locality.empty()) inputs.files.push_back(settings.locality);
   inputs.shape.extension = domain_extension<Dim>();
   if (!arguments.splats.empty()) inputs.splats = load_splats<Dim>(arguments.splats, inputs);

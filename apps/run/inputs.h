@@ -38,18 +38,16 @@ constexpr const char* kPage = "model.html";
 constexpr const char* kReport = "report.json";
 
 struct RunArguments {
-  SolveSettings settings;          //!< cage and model among them, but no domain
-  bool makes_cage = false;         //!< whether to make a cage around the model
-  std::string splats;              //!< Gaussian splats that move; empty for none
-  std::string picture;             //!< or round this picture's silhouette; empty for none
-  CagingOptions caging;            //!< of that cage
-  UpAxis up = UpAxis::kAuto;       //!< in pictures, page, and skins
-  std::vector<std::string> poses;  //!< cage files or a pattern of them
-  std::string keyframes;           //!< file of poses instead
-  std::string output;              //!< folder
+  SolveSettings settings;     //!< cage and model among them, but no domain
+  bool makes_cage = false;    //!< whether to make a cage around the model
+  std::string splats;         //!< Gaussian splats that move; empty for none
+  std::string picture;        //!< or round this picture's silhouette; empty for none
+  CagingOptions caging;       //!< of that cage
+  UpAxis up = UpAxis::kAuto;  //!< in pictures, page, and skins
+  PoseArguments poses;
+  std::string output;  //!< folder
   Index max_influences = 8;
   std::string reduction = kAutomatic;
-  double frames_per_second = 0;  //!< 0 = 24, or one second for a single pose
   Index control_point = -1;      //!< whose function is drawn, -1 = the program chooses
   std::string pictures = "png";  //!< format of pictures
   double caging_seconds = 0;     //!< for making the cage

@@ -7,16 +7,6 @@
 #include "view/page.h"
 
 namespace flbc::app {
-namespace {
-
-// Without the rest from where animations of cage files start.
-template <int Dim>
-std::vector<double> times_of(const Run<Dim>& run) {
-  const auto& times = run.inputs.animation.times;
-  return {times.end() - static_cast<std::ptrdiff_t>(run.poses().size()), times.end()};
-}
-
-}  // namespace
 
 template <int Dim>
 view::ShownCage<Dim> shown_cage(const Run<Dim>& run) {
@@ -44,7 +34,7 @@ void write_page(Run<Dim>& run) {
   look_from_front(content, run.arguments.up);
   content.weights = view::limit_influences<Dim>(run.cage.points, run.attached(), run.reduced,
                                                 view::kMostInfluences);
-  content.poses = shown_poses(run.poses(), times_of(run));
+  content.poses = shown_poses(run.poses());
   const auto page = view::make_page(content);
   run.report["page"] = {{"file", kPage}, {"bytes", page.size()}};
   Facts facts;

@@ -3,29 +3,12 @@
 #include "draw/plane_picture.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
+#include "instantiate.h"
 #include "report/facts.h"
 #include "run/steps.h"
 
 namespace flbc::app {
 namespace {
-
-// That of the control point which moves most of the shape, in the poses if there are any.
-template <int Dim>
-Index choose_control_point(const Run<Dim>& run) {
-  if (run.arguments.control_point >= 0) return run.arguments.control_point;
-  Eigen::VectorXd shares = Eigen::VectorXd::Zero(run.cage.size());
-  for (Index p = 0; p < run.weights().num_points(); ++p) {
-    run.weights().visit(p, [&](Index i, double weight) { shares[i] += weight; });
-  }
-  Eigen::VectorXd moved = Eigen::VectorXd::Zero(shares.size());
-  for (const auto& pose : run.poses()) {
-    const PointList<Dim> steps = pose.points - run.cage.points;
-    moved += shares.cwiseProduct(steps.colwise().norm().transpose());
-  }
-  Eigen::Index chosen = 0;
-  (moved.isZero(0) ? shares : moved).maxCoeff(&chosen);
-  return static_cast<Index>(chosen);
-}
 
 template <int Dim>
 draw::WeightPictureOptions options_of(const Run<Dim>& run) {
@@ -105,7 +88,9 @@ std::string deformation_image(const Run<3>& run, const Pose<3>& pose) {
 
 template <int Dim>
 void draw_function(Run<Dim>& run) {
-  const Index control_point = choose_control_point(run);
+  const Index given = run.arguments.control_point;
+  const Index control_point =
+      given >= 0 ? given : main_control_point(run.weights(), run.cage.points, run.poses());
   run.report["pictures"] = {{"control_point", control_point}};
   Facts facts;
   facts << "the coordinate function of control point " << control_point;
@@ -126,11 +111,7 @@ void draw_farthest_pose(Run<Dim>& run) {
   }
 }
 
-#define FLBC_INSTANTIATE(Dim)             \
-  template void draw_function(Run<Dim>&); \
-  template void draw_farthest_pose(Run<Dim>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(draw_function)
+FLBC_INSTANTIATE_FUNCTION(draw_farthest_pose)
 
 }  // namespace flbc::app

@@ -7,12 +7,12 @@
 #include "flbc/cage.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
-#include "flbc/mirror.h"
 #include "flbc/poses.h"
 #include "flbc/quality.h"
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "gltf/skin.h"
+#include "instantiate.h"
 #include "report/facts.h"
 #include "report/sparsify_report.h"
 #include "run/steps.h"
@@ -36,21 +36,9 @@ SparseWeights reduce(const Run<Dim>& run, const std::string& method,
                      const std::vector<PointList<Dim>>& poses, Index max_influences) {
   const std::string stage = "reducing influences";
   ProgressBar bar(run.arguments.quiet, stage);
-  const auto reduce_part = [&](const ModelPart<Dim>& part, Index most) {
-    SparsifyOptions options{most};
-    options.masks = part.masks;
-    options.progress = [&](double done) { bar.show(stage, done); };
-    if (method == kQuadratic) {
-      return sparsify<Dim>(run.cage.points, part.points, part.weights, options);
-    }
-    return reduce_by_poisson<Dim>(run.cage.points, part.points, part.edges, part.weights, poses,
-                                  options);
-  };
-  const ModelPart<Dim> model{run.attached(), run.shape().edges, run.weights(), run.solver.masks()};
-  const int axis = run.arguments.settings.mirror_axis;
-  if (axis < 0) return reduce_part(model, max_influences);
-  return MirroredModel<Dim>(run.cage, axis, model.points)
-      .reduced(model, max_influences, reduce_part);
+  SparsifyOptions limits{max_influences};
+  limits.progress = [&](double done) { bar.show(stage, done); };
+  return run.solver.rig().reduced(limits, poses, reduction_named(method));
 }
 
 // Relative to the size, over the poses given or else over smooth random ones.
@@ -118,7 +106,7 @@ Json write_skin(Run<Dim>& run, const std::string& name, Index max_influences) {
   options.max_influences = max_influences;
   options.name = shape.name;
   if (run.report["sparsify"]["method"] == kPoisson) options.edges = shape.edges;
-  options.masks = run.solver.masks();
+  options.masks = run.solver.rig().masks().of_points;
   options.turn = turn_upright(up_axis(run.arguments.up, shape.points));
   options.cage_edges = view::as_facets(shown_cage(run).edges);
   // A reduction of its own would not be symmetric.
@@ -191,11 +179,7 @@ void export_shape(Run<Dim>& run) {
   run.report["export"]["full"] = write_skin(run, kFullSkin, kManyJoints);
 }
 
-#define FLBC_INSTANTIATE(Dim)                 \
-  template void reduce_influences(Run<Dim>&); \
-  template void export_shape(Run<Dim>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(reduce_influences)
+FLBC_INSTANTIATE_FUNCTION(export_shape)
 
 }  // namespace flbc::app

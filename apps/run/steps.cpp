@@ -5,7 +5,6 @@
 
 #include "files/load.h"
 #include "files/model_facets.h"
-#include "flbc/bounding_box.h"
 #include "flbc/deform.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
@@ -42,9 +41,7 @@ void mesh_interior(Run<Dim>& run) {
       return place_points(run.cage, domain, run.inputs.splats->points(),
                           run.arguments.settings.outside);
     });
-    if (!run.arguments.quiet) {
-      warn_outside(run.splats, bounding_box_diagonal(run.cage.points), run.arguments.splats);
-    }
+    if (!run.arguments.quiet) warn_outside(run.splats, run.cage, run.arguments.splats);
   }
   const auto name = domain_file<Dim>();
   run.report["mesh"] = {{"file", name},
@@ -86,7 +83,7 @@ void compute_weights(Run<Dim>& run) {
           << report.mesh_error << " (--vertices " << 4 * report.vertices << ": about "
           << report.mesh_error / 10 << ")";
   }
-  facts << describe(solver.placement(), bounding_box_diagonal(run.cage.points));
+  facts << describe(solver.placement(), run.cage);
   if (is_certified(report)) {
     facts << ", within " << 100 * report.certificate.relative_gap << "% of the optimum";
   }

@@ -20,7 +20,6 @@
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
-#include "flbc/mirror.h"
 #include "flbc/names.h"
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
@@ -160,8 +159,8 @@ SparseWeights weights_of_points(const Cage<Dim>& cage, const DomainMesh<Dim>& do
 
 template <int Dim>
 CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
-                            const SolveSettings& settings)
-    : cage_(cage), model_(model), settings_(settings), outside_(settings.outside) {
+                            const EdgeList& edges, const SolveSettings& settings)
+    : cage_(cage), model_(model), edges_(edges), settings_(settings), outside_(settings.outside) {
   if (settings.embed && settings.outside != OutsidePoints::kFail) {
     throw OptionError(
         "--outside: --embed needs all vertices inside the cage; leave out --embed or --outside");
@@ -175,28 +174,24 @@ CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
 }
 
 template <int Dim>
-void CageSolver<Dim>::fill_cage(bool quiet) {
-  std::string note;
-  {
+MadeDomain<Dim> CageSolver<Dim>::fill_cage(bool quiet) {
+  auto made = [&] {
     const ProgressBar bar(quiet, meshing_stage(settings_.meshing.timeout));
-    auto made = app::make_domain<Dim>({cage_, settings_.cage, settings_.vertices, settings_.meshing,
-                                       settings_.embed ? settings_.model : "", embedded_.points});
-    domain_ = std::move(made.mesh);
-    mesher_ = made.mesher;
-    note = std::move(made.note);
-  }
-  if (!note.empty() && !quiet) std::cerr << "flbc: " << note << '\n';
+    return app::make_domain<Dim>({cage_, settings_.cage, settings_.vertices, settings_.meshing,
+                                  settings_.embed ? settings_.model : "", embedded_.points});
+  }();
+  if (!made.note.empty() && !quiet) std::cerr << "flbc: " << made.note << '\n';
+  return made;
 }
 
 template <int Dim>
-void CageSolver<Dim>::place_in_cage(bool quiet) {
+Placement<Dim> CageSolver<Dim>::place_in_cage(bool quiet) {
   const ProgressBar bar(quiet, "locating the model vertices in the cage");
   const auto place = [&] {
-    placement_ =
-        placing<Dim>(settings_.model, [&] { return place_points(cage_, model_, outside_); });
+    return placing<Dim>(settings_.model, [&] { return place_points(cage_, model_, outside_); });
   };
   try {
-    place();
+    return place();
   } catch (const InputError& error) {
     if (settings_.embed || !io::holds(settings_.model, {io::Content::kModel}) ||
         !only_loose_are_outside(cage_, model_, io::read_polygons(settings_.model))) {
@@ -204,58 +199,54 @@ void CageSolver<Dim>::place_in_cage(bool quiet) {
     }
     outside_ = OutsidePoints::kNearest;
     outside_verb_ = "belong to no face and are";
-    place();
+    return place();
   }
 }
 
 template <int Dim>
 void CageSolver<Dim>::make_domain(bool quiet) {
   // Refusals come before a mesh is made, which takes long.
-  const double size = bounding_box_diagonal(cage_.points);
-  if (!quiet && !settings_.model.empty()) warn_tiny<Dim>(cage_.points, model_, settings_.model);
-  const bool may_refuse = !settings_.model.empty() && outside_ == OutsidePoints::kFail;
-  if (may_refuse || is_meshless(settings_)) place_in_cage(quiet);
+  const bool has_model = !settings_.model.empty();
+  if (!quiet && has_model) warn_tiny<Dim>(cage_.points, model_, settings_.model);
   if (is_meshless(settings_)) {
-    if (!quiet) warn_outside(placement_, size, settings_.model, outside_verb_);
-    return;
-  }
-  const auto start = std::chrono::steady_clock::now();
-  if (settings_.embed) embedded_ = embeddable_points(cage_, model_);
-  if (settings_.domain.empty()) {
-    fill_cage(quiet);
+    meshless_.placement = place_in_cage(quiet);
   } else {
-    domain_ = io::read_domain<Dim>(settings_.domain);
+    if (has_model && outside_ == OutsidePoints::kFail) place_in_cage(quiet);
+    const auto start = std::chrono::steady_clock::now();
+    if (settings_.embed) embedded_ = embeddable_points(cage_, model_);
+    auto made = settings_.domain.empty()
+                    ? fill_cage(quiet)
+                    : MadeDomain<Dim>{io::read_domain<Dim>(settings_.domain), "none"};
+    mesh_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    mesher_ = made.mesher;
+    find_model(std::move(made), quiet || !has_model);
   }
-  mesh_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (settings_.model.empty()) return load_masks(quiet);
-  {
-    const ProgressBar bar(quiet, "locating the model vertices in the mesh");
-    placement_ = placing<Dim>(settings_.model,
-                              [&] { return place_points(cage_, domain_, model_, outside_); });
-  }
-  if (!quiet) warn_outside(placement_, size, settings_.model, outside_verb_);
-  load_masks(quiet);
+  if (!quiet) warn_outside(placement(), cage_, settings_.model, outside_verb_);
+  if (rig_) load_masks(quiet);
+}
+
+template <int Dim>
+void CageSolver<Dim>::find_model(MadeDomain<Dim> made, bool quiet) {
+  const ProgressBar bar(quiet, "locating the model vertices in the mesh");
+  BindOptions options;
+  options.solver.threads = settings_.options.threads;
+  options.outside = outside_;
+  rig_ = placing<Dim>(settings_.model, [&] {
+    return std::make_unique<Rig<Dim>>(cage_, std::move(made), model_, edges_, options);
+  });
+  rig_->set_evaluation([this](const Placement<Dim>& placement) { return evaluated(placement); });
 }
 
 template <int Dim>
 void CageSolver<Dim>::load_masks(bool quiet) {
+  auto options = rig_->options();
+  options.mirror_axis = settings_.mirror_axis;
+  rig_->set_options(options);
   if (settings_.locality.empty()) return;
-  const bool has_model = !settings_.model.empty();
-  const auto& points = has_model ? model_ : domain_.points;
-  auto masks = load_locality<Dim>(settings_.locality, cage_, points, settings_.model);
-  if (settings_.mirror_axis >= 0) {
-    masks = MirroredModel<Dim>(cage_, settings_.mirror_axis, points).symmetrized(masks);
-  }
-  naming(settings_.locality, [&] {
-    if (has_model) {
-      masks_ = place_masks(cage_, domain_, placement_, masks);
-    } else {
-      masks_.of_mesh = masks_.of_points = end_at_facets(cage_, points, masks, &masks_.on_facets);
-      masks_.masked = static_cast<Index>(
-          PointMasks(masks, cage_.size(), domain_.num_vertices()).points().size());
-    }
-  });
-  const auto note = masks_.note();
+  const auto& points = settings_.model.empty() ? domain().points : model_;
+  options.masks = load_locality<Dim>(settings_.locality, cage_, points, settings_.model);
+  naming(settings_.locality, [&] { rig_->set_options(options); });
+  const auto note = rig_->masks().note();
   if (!note.empty() && !quiet) std::cerr << "flbc: " << settings_.locality << ": " << note << '\n';
 }
 
@@ -266,17 +257,19 @@ void CageSolver<Dim>::announce() const {
                  "certified gap bounds the objective\n";
   }
   const auto& options = settings_.options;
-  const auto estimate = estimate_solve(Dim, cage_.size(), domain_.num_vertices(), options);
+  const auto estimate = estimate_solve(Dim, cage_.size(), domain().num_vertices(), options);
   if (settings_.coordinates || options.method != Method::kWeights || !is_long(estimate)) return;
   std::cerr << "flbc: solving for " << cage_.size() << " control points and "
-            << domain_.num_vertices() << " vertices; this may take " << describe(estimate) << '\n';
+            << domain().num_vertices() << " vertices; this may take " << describe(estimate) << '\n';
 }
 
 template <int Dim>
 void CageSolver<Dim>::solve_without_mesh() {
   const auto start = std::chrono::steady_clock::now();
-  rows_ = weights_of_model();
-  auto& report = solution_.report;
+  meshless_.rows = naming(settings_.model, [&] {
+    return weights_of_points<Dim>(cage_, {}, {}, placement(), settings_);
+  });
+  auto& report = meshless_.solution.report;
   report.control_points = cage_.size();
   report.objective = std::numeric_limits<double>::quiet_NaN();
   report.seconds.solve =
@@ -285,14 +278,15 @@ void CageSolver<Dim>::solve_without_mesh() {
 
 template <int Dim>
 void CageSolver<Dim>::solve(bool quiet) {
-  const auto& options = settings_.options;
   if (is_meshless(settings_)) {
     const ProgressBar bar(quiet, "computing weights");
     return solve_without_mesh();
   }
   if (!quiet) announce();
-  ProgressBar bar(quiet, "setting up: boundary values, distances", options);
-  HistoryRecorder recorder(options);
+  auto settings = settings_;
+  settings.options.masks = rig_->masks().of_mesh;
+  ProgressBar bar(quiet, "setting up: boundary values, distances", settings.options);
+  HistoryRecorder recorder(settings.options);
   Observer observer;
   observer.progress = [&](const Progress& progress) {
     bar.show(progress);
@@ -300,44 +294,29 @@ void CageSolver<Dim>::solve(bool quiet) {
     return true;
   };
   observer.stage = [&](Stage stage, double done) { bar.show(name_of(stage), done); };
-  auto settings = settings_;
-  settings.options.masks = masks_.of_mesh;
-  solution_ = naming(settings_.domain.empty() ? settings_.cage : settings_.domain,
-                     [&] { return compute_weights(cage_, domain_, settings, observer); });
+  rig_->set_solution(naming(settings_.domain.empty() ? settings_.cage : settings_.domain,
+                            [&] { return compute_weights(cage_, domain(), settings, observer); }));
   if (settings_.history) history_ = recorder.finished(report());
-  if (!settings_.model.empty()) rows_ = weights_of_model();
+  rig_->weights_of_points();
 }
 
 template <int Dim>
-const PointList<Dim>& CageSolver<Dim>::points() const {
-  if (settings_.model.empty()) return domain_.points;
-  return placement_.points;
-}
-
-template <int Dim>
-SparseWeights CageSolver<Dim>::weights_of_model() const {
+SparseWeights CageSolver<Dim>::evaluated(const Placement<Dim>& placement) const {
   auto rows = naming(settings_.model, [&] {
-    return weights_of_points(cage_, domain_, domain_weights(), placement_, settings_);
+    return weights_of_points(cage_, domain(), domain_weights(), placement, settings_);
   });
-  if (settings_.embed) {
-    rows = SparseWeights::of(cage_.size(), rows.num_points(), [&](Index p) {
-      const Index number = embedded_.number[p];  // exactly those of the vertex
-      return number < 0 ? rows.at(p) : domain_weights().at(cage_.size() + number);
-    });
-  }
-  return enforce_locality<Dim>(cage_, placement_, std::move(rows), masks_, settings_.mirror_axis,
-                               [&](const PointList<Dim>& points) {
-                                 return weights_of_points(
-                                     cage_, domain_, domain_weights(),
-                                     place_points(cage_, domain_, points, outside_), settings_);
-                               });
+  if (!settings_.embed || &placement != &rig_->placement()) return rows;
+  return SparseWeights::of(cage_.size(), rows.num_points(), [&](Index p) {
+    const Index number = embedded_.number[p];  // exactly those of the vertex
+    return number < 0 ? rows.at(p) : domain_weights().at(cage_.size() + number);
+  });
 }
 
 // Of weights of a method that does not minimize it.
 template <int Dim>
 double CageSolver<Dim>::objective() const {
   const auto& options = settings_.options;
-  const auto problem = make_problem(cage_, domain_, options.phi, *resolve(options).smoothness);
+  const auto problem = make_problem(cage_, domain(), options.phi, *resolve(options).smoothness);
   return flbc::objective(problem, domain_weights()) / std::pow(problem.scale, Dim - 1);
 }
 
@@ -348,13 +327,13 @@ nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
   if (!has_objective && report().parts.empty()) json["objective"] = objective();
   if (!settings_.model.empty()) {
     json["outside"] = {{"policy", name_of(outside_)},
-                       {"on_cage", beside_json(placement_.on_cage)},
-                       {"outside", beside_json(placement_.outside)}};
+                       {"on_cage", beside_json(placement().on_cage)},
+                       {"outside", beside_json(placement().outside)}};
   }
   if (!settings_.locality.empty()) {
     json["locality"] = {{"file", settings_.locality},
-                        {"masked_vertices", masks_.masked},
-                        {"on_facets", masks_.on_facets}};
+                        {"masked_vertices", rig_->masks().masked},
+                        {"on_facets", rig_->masks().on_facets}};
   }
   if (!report().parts.empty()) json["parts"] = parts_json(cage_, report().parts);
   if (!history_.empty()) json["history"] = history_json(history_);
@@ -362,12 +341,12 @@ nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
 }
 
 template <int Dim>
-std::string describe(const Placement<Dim>& placement, double size) {
+std::string describe(const Placement<Dim>& placement, const Cage<Dim>& cage) {
   std::ostringstream text;
   text.precision(3);
   if (!placement.on_cage.empty()) {
     text << "; " << placement.on_cage.size() << " vertices within "
-         << farthest(placement.on_cage).distance() / size
+         << farthest(placement.on_cage).distance() / bounding_box_diagonal(cage.points)
          << " of the cage size were snapped to the cage";
   }
   return text.str();
@@ -386,11 +365,12 @@ void print_outside(const std::string& file, std::size_t count, std::size_t all, 
 }
 
 template <int Dim>
-void warn_outside(const Placement<Dim>& placement, double size, const std::string& file,
+void warn_outside(const Placement<Dim>& placement, const Cage<Dim>& cage, const std::string& file,
                   const char* verb) {
   if (placement.outside.empty()) return;
   print_outside(file, placement.outside.size(), placement.places.size(),
-                farthest(placement.outside).distance() / size, placement.policy, verb);
+                farthest(placement.outside).distance() / bounding_box_diagonal(cage.points),
+                placement.policy, verb);
 }
 
 bool report_convergence(const SolveReport& report, const SolveSettings& settings) {
@@ -412,15 +392,16 @@ bool report_convergence(const SolveReport& report, const SolveSettings& settings
   return false;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                           \
-  template Solution compute_weights(const Cage<Dim>&, const DomainMesh<Dim>&,           \
-                                    const SolveSettings&, const Observer&);             \
-  template SparseWeights weights_of_points(const Cage<Dim>&, const DomainMesh<Dim>&,    \
-                                           const SparseWeights&, const Placement<Dim>&, \
-                                           const SolveSettings&);                       \
-  template class CageSolver<Dim>;                                                       \
-  template std::string describe(const Placement<Dim>&, double);                         \
-  template void warn_outside(const Placement<Dim>&, double, const std::string&, const char*);
+#define FLBC_INSTANTIATE(Dim)                                                             \
+  template Solution compute_weights(const Cage<Dim>&, const DomainMesh<Dim>&,             \
+                                    const SolveSettings&, const Observer&);               \
+  template SparseWeights weights_of_points(const Cage<Dim>&, const DomainMesh<Dim>&,      \
+                                           const SparseWeights&, const Placement<Dim>&,   \
+                                           const SolveSettings&);                         \
+  template class CageSolver<Dim>;                                                         \
+  template std::string describe(const Placement<Dim>&, const Cage<Dim>&);                 \
+  template void warn_outside(const Placement<Dim>&, const Cage<Dim>&, const std::string&, \
+                             const char*);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

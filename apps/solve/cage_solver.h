@@ -3,21 +3,19 @@
 //! From a cage to weights, as settings say.
 #pragma once
 
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "files/load.h"
 #include "flbc/cage.h"
-#include "flbc/cell_locator.h"
 #include "flbc/errors.h"
-#include "flbc/interpolate.h"
 #include "flbc/io/formats.h"
 #include "flbc/meshing.h"
-#include "flbc/place_masks.h"
 #include "flbc/placement.h"
 #include "flbc/quality.h"
-#include "flbc/solver.h"
+#include "flbc/rig.h"
 #include "help/wording.h"
 #include "report/history.h"
 #include "solve/solve_settings.h"
@@ -36,11 +34,14 @@ SparseWeights weights_of_points(const Cage<Dim>& cage, const DomainMesh<Dim>& do
                                 const SolveSettings& settings);
 
 //! The steps of a solve, to be taken in this order: make_domain(), solve(). Errors name the files.
+//! What the library does for any program, a Rig does.
 template <int Dim>
 class CageSolver {
  public:
-  //! Keeps references to all. \param model  Dim x P, not looked at if settings name no model
-  CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model, const SolveSettings& settings);
+  //! Keeps references to all. \param model  Dim x P; no point if settings name no model
+  //! \param edges  of the model, for reductions
+  CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model, const EdgeList& edges,
+             const SolveSettings& settings);
 
   //! Refuses a model outside its cage. Then reads the mesh, or makes it, and finds the model's
   //! vertices in it.
@@ -50,60 +51,63 @@ class CageSolver {
   //! \param quiet  without a progress line
   void solve(bool quiet);
 
+  //! The model, or else the mesh, with its weights. All but rows() and points() of settings without
+  //! a mesh need it.
+  Rig<Dim>& rig() const { return *rig_; }
   const Cage<Dim>& cage() const { return cage_; }
-  const DomainMesh<Dim>& domain() const { return domain_; }
-  const SparseWeights& domain_weights() const { return solution_.weights; }
-  const Solution& solution() const { return solution_; }
-  const SolveReport& report() const { return solution_.report; }
+  const DomainMesh<Dim>& domain() const { return rig_->mesh(); }
+  const SparseWeights& domain_weights() const { return solution().weights; }
+  const Solution& solution() const { return rig_ ? rig_->solution() : meshless_.solution; }
+  const SolveReport& report() const { return solution().report; }
   double mesh_seconds() const { return mesh_seconds_; }
   //! The mesher of the mesh; "none" if it was read.
   const std::string& mesher() const { return mesher_; }
 
   //! The points that the weights reproduce: the model's vertices, or those of the mesh. Vertices
   //! that follow the nearest point of the cage are there.
-  const PointList<Dim>& points() const;
+  const PointList<Dim>& points() const { return placement().points; }
   //! Their weights.
-  const SparseWeights& rows() const { return settings_.model.empty() ? domain_weights() : rows_; }
+  const SparseWeights& rows() const { return rig_ ? rig_->weights_of_points() : meshless_.rows; }
 
-  //! Where the model's vertices are; empty without a model.
-  const Placement<Dim>& placement() const { return placement_; }
-
-  //! The masks of the points, for reductions.
-  const std::vector<flbc::Mask>& masks() const { return masks_.of_points; }
+  //! Where the points are.
+  const Placement<Dim>& placement() const { return rig_ ? rig_->placement() : meshless_.placement; }
 
   //! The report of the whole. \param delivered  quality of rows()
   nlohmann::ordered_json json(const Quality& delivered) const;
 
  private:
-  // Without a mesh. Vertices of no face may be outside: they follow the nearest point of the cage.
-  void place_in_cage(bool quiet);
-  void fill_cage(bool quiet);
+  // Vertices of no face may be outside: they follow the nearest point of the cage.
+  Placement<Dim> place_in_cage(bool quiet);
+  MadeDomain<Dim> fill_cage(bool quiet);
+  void find_model(MadeDomain<Dim> made, bool quiet);
   void load_masks(bool quiet);
   // Says what the problem does not determine, and how long a long solve may take.
   void announce() const;
   void solve_without_mesh();
-  SparseWeights weights_of_model() const;
+  SparseWeights evaluated(const Placement<Dim>& placement) const;
   double objective() const;
 
   const Cage<Dim>& cage_;
   const PointList<Dim>& model_;
+  const EdgeList& edges_;
   const SolveSettings& settings_;
   OutsidePoints outside_;             // treatment of vertices there
   const char* outside_verb_ = "are";  // "vertices VERB outside the cage"
-  DomainMesh<Dim> domain_;
-  double mesh_seconds_ = 0;  // for making or reading it
+  double mesh_seconds_ = 0;           // for making or reading it
   std::string mesher_ = "none";
-  Solution solution_;  // at the vertices of the domain
   std::vector<HistoryEntry> history_;
-  Placement<Dim> placement_;  // of the model's vertices
-  PlacedMasks masks_;
   EmbeddablePoints<Dim> embedded_;  // of the model, if it is to be embedded
-  SparseWeights rows_;              // at the model's vertices, once solved
+  std::unique_ptr<Rig<Dim>> rig_;
+  struct {
+    Placement<Dim> placement;
+    SparseWeights rows;
+    Solution solution;  // its report
+  } meshless_;          // without a mesh
 };
 
 //! How many vertices were snapped to the cage; empty for none.
 template <int Dim>
-std::string describe(const Placement<Dim>& placement, double size);
+std::string describe(const Placement<Dim>& placement, const Cage<Dim>& cage);
 
 //! Prints how many vertices are outside the cage, how far, and what they do.
 //! \param distance  of the farthest, relative to the cage size \param verb  in "vertices VERB outside"
@@ -113,7 +117,7 @@ void print_outside(const std::string& file, std::size_t count, std::size_t all, 
 //! The same of a placement, if there are any.
 //! \param file  of the model
 template <int Dim>
-void warn_outside(const Placement<Dim>& placement, double size, const std::string& file,
+void warn_outside(const Placement<Dim>& placement, const Cage<Dim>& cage, const std::string& file,
                   const char* verb = "are");
 
 //! Calls an action that places the vertices of a model. Refusals name the file, and what to do with

@@ -2,7 +2,7 @@
 #include "solve/make_cage.h"
 
 #include <iostream>
-#include <map>
+#include <iterator>
 
 #include "files/load.h"
 #include "flbc/cage_facts.h"
@@ -15,27 +15,7 @@ namespace flbc::app {
 
 namespace {
 
-const std::map<std::string, CageSymmetry> kSymmetries{{"none", CageSymmetry::kNone},
-                                                      {"x", CageSymmetry::kX},
-                                                      {"y", CageSymmetry::kY},
-                                                      {"z", CageSymmetry::kZ},
-                                                      {"auto", CageSymmetry::kAuto}};
-
 #ifdef FLBC_LINKS_CGAL
-const char* name_of(CagingStage stage) {
-  switch (stage) {
-    case CagingStage::kSimplify:
-      return "simplifying the model";
-    case CagingStage::kWrap:
-      return "wrapping the model";
-    case CagingStage::kReduce:
-      return "reducing control points";
-    case CagingStage::kCheck:
-      break;
-  }
-  return "checking the cage";
-}
-
 // The limits that the cage exceeds.
 template <int Dim>
 std::string excess_of(const ModelCage<Dim>& made, double model_size) {
@@ -62,8 +42,8 @@ std::string excess_of(const ModelCage<Dim>& made, double model_size) {
 CLI::Option* add_symmetric_option(CLI::App& command, CageSymmetry& symmetry,
                                   const std::string& more) {
   return add_choice(
-      command, "--symmetric", {"none", "x", "y", "z", "auto"},
-      [&symmetry](const std::string& word) { symmetry = kSymmetries.at(word); },
+      command, "--symmetric", {std::begin(kSymmetryNames), std::end(kSymmetryNames)},
+      [&symmetry](const std::string& word) { symmetry = symmetry_named(word); },
       "make the cage symmetric across this axis (default: auto, if the model is symmetric)" + more);
 }
 

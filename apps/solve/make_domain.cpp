@@ -12,23 +12,19 @@ namespace flbc::app {
 namespace {
 
 template <int Dim>
-Meshers<Dim> meshers_for(Mesher asked_for) {
-  const bool is_one_for_3d = asked_for == Mesher::kTetgen || asked_for == Mesher::kNetgen;
-  if (asked_for != Mesher::kAuto && is_one_for_3d != (Dim == 3)) {
-    throw OptionError(std::string("--mesher ") + name_of(asked_for) +
-                      ": this mesher does not support " + std::to_string(Dim) + "D");
+Meshers<Dim> meshers_for(const std::string& asked_for) {
+  const bool is_any = asked_for == "auto";
+  if (!is_any && (asked_for == "cgal") != (Dim == 2)) {
+    throw OptionError("--mesher " + asked_for + ": this mesher does not support " +
+                      std::to_string(Dim) + "D");
   }
   auto meshers = linked_meshers<Dim>();
-  if (asked_for != Mesher::kAuto) {
-    auto& all = meshers.in_order;
-    all.erase(std::remove_if(all.begin(), all.end(),
-                             [&](const auto& one) { return one.name != name_of(asked_for); }),
-              all.end());
-  }
-  if (!meshers.in_order.empty()) return meshers;
-  const std::string wanted = asked_for != Mesher::kAuto ? name_of(asked_for)
-                             : Dim == 2                 ? "CGAL"
-                                                        : "TetGen or Netgen";
+  auto& all = meshers.in_order;
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [&](const auto& one) { return !is_any && one.name != asked_for; }),
+            all.end());
+  if (!all.empty()) return meshers;
+  const std::string wanted = !is_any ? asked_for : Dim == 2 ? "CGAL" : "TetGen or Netgen";
   throw OptionError("this flbc was built without " + wanted + " and cannot mesh " +
                     std::to_string(Dim) + "D cages; give a mesh with --domain");
 }
@@ -37,7 +33,7 @@ Meshers<Dim> meshers_for(Mesher asked_for) {
 
 template <int Dim>
 MadeDomain<Dim> make_domain(const DomainRequest<Dim>& request) {
-  const auto asked_for = request.meshing.mesher;
+  const auto& asked_for = request.meshing.mesher;
   const auto meshers = meshers_for<Dim>(asked_for);
   MeshingOptions<Dim> options;
   if (!request.embedded_file.empty()) options.embedded_points = request.embedded;
@@ -50,7 +46,7 @@ MadeDomain<Dim> make_domain(const DomainRequest<Dim>& request) {
     try {
       return flbc::make_domain(request.cage, options, meshers);
     } catch (const InputError& error) {
-      if (asked_for != Mesher::kTetgen || linked_meshers<Dim>().in_order.size() < 2) throw;
+      if (asked_for != "tetgen" || linked_meshers<Dim>().in_order.size() < 2) throw;
       throw InputError(error.what() + std::string("; or try --mesher netgen"));
     }
   });

@@ -9,23 +9,13 @@
 
 namespace flbc::app {
 
-enum class Mesher {
-  kAuto,  //!< CGAL in 2D; in 3D TetGen, and Netgen for cages on which that fails
-  kCgal,
-  kTetgen,
-  kNetgen
-};
-
 //! Who makes meshes, and for how long.
 struct MesherSettings {
-  Mesher mesher = Mesher::kAuto;
+  //! One of NamedMesher, or "auto": CGAL in 2D; in 3D TetGen, and Netgen for cages on which that
+  //! fails.
+  std::string mesher = "auto";
   double timeout = 60;  //!< seconds that a run may take in 3D
 };
-
-inline const char* name_of(Mesher mesher) {
-  constexpr const char* kNames[] = {"auto", "cgal", "tetgen", "netgen"};
-  return kNames[static_cast<int>(mesher)];
-}
 
 //! A mesh to be made. Files are named in messages.
 template <int Dim>

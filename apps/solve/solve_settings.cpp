@@ -31,12 +31,7 @@ const char* name_of_method(const SolveSettings& settings, Method method) {
 }
 
 void add_mesher_options(CLI::App& command, MesherSettings& settings) {
-  const auto take = [&settings](const std::string& word) {
-    for (const Mesher mesher : {Mesher::kAuto, Mesher::kCgal, Mesher::kTetgen, Mesher::kNetgen}) {
-      if (word == name_of(mesher)) settings.mesher = mesher;
-    }
-  };
-  add_choice(command, "--mesher", {"auto", "cgal", "tetgen", "netgen"}, take,
+  add_choice(command, "--mesher", {"auto", "cgal", "tetgen", "netgen"}, settings.mesher,
              "mesher (default: auto, which is CGAL in 2D and TetGen in 3D, then Netgen if TetGen "
              "fails)");
   command

@@ -39,6 +39,7 @@ Index count_without_weights(const SparseWeights& weights) {
 template <int Dim>
 void check_reproduction(const SparseWeights& weights, const Cage<Dim>& rest,
                         const PointList<Dim>& points, const WeightFiles& files) {
+  check_sizes(weights, rest.size(), points.cols(), files);
   const auto moved = deform(weights, rest.points);
   auto lengths = displacements(attached_points(rest, points, weights), moved);
   for (Index p = 0; p < weights.num_points(); ++p) {

@@ -25,6 +25,7 @@ void check_sizes(const SparseWeights& weights, Eigen::Index num_control_points,
 //! The number of points without weights, which do not move.
 Index count_without_weights(const SparseWeights& weights);
 
+//! Checks sizes, and where the weights put the points.
 //! Vertices without weights are right, and vertices outside that follow the nearest point of the
 //! cage.
 //! \param rest  n control points; without facets no vertex counts as outside

@@ -9,6 +9,7 @@
 #include "flbc/io/cage_io.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
+#include "instantiate.h"
 
 namespace flbc::app {
 
@@ -49,12 +50,10 @@ void look_from_front(view::PageContent<Dim>& content, UpAxis up) {
 }
 
 template <int Dim>
-std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>& poses,
-                                              const std::vector<double>& times) {
+std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>& poses) {
   std::vector<view::ShownPose<Dim>> shown;
-  for (std::size_t k = 0; k < poses.size(); ++k) {
-    const auto name = std::filesystem::path(poses[k].name).filename().string();
-    shown.push_back({name, times[k], poses[k].points});
+  for (const auto& pose : poses) {
+    shown.push_back({std::filesystem::path(pose.name).filename().string(), pose.time, pose.points});
   }
   return shown;
 }
@@ -67,15 +66,10 @@ std::string path_beside(const std::string& page, const std::string& file) {
   return error ? file : path.string();
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                            \
-  template view::ShownCage<Dim> load_shown_cage(const std::string&);                     \
-  template view::ShownCage<Dim> cage_as_shown(const io::ModelFile&, const std::string&); \
-  template view::ShownModel<Dim> load_shown_model(const std::string&);                   \
-  template void look_from_front(view::PageContent<Dim>&, UpAxis);                        \
-  template std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>&,  \
-                                                         const std::vector<double>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(load_shown_cage)
+FLBC_INSTANTIATE_FUNCTION(cage_as_shown)
+FLBC_INSTANTIATE_FUNCTION(load_shown_model)
+FLBC_INSTANTIATE_FUNCTION(look_from_front)
+FLBC_INSTANTIATE_FUNCTION(shown_poses)
 
 }  // namespace flbc::app

@@ -32,8 +32,7 @@ void look_from_front(view::PageContent<Dim>& content, UpAxis up);
 
 //! Poses at their times, named by their files without folders.
 template <int Dim>
-std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>& poses,
-                                              const std::vector<double>& times);
+std::vector<view::ShownPose<Dim>> shown_poses(const std::vector<Pose<Dim>>& poses);
 
 //! A file as commands name it that run in the folder of the page.
 std::string path_beside(const std::string& page, const std::string& file);

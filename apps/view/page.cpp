@@ -13,6 +13,7 @@
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/sparsify.h"
+#include "instantiate.h"
 #include "model/gltf_edit.h"
 #include "model/gltf_writer.h"
 #include "model/srgb.h"
@@ -297,15 +298,9 @@ std::string make_page(const PageContent<Dim>& content) {
   return page.substr(0, begin) + data + page.substr(begin + place.size());
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                      \
-  template std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<Index>>&, \
-                                                           const FacetList<Dim>&);                 \
-  template SparseWeights limit_influences(const PointList<Dim>&, const PointList<Dim>&,            \
-                                          const SparseWeights&, Index);                            \
-  template std::string make_content(const PageContent<Dim>&);                                      \
-  template std::string make_page(const PageContent<Dim>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+FLBC_INSTANTIATE_FUNCTION(edges_of_cage)
+FLBC_INSTANTIATE_FUNCTION(limit_influences)
+FLBC_INSTANTIATE_FUNCTION(make_content)
+FLBC_INSTANTIATE_FUNCTION(make_page)
 
 }  // namespace flbc::view

@@ -54,7 +54,6 @@ def outside(
 def misplacement(
     points: _Floats, facets: _Ints, places: _Floats, weights: _Weights
 ) -> float: ...
-def require_inside(points: _Floats, facets: _Ints, places: _Floats) -> None: ...
 def make_cage(
     points: _Floats, facets: _Ints, control_points: int, offset: float, symmetry: str
 ) -> _Shape: ...
@@ -68,14 +67,14 @@ def solve(
     phi: Optional[_Floats], callback: _Callback,
 ) -> _Solved: ...
 def bind_model(
-    points: _Floats, facets: _Ints, vertices: _Floats, cells: _Ints, model: _Floats,
-    polygons: _Polygons, options: Dict[str, Any], max_influences: int, outside: str,
-    locality: Dict[str, Any], mirror_axis: int, callback: _Callback,
-) -> Tuple[_Weights, Dict[str, Any], Optional[_Floats], List[int]]: ...
+    points: _Floats, facets: _Ints, domain: Optional[_Shape], vertices: Optional[int],
+    model: _Floats, polygons: _Polygons, options: Dict[str, Any], phi: Optional[_Floats],
+    max_influences: int, outside: str, mirror_axis: int, callback: _Callback,
+) -> Tuple[_Weights, Dict[str, Any], str, Optional[_Floats], List[int]]: ...
 def weights_at(
     points: _Floats, facets: _Ints, vertices: _Floats, cells: _Ints, weights: _Weights,
     places: _Floats, outside: str,
-) -> Tuple[_Weights, _Floats, List[int]]: ...
+) -> _Weights: ...
 def gradients(
     points: _Floats, facets: _Ints, vertices: _Floats, cells: _Ints, weights: _Weights,
     places: _Floats,

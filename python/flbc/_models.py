@@ -20,8 +20,16 @@ from ._shapes import (
     edges_of,
     posed_points,
 )
-from ._solve import SolverOptions, as_mask, checked, evaluate, mesh, solve, with_options
-from ._weights import as_poses, as_weights, corners_of, deform, from_core, measure, sparsify
+from ._solve import (
+    SolverOptions,
+    as_mask,
+    checked,
+    mesh,
+    take_phi,
+    warn_unless_converged,
+    with_options,
+)
+from ._weights import as_poses, as_weights, corners_of, deform, from_core, measure
 
 if TYPE_CHECKING:
     import os
@@ -281,69 +289,32 @@ def bind(
             "method 'bbw': a binding needs weights that reproduce the model, which bounded "
             "biharmonic weights do not; choose another method"
         )
-    check_scalars(max_influences=(max_influences, "an integer"), outside=(outside, "a name"))
+    check_scalars(
+        mesh_vertices=(mesh_vertices, "an integer"),
+        max_influences=(max_influences, "an integer"),
+        outside=(outside, "a name"),
+    )
     cage = as_cage(control_points) if cage_faces is None else Cage(control_points, cage_faces)
+    axes = ["x", "y", "z"][: cage.dim]
+    if symmetric is not None and symmetric not in axes:
+        raise OptionError(f"symmetric must be one of {', '.join(axes)}, not {symmetric!r}")
     points = as_points(vertices, "vertices", cage.dim)
     if len(points) == 0:
         raise InputError("vertices has shape (0, d): the model has no vertices")
     polygons = as_polygons(faces, "faces", len(points))
-    if outside == "fail":
-        _core.require_inside(cage.points, cage.facets, points)
-    fill = mesh(cage, mesh_vertices) if domain is None else domain
-    if given.get("mask") is not None or symmetric is not None:
-        fill = as_mesh(fill, cage)
-        return _bind_local(
-            points, polygons, cage, fill, max_influences, outside, symmetric, given, callback
-        )
-    solution = solve(cage, fill, callback=callback, **given)
-    parts, placed, which = evaluate(solution, points, outside)
-    weights = from_core(parts)
-    if max_influences:
-        flat = None if len(polygons[1]) == 1 else faces
-        given, is_extended = weights, bool(which) and outside == "extend"
-        if is_extended:  # negative weights cannot be reduced
-            parts, placed, _ = evaluate(solution, points, "nearest")
-            given = from_core(parts)
-        reduced = sparsify(given, cage, placed, max_influences, faces=flat)
-        if is_extended:
-            rows = reduced.tolil()
-            rows[which] = weights[which]
-            reduced = rows.tocsr()
-        weights = reduced
-    offsets = None
-    if which and outside != "extend":
-        offsets = np.zeros_like(points)
-        offsets[which] = (points - deform(weights, cage.points))[which]
-    return Binding(weights, offsets, cage, solution.report, np.array(which, np.int32))
-
-
-def _bind_local(
-    points: Floats,
-    polygons: Any,
-    cage: Cage,
-    fill: Any,
-    max_influences: int,
-    outside: str,
-    symmetric: Optional[str],
-    given: Dict[str, Any],
-    callback: Any,
-) -> Binding:
     as_mask(given, len(points), cage)
-    phi = given.get("phi")
-    if phi is not None and np.ndim(phi) > 0:
-        raise OptionError("phi: a mask or a mirror needs the name of a weighting")
-    axes = ["x", "y", "z"][: cage.dim]
-    if symmetric is not None and symmetric not in axes:
-        raise OptionError(f"symmetric must be one of {', '.join(axes)}, not {symmetric!r}")
-    axis = -1 if symmetric is None else axes.index(symmetric)
-    locality = {"mask": given.pop("mask", None)}
-    parts, report, offsets, which = _core.bind_model(
-        cage.points, cage.facets, fill.points, fill.cells, points, polygons, given, max_influences,
-        outside, locality, axis, callback,
+    if domain is None and np.ndim(given.get("phi", "")) > 0:
+        domain = mesh(cage, mesh_vertices)
+    fill = None if domain is None else as_mesh(domain, cage)
+    phi = None if fill is None else take_phi(given, cage, fill)
+    parts, report, note, offsets, which = _core.bind_model(
+        cage.points, cage.facets, None if fill is None else (fill.points, fill.cells),
+        mesh_vertices, points, polygons, given, phi, max_influences, outside,
+        -1 if symmetric is None else axes.index(symmetric), callback,
     )
-    note = report.pop("note")
     if note:
-        warnings.warn(note, stacklevel=3)
+        warnings.warn(note, stacklevel=2)
+    warn_unless_converged(report, stacklevel=3)
     return Binding(from_core(parts), offsets, cage, report, np.array(which, np.int32))
 
 

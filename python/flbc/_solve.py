@@ -265,7 +265,14 @@ class Solution:
         InputError
             If points are outside and `outside` is "fail".
         """
-        return dense_of(evaluate(self, as_points(points, "points", self.cage.dim), outside)[0])
+        check_scalars(outside=(outside, "a name"))
+        cage, mesh = self.cage, self.mesh
+        places = as_points(points, "points", cage.dim)
+        return dense_of(
+            _core.weights_at(
+                cage.points, cage.facets, mesh.points, mesh.cells, self._parts, places, outside
+            )
+        )
 
     def gradients(self, points: ArrayLike) -> Floats:
         """Evaluates the gradients of the coordinates at points.
@@ -302,15 +309,6 @@ class Solution:
 
     def __reduce__(self) -> Any:
         return Solution, (self._parts, self.cage, self.mesh, self.report, self._proof)
-
-
-def evaluate(solution: Solution, points: Floats, outside: str) -> Any:
-    """Parts of sparse weights at points, the points they reproduce, and which are outside."""
-    check_scalars(outside=(outside, "a name"))
-    cage, mesh = solution.cage, solution.mesh
-    return _core.weights_at(
-        cage.points, cage.facets, mesh.points, mesh.cells, solution._parts, points, outside
-    )
 
 
 def mesh(
@@ -355,17 +353,21 @@ def mesh(
     return mesh_from(arrays)
 
 
-def _solution(found: Any, cage: Cage, domain: DomainMesh, warn: bool) -> Solution:
-    parts, report, proof = found
-    solution = Solution(parts, cage, domain, report, proof)
-    if warn and report["status"] == "iteration limit":
+def warn_unless_converged(report: Dict[str, Any], stacklevel: int) -> None:
+    if report["status"] == "iteration limit":
         warnings.warn(
             f"not converged within {report['iterations']} iterations; increase max_iterations or "
             "tolerance",
             NotConverged,
-            stacklevel=3,
+            stacklevel,
         )
-    return solution
+
+
+def _solution(found: Any, cage: Cage, domain: DomainMesh, warn: bool) -> Solution:
+    parts, report, proof = found
+    if warn:
+        warn_unless_converged(report, stacklevel=4)
+    return Solution(parts, cage, domain, report, proof)
 
 
 @with_options

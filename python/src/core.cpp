@@ -121,20 +121,6 @@ py::tuple outside(const Doubles& points, const Indices& facets, const Doubles& p
   });
 }
 
-#ifdef FLBC_LINKS_CAGING
-CageSymmetry symmetry_named(const std::string& name) {
-  const std::pair<const char*, CageSymmetry> known[] = {{"auto", CageSymmetry::kAuto},
-                                                        {"none", CageSymmetry::kNone},
-                                                        {"x", CageSymmetry::kX},
-                                                        {"y", CageSymmetry::kY},
-                                                        {"z", CageSymmetry::kZ}};
-  for (const auto& [of, symmetry] : known) {
-    if (name == of) return symmetry;
-  }
-  throw OptionError("symmetry must be one of auto, none, x, y, z, not " + name);
-}
-#endif
-
 py::tuple make_cage([[maybe_unused]] const Doubles& points, [[maybe_unused]] const Indices& facets,
                     [[maybe_unused]] Index control_points, [[maybe_unused]] double offset,
                     [[maybe_unused]] const std::string& symmetry) {
@@ -194,19 +180,6 @@ double misplacement(const Doubles& points, const Indices& facets, const Doubles&
   });
 }
 
-void require_inside(const Doubles& points, const Indices& facets, const Doubles& places) {
-  by_dimension(points, [&](auto dim) {
-    constexpr int kDim = decltype(dim)::value;
-    const auto cage = cage_of<kDim>(points, facets);
-    const auto all = points_of<kDim>(places);
-    without_gil([&] {
-      validate(cage);
-      place_points(cage, all);
-    });
-    return py::none();
-  });
-}
-
 // What weights at points are computed from.
 template <int Dim>
 struct Known {
@@ -223,22 +196,17 @@ struct Known {
   decltype(weights_of(py::object())) weights;
 };
 
-// Weights at points, the points that they reproduce, and the points outside.
-py::tuple weights_at(const Doubles& points, const Indices& facets, const Doubles& vertices,
-                     const Indices& cells, const py::object& weights, const Doubles& places,
-                     const std::string& policy_name) {
+py::object weights_at(const Doubles& points, const Indices& facets, const Doubles& vertices,
+                      const Indices& cells, const py::object& weights, const Doubles& places,
+                      const std::string& policy_name) {
   const auto policy = named<OutsidePoints>("outside", policy_name);
   return by_dimension(points, [&](auto dim) {
     constexpr int kDim = decltype(dim)::value;
     const Known<kDim> known(points, facets, vertices, cells, weights, places);
-    Placement<kDim> placement;
-    const auto found = as_python(without_gil([&] {
-      placement = place_points(known.cage, known.mesh, known.places, policy);
+    return as_python(without_gil([&] {
+      const auto placement = place_points(known.cage, known.mesh, known.places, policy);
       return flbc::weights_at(known.cage, known.mesh, known.weights, placement);
     }));
-    std::vector<Index> outside;
-    for (const auto& point : placement.outside) outside.push_back(point.point);
-    return py::make_tuple(found, as_array(std::move(placement.points)), outside);
   });
 }
 
@@ -372,7 +340,6 @@ PYBIND11_MODULE(_core, module) {
   module.def("check_cage", &check_cage);
   module.def("outside", &outside);
   module.def("misplacement", &misplacement);
-  module.def("require_inside", &require_inside);
   module.def("make_cage", &make_cage);
   module.def("repair", &repair);
   module.def("normalized_mesh", &normalized_mesh);

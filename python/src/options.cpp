@@ -177,7 +177,7 @@ std::optional<Coordinates> coordinates_of(const py::dict& keywords) {
   return value_named<Coordinates>(py::str(keywords["method"]));
 }
 
-CoordinatesOptions coordinates_options_of(const py::dict& keywords) {
+SolverOptions coordinates_options_of(const py::dict& keywords) {
   py::dict used;
   for (const auto& [key, value] : keywords) {
     const auto name = key.cast<std::string>();
@@ -188,8 +188,7 @@ CoordinatesOptions coordinates_options_of(const py::dict& keywords) {
     }
     used[key] = value;
   }
-  const auto options = options_of(used);
-  return {options.non_negative, options.threads};
+  return options_of(used);
 }
 
 py::dict as_dict(const SolverOptions& options) {

@@ -21,8 +21,8 @@ SolverOptions options_of(const py::dict& keywords);
 //! The coordinates that the method names, or none.
 std::optional<Coordinates> coordinates_of(const py::dict& keywords);
 
-//! Options of coordinates. \throws OptionError for others
-CoordinatesOptions coordinates_options_of(const py::dict& keywords);
+//! Options of coordinates, which are threads and non_negative. \throws OptionError for others
+SolverOptions coordinates_options_of(const py::dict& keywords);
 
 //! All options by their names.
 py::dict as_dict(const SolverOptions& options);

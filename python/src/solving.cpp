@@ -11,9 +11,9 @@
 #include <variant>
 
 #include "arrays.h"
-#include "flbc/bind.h"
 #include "flbc/errors.h"
 #include "flbc/linked_meshers.h"
+#include "flbc/rig.h"
 #include "flbc/solver.h"
 #include "options.h"
 
@@ -97,62 +97,89 @@ py::tuple solved(Solution solution, const std::optional<Coordinates>& coordinate
   return py::make_tuple(as_python(std::move(solution.weights)), report, proof);
 }
 
+// What solve() and bind() are asked for.
+struct Request {
+  Request(const py::dict& keywords, const std::optional<Doubles>& array)
+      : coordinates(coordinates_of(keywords)),
+        options(here(coordinates ? coordinates_options_of(keywords) : options_of(keywords))) {
+    if (!array) return;
+    phi = Eigen::MatrixXd::Map(array->data(), array->shape(1), array->shape(0)).eval();
+  }
+
+  template <int Dim>
+  Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, const Observer& observer) {
+    if (coordinates) {
+      return compute_coordinates(cage, domain, *coordinates,
+                                 {options.non_negative, options.threads}, observer);
+    }
+    if (!phi) return flbc::solve<Dim>(cage, domain, options, observer);
+    validate(options);
+    auto problem =
+        make_problem(cage, domain, DistanceScheme::kConstant, *resolve(options).smoothness);
+    problem.phi = WeightFunctions(std::move(*phi));
+    return flbc::solve(problem, options, observer);
+  }
+
+  std::optional<Coordinates> coordinates;
+  SolverOptions options;  // coordinates read non_negative and threads
+  std::optional<Eigen::MatrixXd> phi{};
+};
+
 py::tuple solve(const Doubles& points, const Indices& facets, const Doubles& vertices,
                 const Indices& cells, const py::dict& keywords, const std::optional<Doubles>& phi,
                 const py::object& callback) {
+  Request request(keywords, phi);
   return by_dimension(points, [&](auto dim) -> py::tuple {
     constexpr int kDim = decltype(dim)::value;
     const auto cage = cage_of<kDim>(points, facets);
     const auto domain = mesh_of<kDim>(vertices, cells);
     const auto observer = observer_of(callback);
-    if (const auto coordinates = coordinates_of(keywords)) {
-      const auto options = here(coordinates_options_of(keywords));
-      return solved(without_gil([&] {
-                      return compute_coordinates(cage, domain, *coordinates, options, observer);
-                    }),
-                    coordinates);
-    }
-    const auto options = here(options_of(keywords));
-    if (phi) {
-      WeightFunctions given(Eigen::MatrixXd::Map(phi->data(), phi->shape(1), phi->shape(0)).eval());
-      return solved(without_gil([&] {
-        validate(options);
-        auto problem =
-            make_problem(cage, domain, DistanceScheme::kConstant, *resolve(options).smoothness);
-        problem.phi = std::move(given);
-        return flbc::solve(problem, options, observer);
-      }));
-    }
-    return solved(without_gil([&] { return flbc::solve<kDim>(cage, domain, options, observer); }));
+    return solved(without_gil([&] { return request.solve(cage, domain, observer); }),
+                  request.coordinates);
   });
 }
 
-// bind() with a given domain mesh. \return weights, report, offsets or None, and points outside
-py::tuple bind_model(const Doubles& points, const Indices& facets, const Doubles& vertices,
-                     const Indices& cells, const Doubles& model, const Polygons& polygons,
-                     const py::dict& keywords, Index max_influences, const std::string& outside,
-                     const py::dict& locality, int mirror_axis, const py::object& callback) {
+// \param domain  none: it is made, of so many vertices, or as many as usual
+// \param options  of the solve, with the mask of the model
+// \return weights, report, note, offsets or None, and points outside
+py::tuple bind_model(const Doubles& points, const Indices& facets,
+                     const std::optional<std::pair<Doubles, Indices>>& domain,
+                     const std::optional<Index>& vertices, const Doubles& model,
+                     const Polygons& polygons, const py::dict& keywords,
+                     const std::optional<Doubles>& phi, Index max_influences,
+                     const std::string& outside, int mirror_axis, const py::object& callback) {
+  Request request(keywords, phi);
   BindOptions options;
-  options.solver = here(options_of(keywords));
+  options.vertices = vertices.value_or(kDefaultVertices);
+  options.solver.threads = request.options.threads;
   options.observer = observer_of(callback);
   options.max_influences = max_influences;
   options.outside = named<OutsidePoints>("outside", outside);
-  options.masks = options_of(locality).masks;
+  options.masks = std::move(request.options.masks);
   options.mirror_axis = mirror_axis;
   return by_dimension(points, [&](auto dim) -> py::tuple {
     constexpr int kDim = decltype(dim)::value;
     const auto cage = cage_of<kDim>(points, facets);
-    const auto domain = mesh_of<kDim>(vertices, cells);
     const auto all = points_of<kDim>(model);
     const auto lists = lists_of(polygons);
+    MadeDomain<kDim> given;
+    if (domain) given.mesh = mesh_of<kDim>(domain->first, domain->second);
+    std::string note;
     auto binding = without_gil([&] {
-      return flbc::bind<kDim>(cage, domain, all, edges_of_polygons(all, lists), options);
+      const auto edges = edges_of_polygons(all, lists);
+      auto rig = domain ? Rig<kDim>(cage, std::move(given), all, edges, options)
+                        : Rig<kDim>(cage, all, edges, options, linked_meshers<kDim>());
+      request.options.masks = rig.masks().of_mesh;
+      rig.set_solution(request.solve(rig.cage(), rig.mesh(), options.observer));
+      auto bound = rig.bind();
+      note = vertices ? bound.report.note : rig.masks().note();
+      return bound;
     });
-    auto report = as_dict(binding.report.solve);
-    report["note"] = binding.report.note;
     const py::object offsets =
         binding.offsets.cols() > 0 ? py::object(as_array(binding.offsets)) : py::none();
-    return py::make_tuple(as_python(std::move(binding.weights)), report, offsets, binding.outside);
+    return py::make_tuple(as_python(std::move(binding.weights)),
+                          as_dict(binding.report.solve, request.coordinates), note, offsets,
+                          binding.outside);
   });
 }
 

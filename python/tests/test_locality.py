@@ -21,6 +21,8 @@ def test_bind_obeys_a_mask(limb):
         weights = found.weights.toarray()
         assert (weights[mask] == 0).all() and mask.sum() > 100
         assert abs(found.deform(cage.points) - vertices).max() < 1e-12
+    with pytest.warns(flbc.NotConverged, match="3 iterations"):
+        flbc.bind(vertices, faces, cage, mesh_vertices=2000, mask=mask, max_iterations=3)
     with pytest.raises(flbc.InputError, match="remove control point"):
         flbc.bind(vertices, faces, cage, mask=ends(cage, vertices, near=-1))
     with pytest.raises(flbc.InputError, match="mask has shape"):
@@ -93,6 +95,18 @@ def test_mirrored_vertices_are_alike():
         flbc.bind(points, None, cage, symmetric="z")
     with pytest.raises(flbc.InputError, match="has no mirror image"):
         flbc.bind(points, None, flbc.Cage([[0, 0], [3, 0], [2, 1], [0, 1]]), symmetric="x")
+
+
+def test_masks_and_mirrors_take_arrays_of_phi(masked):
+    solution = masked[0]
+    cage, mesh = solution.cage, solution.mesh
+    points = np.array([[0.3, 0.4], [1.7, 0.4]])
+    mask = np.array([[False] * 3 + [True] + [False] * 2, [False] * 6])
+    found = flbc.bind(points, None, cage, domain=mesh, mask=mask, symmetric="x",
+                      phi=np.ones((len(mesh.cells), len(cage))))
+    weights = found.weights.toarray()
+    assert (weights[0] == weights[1][[2, 1, 0, 5, 4, 3]]).all() and weights[0, 3] == 0
+    assert abs(found.deform(cage.points) - points).max() < 1e-12
 
 
 def test_compose_multiplies(flat):

@@ -97,6 +97,15 @@ TEST_F(CommandLine, DrawsTheSameModelByEitherName) {
   expect_refused("draw " + cage + " --model " + rest + "r.svg", 1, "cannot be combined");
 }
 
+// Weights of a model by this method need no mesh, but their gradients do.
+TEST_F(CommandLine, GradientsOfAModelByAMethodWithoutAMesh) {
+  const std::string solve =
+      "solve 2d/letter_cage.obj --method meanvalue -q --model "
+      "2d/letter_model.obj -o w.npy";
+  expect(solve + " --gradients g.npy");
+  EXPECT_EQ(io::read_weights("g.npy").num_points(), io::read_weights("w.npy").num_points());
+}
+
 TEST_F(CommandLine, MessagesThatNobodyReadsDoNotEndASolve) {
   const std::string solve =
       FLBC_PROGRAM " solve 2d/ring_cage.obj --method harmonic --vertices 500 -o ";

@@ -93,6 +93,10 @@ TEST_IN_2D_AND_3D(MirrorTest, OtherCagesAreRefused) {
   lopsided.points(0, 0) -= 0.1;
   expect_refused("has no mirror image across x = ",
                  [&] { MirroredModel<Dim>(lopsided, 0, points); });
+  BindOptions options;  // before a solve, too
+  options.mirror_axis = 0;
+  expect_refused("has no mirror image across x = ",
+                 [&, &mesh = mesh] { Rig<Dim>(lopsided, mesh, points, {}, options); });
 }
 
 }  // namespace

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/rig.h"
 
+#include <algorithm>
+
+#include "flbc/deform.h"
+#include "flbc/pointwise.h"
 #include "support/errors.h"
 #include "support/refined_sample.h"
 #include "support/test.h"
@@ -64,7 +68,7 @@ TEST_IN_2D_AND_3D(RigTest, AReshapedCageHasTheWeightsOfANewOne) {
   Rig<Dim> made(reshaped.cage(), reshaped.mesh(), points, {}, {});
   const WeightMatrix difference =
       reshaped.weights_of_points().dense() - made.weights_of_points().dense();
-  EXPECT_LT(difference.squaredNorm() / points.cols(), 1e-5);
+  EXPECT_LT(difference.squaredNorm() / static_cast<double>(points.cols()), 1e-5);
 }
 
 TEST_IN_2D_AND_3D(RigTest, ARefusedShapeChangesNothing) {
@@ -124,6 +128,43 @@ TEST_IN_2D_AND_3D(RigTest, TakesTheSolutionOfAnother) {
   second.reshape(control_points);
   EXPECT_TRUE(second.weights_of_points() == first.weights_of_points());
   EXPECT_THROW(second.set_solution({}), InputError);
+}
+
+TEST_IN_2D_AND_3D(RigTest, WithoutAModelThePointsAreTheVerticesOfTheMesh) {
+  const auto [cage, mesh, name] = sample<Dim>();
+  Rig<Dim> whole(cage, MadeDomain<Dim>{mesh}, {}, {}, {});
+  EXPECT_TRUE(whole.placement().points == mesh.points);
+  const auto& solution = whole.solve();
+  EXPECT_TRUE(whole.weights_of_points() == solution.weights);
+  const auto few = whole.reduced(SparsifyOptions{Dim + 1});
+  for (Index v = 0; v < mesh.num_vertices(); ++v) EXPECT_LE(few.count(v), Dim + 1);
+  EXPECT_LT((deform<Dim>(few, cage.points) - mesh.points).cwiseAbs().maxCoeff(), 1e-12);
+  // A vertex inside obeys a mask of the control point that it needs least.
+  const auto on_boundary = boundary_vertices(build_topology(mesh), mesh.num_vertices());
+  const auto found = std::find(on_boundary.begin(), on_boundary.end(), false);
+  const auto inside = static_cast<Index>(found - on_boundary.begin());
+  Eigen::Index least = 0;
+  whole.weights_of_points().at(inside).minCoeff(&least);
+  BindOptions options;
+  options.masks = {{{static_cast<Index>(least)}, {inside}}};
+  whole.set_options(options);
+  EXPECT_EQ(whole.masks().masked, 1);
+  whole.solve();
+  EXPECT_EQ(whole.weights_of_points().at(inside)[least], 0);
+}
+
+TEST_IN_2D_AND_3D(RigTest, EvaluatesWeightsAsAsked) {
+  auto asked = rig<Dim>();
+  const auto usual = asked.weights_of_points();
+  const auto other =
+      pointwise_coordinates(asked.cage(), asked.placement(), Coordinates::kMeanValue, false);
+  asked.set_evaluation([&](const Placement<Dim>& placement) {
+    EXPECT_EQ(&placement, &asked.placement());
+    return other;
+  });
+  EXPECT_TRUE(asked.weights_of_points() == other);
+  asked.set_evaluation({});
+  EXPECT_TRUE(asked.weights_of_points() == usual);
 }
 
 }  // namespace

@@ -140,21 +140,6 @@ SolverOptions solver_options(const Json& options) {
   return result;
 }
 
-#ifdef FLBC_LINKS_CGAL
-const char* name_of(CagingStage stage) {
-  constexpr const char* kNames[] = {"simplifying the model", "wrapping the model",
-                                    "reducing control points", "checking the cage"};
-  return kNames[static_cast<int>(stage)];
-}
-
-CageSymmetry symmetry_of(const std::string& name) {
-  constexpr const char* kNames[] = {"none", "x", "y", "z", "auto"};
-  const auto* const found = std::find(std::begin(kNames), std::end(kNames), name);
-  if (found != std::end(kNames)) return static_cast<CageSymmetry>(found - kNames);
-  throw OptionError("symmetry: invalid value '" + name + "' (choose from none, x, y, z, auto)");
-}
-#endif
-
 // Writes an outline as triangles of its interior. Texture coordinates spread a picture over it.
 void write_filled(const std::string& file, const app::ModelFacets<2>& outline) {
   constexpr Index kVertices = 2000;
@@ -278,7 +263,7 @@ class Work {
     CagingOptions caging;
     caging.control_points = options.value("controlPoints", 0);
     caging.offset = options.value("offset", 0.0) * size;
-    caging.symmetry = symmetry_of(options.value("symmetry", "auto"));
+    caging.symmetry = symmetry_named(options.value("symmetry", "auto"));
     caging.stage = [&](CagingStage stage, double done) { report(name_of(stage), done); };
     const auto made = app::naming(
         name_, [&] { return cage_from_model<Dim>(facets_.points, facets_.facets, caging); });
@@ -335,18 +320,20 @@ class Work {
     const auto outside = outside_points();  // refuses before the mesher starts
     report("filling the cage", 0);
     auto made = app::make_domain<Dim>({cage_, kCageFile, options.value("vertices", 0)});
-    set_mesh(std::move(made.mesh), {}, outside);
+    const auto note = made.note;
+    set_mesh(std::move(made), {}, outside);
     const auto& mesh = rig_->mesh();
     // Twice the time of the native program.
     const auto estimate = app::estimate_solve(Dim, cage_.size(), mesh.num_vertices(), {});
     return from_json({{"vertices", mesh.num_vertices()},
                       {"cells", mesh.num_cells()},
-                      {"note", made.note},
+                      {"note", note},
                       {"seconds", 2 * estimate.seconds}});
   }
 
-  // \param options  of the solver
-  val set_mesh(DomainMesh<Dim> mesh, const Json& options, OutsidePoints outside) {
+  // \param mesh  a DomainMesh or a MadeDomain \param options  of the solver
+  template <class Mesh>
+  val set_mesh(Mesh mesh, const Json& options, OutsidePoints outside) {
     BindOptions binding;
     binding.solver = solver_options(options);
     binding.outside = outside;
@@ -459,17 +446,14 @@ class Work {
   }
 
   val reduce(const Json& options, const Report& report) {
-    SparsifyOptions sparsify{options.value("influences", 8)};
-    sparsify.progress = [&](double done) { report("reducing influences", done); };
-    const auto& all = weights();
-    few_ =
-        reduce_influences<Dim>(cage_.points, rig_->placement().points, edges_, all, {}, sparsify);
-    return from_json({{"influences", sparsify.max_influences}});
+    SparsifyOptions limits{options.value("influences", 8)};
+    limits.progress = [&](double done) { report("reducing influences", done); };
+    few_ = rig().reduced(limits);
+    return from_json({{"influences", limits.max_influences}});
   }
 
   SparseWeights harmonic() {
-    rig().weights_of_points();  // places the points
-    const auto solution = compute_coordinates(cage_, rig_->mesh(), Coordinates::kHarmonic);
+    const auto solution = compute_coordinates(cage_, rig().mesh(), Coordinates::kHarmonic);
     return weights_at(cage_, rig_->mesh(), solution.weights, rig_->placement());
   }
 
@@ -479,29 +463,13 @@ class Work {
 
   // ------------------------------------------------------------------------------ page and files
 
-  // With as few influences as a page shows; none before solve(). Points are taken in parts, because
-  // all weights of all points take more memory than a solve.
-  SparseWeights shown_weights() const {
-    const auto limited = [&](const PointList<Dim>& places, const SparseWeights& weights) {
-      return view::limit_influences<Dim>(cage_.points, places, weights, view::kMostInfluences);
-    };
-    if (few_.num_points() > 0) return limited(rig_->placement().points, few_);
-    std::vector<std::int64_t> starts{0};
-    std::vector<std::uint32_t> owners;
-    std::vector<double> values;
-    constexpr Eigen::Index kPart = 8192;
-    const bool is_solved = rig_ && rig_->solution().weights.num_points() > 0;
-    for (Eigen::Index p = 0; p < points().cols() && is_solved; p += kPart) {
-      const PointList<Dim> part = points().middleCols(p, std::min(kPart, points().cols() - p));
-      const auto placement = place_points(cage_, rig_->mesh(), part, rig_->options().outside);
-      const auto few = limited(
-          placement.points, weights_at(cage_, rig_->mesh(), rig_->solution().weights, placement));
-      for (Index k = 0; k < few.num_points(); ++k) starts.push_back(starts.back() + few.count(k));
-      owners.insert(owners.end(), few.control_points().begin(), few.control_points().end());
-      values.insert(values.end(), few.values().begin(), few.values().end());
+  // With as few influences as a page shows; none before solve().
+  SparseWeights shown_weights() {
+    if (!rig_ || rig_->solution().weights.num_points() == 0) {
+      return {cage_.size(), std::vector<std::int64_t>(points().cols() + 1), {}, {}};
     }
-    starts.resize(points().cols() + 1);
-    return {cage_.size(), starts, owners, values};
+    return view::limit_influences<Dim>(cage_.points, rig_->placement().points, weights(),
+                                       view::kMostInfluences);
   }
 
   std::string title() const {
@@ -509,7 +477,7 @@ class Work {
   }
 
   // \param picture  data URI of a texture in place of the materials, or empty
-  view::PageContent<Dim> content(const std::string& picture) const {
+  view::PageContent<Dim> content(const std::string& picture) {
     view::PageContent<Dim> result{title(), name_,    "weights.npy", kCageFile,
                                   shown_,  points(), surface_,      shown_weights()};
     app::look_from_front(result, app::up_of(app::UpAxis::kAuto, file_));

@@ -3,7 +3,6 @@
 //! Masks of a model: from its points to the domain mesh, and back to exact zeros at the points.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,14 +46,5 @@ PlacedMasks place_masks(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
 template <int Dim>
 SparseWeights enforce_masks(const Cage<Dim>& cage, const Placement<Dim>& placement,
                             const SparseWeights& weights, const PlacedMasks& masks);
-
-//! enforce_masks(), and weights of mirrored points that are bit-identical (MirroredModel).
-//! \param mirror_axis  of the cage; -1 for none \param at  returns weights at given points
-//! \throws as enforce_masks() and MirroredModel
-template <int Dim>
-SparseWeights enforce_locality(
-    const Cage<Dim>& cage, const Placement<Dim>& placement, SparseWeights weights,
-    const PlacedMasks& masks, int mirror_axis,
-    const std::function<SparseWeights(const PointList<Dim>& points)>& at);
 
 }  // namespace flbc

@@ -3,9 +3,13 @@
 //! A model in a cage whose rest shape may change.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "flbc/bind.h"
+#include "flbc/mirror.h"
 #include "flbc/place_masks.h"
 #include "flbc/solver.h"
 
@@ -31,6 +35,11 @@ class Rig {
 
   //! With a given domain mesh of V vertices, see normalize_and_validate().
   Rig(Cage<Dim> cage, DomainMesh<Dim> domain, PointList<Dim> points, EdgeList edges,
+      const BindOptions& options);
+
+  //! With a domain mesh from make_domain(), or another one that is valid.
+  //! \param points  as above; none: the vertices of the mesh, with the edges of its cells
+  Rig(Cage<Dim> cage, MadeDomain<Dim> domain, PointList<Dim> points, EdgeList edges,
       const BindOptions& options);
 
   //! Solves, or resumes the last solve. A budget does not limit a cage with several parts.
@@ -61,36 +70,60 @@ class Rig {
   //! Of the last solve or set_solution(); without weights before.
   const Solution& solution() const { return solver_ ? solver_->solution() : solution_; }
 
-  //! Where the points are; empty before weights_of_points().
-  const Placement<Dim>& placement() const { return placement_; }
+  //! Where the points are.
+  const Placement<Dim>& placement() { return placed().placement; }
+
+  //! BindOptions::masks, at the points and in the mesh.
+  const PlacedMasks& masks() { return placed().masks; }
+
+  //! Evaluates weights of the points in another way than weights_at(), such as by
+  //! pointwise_coordinates().
+  //! \param evaluate  receives placement(), or the placement of mirror images
+  void set_evaluation(std::function<SparseWeights(const Placement<Dim>&)> evaluate);
 
   //! Weights of the points with all influences. They are kept until the solution or the model
   //! changes. Solves first if there is no solution.
   const SparseWeights& weights_of_points();
 
+  //! The same reduced by reduce_influences(), with BindOptions::masks and mirror_axis. Points
+  //! outside keep all weights of OutsidePoints::kExtend, because negative weights cannot be
+  //! reduced.
+  //! \param limits  without masks \param poses  Dim x n each, may be empty
+  SparseWeights reduced(const SparsifyOptions& limits,
+                        const std::vector<PointList<Dim>>& poses = {},
+                        Reduction reduction = Reduction::kPoisson);
+
   //! Weights of the points with BindOptions::max_influences each.
   Binding<Dim> bind();
 
  private:
+  // The points in the present cage.
+  struct Placed {
+    Placement<Dim> placement{};
+    std::optional<MirroredModel<Dim>> mirror{};  // of the placed points
+    PlacedMasks masks{};
+    double seconds = 0;
+  };
+
   Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindOptions& options);
 
-  const Placement<Dim>& placed();
-  PlacedMasks placed_masks(const PointList<Dim>& points, const Placement<Dim>& placement,
-                           const BindOptions& options) const;
-  SparseWeights reduced(const Placement<Dim>& placement, const SparseWeights& weights) const;
-  SparseWeights reduced_inside(const std::vector<Index>& outside);
+  void take(MadeDomain<Dim> domain);
+  const Placed& placed();
+  Placed place(const PointList<Dim>& points, const BindOptions& options) const;
+  void constrain(Placed& placed, const BindOptions& options) const;
+  SparseWeights evaluated(const Placement<Dim>& placement) const;
 
   Cage<Dim> cage_;
   DomainMesh<Dim> mesh_{};
-  PointList<Dim> points_;
+  PointList<Dim> points_;  // none for those of the mesh
   EdgeList edges_;
   BindOptions options_;
   BindReport report_{};
   std::unique_ptr<Solver<Dim>> solver_{};  // none for several parts, or before the first solve()
   Solution solution_{};                    // without a Solver
-  PlacedMasks masks_{};
-  Placement<Dim> placement_{};
-  SparseWeights weights_{};  // at the placed points
+  std::function<SparseWeights(const Placement<Dim>&)> evaluate_{};
+  std::optional<Placed> placed_{};  // none after reshape()
+  SparseWeights weights_{};         // at the placed points
 };
 
 }  // namespace flbc

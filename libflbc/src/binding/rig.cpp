@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/rig.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -26,8 +25,12 @@ void require_valid(const BindOptions& options) {
 }
 
 template <int Dim>
-void require_model(const PointList<Dim>& points, const EdgeList& edges) {
+void require_points(const PointList<Dim>& points) {
   if (points.cols() == 0) throw InputError("the model has no vertices");
+}
+
+template <int Dim>
+void require_model(const PointList<Dim>& points, const EdgeList& edges) {
   check_finite<Dim>(points);
   validate(edges, points.cols());
 }
@@ -51,12 +54,15 @@ PointList<Dim> offsets_of(const PointList<Dim>& points, const Placement<Dim>& pl
   return offsets;
 }
 
-// With the images of masks if weights are mirrored.
+// Masks of the vertices of the mesh.
 template <int Dim>
-std::vector<Mask> masks_of(const Cage<Dim>& cage, const PointList<Dim>& points,
-                           const BindOptions& options) {
-  if (options.mirror_axis < 0) return options.masks;
-  return MirroredModel<Dim>(cage, options.mirror_axis, points).symmetrized(options.masks);
+PlacedMasks masks_of_mesh(const Cage<Dim>& cage, const PointList<Dim>& vertices,
+                          const std::vector<Mask>& masks) {
+  PlacedMasks placed;
+  placed.of_mesh = placed.of_points = end_at_facets(cage, vertices, masks, &placed.on_facets);
+  const auto count = static_cast<Index>(vertices.cols());
+  placed.masked = static_cast<Index>(PointMasks(masks, cage.size(), count).points().size());
+  return placed;
 }
 
 // The masks of a model join those that the caller gave for the mesh.
@@ -77,59 +83,95 @@ Rig<Dim>::Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindO
   require_model<Dim>(points_, edges_);
   require_valid<Dim>(options_);
   validate(cage_);
-  require_inside(cage_, points_, options_);  // before a mesher starts
 }
 
 template <int Dim>
 Rig<Dim>::Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindOptions& options,
               const Meshers<Dim>& meshers)
     : Rig(std::move(cage), std::move(points), std::move(edges), options) {
+  require_points<Dim>(points_);
+  require_inside(cage_, points_, options_);  // before a mesher starts
   const ThreadScope threads(options_.solver.threads);
   const Stopwatch watch;
   MeshingOptions<Dim> meshing;
   meshing.vertices = options_.vertices;
   meshing.poll = options_.observer.poll;
   auto made = make_domain(cage_, meshing, meshers);
-  mesh_ = std::move(made.mesh);
-  report_.mesher = std::move(made.mesher);
-  report_.note = std::move(made.note);
   report_.mesh_seconds = watch.seconds();
-  if (!options_.masks.empty()) masks_ = placed_masks(points_, placed(), options_);
+  take(std::move(made));
 }
 
 template <int Dim>
 Rig<Dim>::Rig(Cage<Dim> cage, DomainMesh<Dim> domain, PointList<Dim> points, EdgeList edges,
               const BindOptions& options)
     : Rig(std::move(cage), std::move(points), std::move(edges), options) {
-  mesh_ = std::move(domain);
-  normalize_and_validate(mesh_);
-  if (!options_.masks.empty()) masks_ = placed_masks(points_, placed(), options_);
+  require_points<Dim>(points_);
+  normalize_and_validate(domain);
+  take({std::move(domain)});
 }
 
 template <int Dim>
-const Placement<Dim>& Rig<Dim>::placed() {
-  if (placement_.points.cols() != points_.cols()) {
-    const ThreadScope threads(options_.solver.threads);
-    placement_ = place_points(cage(), mesh(), points_, options_.outside);
+Rig<Dim>::Rig(Cage<Dim> cage, MadeDomain<Dim> domain, PointList<Dim> points, EdgeList edges,
+              const BindOptions& options)
+    : Rig(std::move(cage), std::move(points), std::move(edges), options) {
+  take(std::move(domain));
+}
+
+template <int Dim>
+void Rig<Dim>::take(MadeDomain<Dim> domain) {
+  mesh_ = std::move(domain.mesh);
+  report_.mesher = std::move(domain.mesher);
+  report_.note = std::move(domain.note);
+  placed();
+}
+
+template <int Dim>
+const typename Rig<Dim>::Placed& Rig<Dim>::placed() {
+  if (!placed_) placed_ = place(points_, options_);
+  return *placed_;
+}
+
+template <int Dim>
+typename Rig<Dim>::Placed Rig<Dim>::place(const PointList<Dim>& points,
+                                          const BindOptions& options) const {
+  const ThreadScope threads(options.solver.threads);
+  const Stopwatch watch;
+  Placed placed;
+  if (points.cols() > 0) {
+    placed.placement = place_points(cage(), mesh(), points, options.outside);
+  } else {
+    placed.placement.points = mesh().points;
   }
-  return placement_;
+  constrain(placed, options);
+  placed.seconds = watch.seconds();
+  return placed;
 }
 
 template <int Dim>
-PlacedMasks Rig<Dim>::placed_masks(const PointList<Dim>& points, const Placement<Dim>& placement,
-                                   const BindOptions& options) const {
-  return place_masks(cage(), mesh(), placement, masks_of(cage(), points, options));
+void Rig<Dim>::constrain(Placed& placed, const BindOptions& options) const {
+  const auto& points = placed.placement.points;
+  placed.mirror.reset();
+  if (options.mirror_axis >= 0) placed.mirror.emplace(cage(), options.mirror_axis, points);
+  if (options.masks.empty()) {
+    placed.masks = {};
+    return;
+  }
+  const auto masks = placed.mirror ? placed.mirror->symmetrized(options.masks) : options.masks;
+  placed.masks = placed.placement.places.empty()
+                     ? masks_of_mesh(cage(), points, masks)
+                     : place_masks(cage(), mesh(), placed.placement, masks);
 }
 
 template <int Dim>
 const Solution& Rig<Dim>::solve(const Budget& budget) {
+  const auto& masks = placed().masks;
   const Stopwatch watch;
   if (cage_parts(cage_).size() > 1) {
-    solution_ = flbc::solve(cage_, mesh_, solver_options(options_, masks_), options_.observer);
+    solution_ = flbc::solve(cage_, mesh_, solver_options(options_, masks), options_.observer);
   } else if (solver_) {
     solver_->solve(budget, options_.observer);
   } else {
-    auto solver = std::make_unique<Solver<Dim>>(cage_, mesh_, solver_options(options_, masks_),
+    auto solver = std::make_unique<Solver<Dim>>(cage_, mesh_, solver_options(options_, masks),
                                                 options_.observer);
     solver->solve(budget, options_.observer);
     solver_ = std::move(solver);
@@ -162,24 +204,20 @@ const Solution& Rig<Dim>::reshape(const PointList<Dim>& control_points, const Bu
   require_inside(moved, points_, options_);
   if (!solver_) solve();
   solver_->move(control_points, budget, options_.observer);
-  placement_ = {};
+  placed_.reset();
   weights_ = {};
   return solution();
 }
 
 template <int Dim>
 void Rig<Dim>::set_model(PointList<Dim> points, EdgeList edges) {
+  require_points<Dim>(points);
   require_model<Dim>(points, edges);
-  require_inside(cage(), points, options_);
-  Placement<Dim> placement;
-  if (!options_.masks.empty()) {
-    const ThreadScope threads(options_.solver.threads);
-    placement = place_points(cage(), mesh(), points, options_.outside);
-    auto masks = placed_masks(points, placement, options_);
-    if (solver_) solver_->set_options(solver_options(options_, masks));
-    masks_ = std::move(masks);
+  auto placed = place(points, options_);
+  if (solver_ && !options_.masks.empty()) {
+    solver_->set_options(solver_options(options_, placed.masks));
   }
-  placement_ = std::move(placement);
+  placed_ = std::move(placed);
   points_ = std::move(points);
   edges_ = std::move(edges);
   weights_ = {};
@@ -188,98 +226,118 @@ void Rig<Dim>::set_model(PointList<Dim> points, EdgeList edges) {
 template <int Dim>
 void Rig<Dim>::set_options(const BindOptions& options) {
   require_valid<Dim>(options);
-  const bool moves = options.outside != options_.outside;
-  if (moves) require_inside(cage(), points_, options);
-  Placement<Dim> placement;
-  PlacedMasks masks;
-  if (!options.masks.empty()) {
-    const ThreadScope threads(options.solver.threads);
-    if (moves) placement = place_points(cage(), mesh(), points_, options.outside);
-    masks = placed_masks(points_, moves ? placement : placed(), options);
+  std::optional<Placed> changed;
+  if (options.outside != options_.outside) {
+    changed = place(points_, options);
+  } else if (options.masks != options_.masks || options.mirror_axis != options_.mirror_axis) {
+    changed = placed();
+    constrain(*changed, options);
   }
-  if (solver_) solver_->set_options(solver_options(options, masks));
-  if (moves) placement_ = std::move(placement);
-  if (moves || options.masks != options_.masks || options.mirror_axis != options_.mirror_axis) {
-    weights_ = {};
+  if (solver_) {
+    const auto& masks = changed ? changed->masks : placed().masks;
+    solver_->set_options(solver_options(options, masks));
   }
-  masks_ = std::move(masks);
   options_ = options;
+  if (!changed) return;
+  placed_ = std::move(changed);
+  weights_ = {};
+}
+
+template <int Dim>
+void Rig<Dim>::set_evaluation(std::function<SparseWeights(const Placement<Dim>&)> evaluate) {
+  evaluate_ = std::move(evaluate);
+  weights_ = {};
+}
+
+template <int Dim>
+SparseWeights Rig<Dim>::evaluated(const Placement<Dim>& placement) const {
+  if (evaluate_) return evaluate_(placement);
+  return weights_at(cage(), mesh(), solution().weights, placement);
 }
 
 template <int Dim>
 const SparseWeights& Rig<Dim>::weights_of_points() {
-  if (weights_.num_points() == points_.cols()) return weights_;
+  if (weights_.num_points() > 0) return weights_;
   if (solution().weights.num_points() == 0) solve();
+  if (points_.cols() == 0) return solution().weights;
   const ThreadScope threads(options_.solver.threads);
+  const auto& [placement, mirror, masks, seconds] = placed();
   const Stopwatch watch;
-  const auto weights_in = [&](const Placement<Dim>& placement) {
-    return weights_at(cage(), mesh(), solution().weights, placement);
-  };
-  auto weights = weights_in(placed());
-  if (!options_.masks.empty()) {  // the cage may have moved
-    masks_ = placed_masks(points_, placement_, options_);
+  auto weights = evaluated(placement);
+  if (masks.masked > 0) weights = enforce_masks(cage(), placement, weights, masks);
+  if (mirror) {
+    weights = mirror->symmetrized(weights, [&](const PointList<Dim>& points) {
+      return evaluated(place_points(cage(), mesh(), points, options_.outside));
+    });
+    // At points without an image.
+    if (masks.masked > 0) weights = enforce_masks(cage(), placement, weights, masks);
   }
-  weights_ = enforce_locality<Dim>(
-      cage(), placement_, std::move(weights), masks_, options_.mirror_axis,
-      [&](const PointList<Dim>& points) {
-        return weights_in(place_points(cage(), mesh(), points, options_.outside));
-      });
-  report_.evaluate_seconds = watch.seconds();
+  weights_ = std::move(weights);
+  report_.evaluate_seconds = seconds + watch.seconds();
   return weights_;
 }
 
 template <int Dim>
-SparseWeights Rig<Dim>::reduced(const Placement<Dim>& placement,
-                                const SparseWeights& weights) const {
-  const auto reduce = [&](const ModelPart<Dim>& part, Index most) {
-    SparsifyOptions few{most};
+SparseWeights Rig<Dim>::reduced(const SparsifyOptions& limits,
+                                const std::vector<PointList<Dim>>& poses, Reduction reduction) {
+  const ThreadScope threads(options_.solver.threads);
+  const auto& weights = weights_of_points();
+  const auto& [placement, mirror, masks, seconds] = placed();
+  const auto reduce_part = [&](const ModelPart<Dim>& part, Index most) {
+    auto few = limits;
+    few.max_influences = most;
     few.masks = part.masks;
-    const auto& observer = options_.observer;
-    if (observer.poll) few.progress = [&](double) { observer.poll(); };
-    return reduce_influences<Dim>(cage().points, part.points, part.edges, part.weights, {}, few,
-                                  options_.reduction);
+    return reduce_influences<Dim>(cage().points, part.points, part.edges, part.weights, poses, few,
+                                  reduction);
   };
-  const ModelPart<Dim> model{placement.points, edges_, weights, masks_.of_points};
-  const Index most = options_.max_influences;
-  if (options_.mirror_axis < 0) return reduce(model, most);
-  return MirroredModel<Dim>(cage(), options_.mirror_axis, placement.points)
-      .reduced(model, most, reduce);
-}
-
-// Points outside keep the weights of an extension: negative weights cannot be reduced.
-template <int Dim>
-SparseWeights Rig<Dim>::reduced_inside(const std::vector<Index>& outside) {
+  const auto reduce = [&, &masks = masks](const PointList<Dim>& points, const SparseWeights& given,
+                                          const std::optional<MirroredModel<Dim>>& image) {
+    const ModelPart<Dim> model{points, points_.cols() > 0 ? edges_ : edges_of_cells(mesh()), given,
+                               masks.of_points};
+    const Index most = limits.max_influences;
+    return image ? image->reduced(model, most, reduce_part) : reduce_part(model, most);
+  };
+  const auto& outside = placement.outside;
+  if (outside.empty() || options_.outside != OutsidePoints::kExtend) {
+    return reduce(placement.points, weights, mirror);
+  }
   const auto nearest = place_points(cage(), mesh(), points_, OutsidePoints::kNearest);
-  const auto inside = reduced(nearest, weights_at(cage(), mesh(), solution().weights, nearest));
-  return SparseWeights::of(
-      inside.num_control_points(), inside.num_points(), [&](Index point) -> Eigen::VectorXd {
-        const bool is_outside = std::binary_search(outside.begin(), outside.end(), point);
-        return is_outside ? weights_.at(point) : inside.at(point);
-      });
+  std::optional<MirroredModel<Dim>> image;
+  if (mirror) image.emplace(cage(), options_.mirror_axis, nearest.points);
+  const auto inside = reduce(nearest.points, evaluated(nearest), image);
+  std::vector<bool> is_outside(inside.num_points(), false);
+  for (const auto& vertex : outside) is_outside[vertex.point] = true;
+  return SparseWeights::of(inside.num_control_points(), inside.num_points(),
+                           [&](Index point) -> Eigen::VectorXd {
+                             return is_outside[point] ? weights.at(point) : inside.at(point);
+                           });
 }
 
 template <int Dim>
 Binding<Dim> Rig<Dim>::bind() {
   const ThreadScope threads(options_.solver.threads);
-  weights_of_points();
+  const auto& weights = weights_of_points();
+  const auto& placement = placed().placement;
   Binding<Dim> binding;
-  for (const auto& vertex : placement_.outside) binding.outside.push_back(vertex.point);
-  binding.offsets = offsets_of(points_, placement_);
+  for (const auto& vertex : placement.outside) binding.outside.push_back(vertex.point);
+  binding.offsets = offsets_of(points_, placement);
   Stopwatch watch;
-  const bool extends = !binding.outside.empty() && options_.outside == OutsidePoints::kExtend;
   if (options_.max_influences == 0) {
-    binding.weights = weights_;
+    binding.weights = weights;
   } else {
-    binding.weights = extends ? reduced_inside(binding.outside) : reduced(placement_, weights_);
+    SparsifyOptions limits{options_.max_influences};
+    const auto& observer = options_.observer;
+    if (observer.poll) limits.progress = [&](double) { observer.poll(); };
+    binding.weights = reduced(limits, {}, options_.reduction);
   }
   auto& report = binding.report = report_;
-  if (const auto note = masks_.note(); !note.empty()) {
+  if (const auto note = placed().masks.note(); !note.empty()) {
     report.note += (report.note.empty() ? "" : "; ") + note;
   }
   report.sparsify_seconds = watch.lap();
   report.solve = solution().report;
   report.outside = static_cast<Index>(binding.outside.size());
-  report.quality = measure_quality<Dim>(cage().points, placement_.points, binding.weights);
+  report.quality = measure_quality<Dim>(cage().points, placement.points, binding.weights);
   return binding;
 }
 

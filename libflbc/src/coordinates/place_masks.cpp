@@ -10,7 +10,6 @@
 #include "cage/facet_locator.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
-#include "flbc/mirror.h"
 #include "flbc/non_negative.h"
 #include "linear/dense.h"
 #include "polytope/mask_conflicts.h"
@@ -202,23 +201,8 @@ SparseWeights enforce_masks(const Cage<Dim>& cage, const Placement<Dim>& placeme
   });
 }
 
-template <int Dim>
-SparseWeights enforce_locality(const Cage<Dim>& cage, const Placement<Dim>& placement,
-                               SparseWeights weights, const PlacedMasks& masks, int mirror_axis,
-                               const std::function<SparseWeights(const PointList<Dim>&)>& at) {
-  const auto enforce = [&] {
-    if (masks.masked > 0) weights = enforce_masks(cage, placement, weights, masks);
-  };
-  enforce();
-  if (mirror_axis < 0) return weights;
-  weights = MirroredModel<Dim>(cage, mirror_axis, placement.points).symmetrized(weights, at);
-  enforce();  // at points without an image
-  return weights;
-}
-
 FLBC_INSTANTIATE_FUNCTION(end_at_facets)
 FLBC_INSTANTIATE_FUNCTION(place_masks)
 FLBC_INSTANTIATE_FUNCTION(enforce_masks)
-FLBC_INSTANTIATE_FUNCTION(enforce_locality)
 
 }  // namespace flbc

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "flbc/cage.h"
+#include "flbc/errors.h"
 
 namespace flbc {
 
@@ -18,6 +20,17 @@ enum class CageSymmetry {
   kAuto  //!< such a plane if the model vertices are symmetric about it within 1% of model size
 };
 
+//! The names of CageSymmetry, in its order.
+constexpr const char* kSymmetryNames[] = {"none", "x", "y", "z", "auto"};
+
+//! \throws OptionError if the name is unknown
+inline CageSymmetry symmetry_named(const std::string& name) {
+  for (int k = 0; k < 5; ++k) {
+    if (name == kSymmetryNames[k]) return static_cast<CageSymmetry>(k);
+  }
+  throw OptionError("symmetry must be one of none, x, y, z, auto, not " + name);
+}
+
 //! Steps of cage_from_model(), in this order.
 enum class CagingStage {
   kSimplify,  //!< large models only
@@ -25,6 +38,12 @@ enum class CagingStage {
   kReduce,  //!< collapses edges of the wrap
   kCheck
 };
+
+inline const char* name_of(CagingStage stage) {
+  constexpr const char* kNames[] = {"simplifying the model", "wrapping the model",
+                                    "reducing control points", "checking the cage"};
+  return kNames[static_cast<int>(stage)];
+}
 
 //! Options of cage_from_model().
 struct CagingOptions {

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The options of commands for poses of the cage.
+#pragma once
+
+#include <array>
+
+#include <CLI/CLI.hpp>
+
+#include "help/options.h"
+#include "poses/poses.h"
+
+namespace flbc::app {
+
+//! Adds --pose and --keyframes. \return both
+inline std::array<CLI::Option*, 2> add_pose_options(CLI::App& command, PoseArguments& poses) {
+  auto* cages = command.add_option(
+      "--pose", poses.cages, "deformed cage: one or more files, or a pattern such as pose_%d.obj");
+  auto* keyframes = command.add_option("--keyframes", poses.keyframes,
+                                       "poses as displacements of the cage, with times in seconds");
+  return {cages, keyframes->excludes(cages)};
+}
+
+//! Adds --fps. \param cages  --pose
+inline CLI::Option* add_rate_option(CLI::App& command, PoseArguments& poses, CLI::Option* cages) {
+  return command
+      .add_option("--fps", poses.frames_per_second,
+                  "poses of --pose per second (default: 24, or 1 for one pose, from rest)")
+      ->check(in_range(1e-3, 1e6))
+      ->needs(cages);
+}
+
+}  // namespace flbc::app
