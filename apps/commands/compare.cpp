@@ -18,17 +18,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kTable = "table.txt";
 constexpr const char* kComparisonPage = "index.html";
 
 template <int Dim>
 std::vector<std::string> names_of_results(const CompareArguments& arguments,
                                           const std::vector<Column<Dim>>& columns) {
   auto names = names_of_grids(arguments);
-  names.insert(names.end(), {domain_file<Dim>(), kTable, kComparisonPage, kComparisonReport});
-  for (const auto& column : columns) {
-    names.insert(names.end(), {column.weights_file(), column.page_file()});
-  }
+  names.insert(names.end(), {domain_file<Dim>(), kComparisonPage, kComparisonReport});
+  for (const auto& column : columns) names.push_back(column.weights_file());
   return names;
 }
 
@@ -82,14 +79,11 @@ int compare_in(const Cage<Dim>& cage, const CompareArguments& arguments) {
   load_shape_and_pose(all);
   solve_columns(all);
   const auto pictures = draw_grids(all);
-  write_viewers(all);
-  const auto table = comparison_text(all);
-  folder.add_text(kTable, "the table", table);
-  folder.add_text(kComparisonPage, "open in a browser: table, pictures, and dragging",
+  folder.add_text(kComparisonPage, "open in a browser: table and pictures",
                   comparison_page(all, pictures));
   auto report = report_of(all);
   folder.add_report(report, "the table for programs");
-  if (!arguments.quiet) std::cerr << table;
+  if (!arguments.quiet) std::cerr << comparison_text(all);
   return kDone;
 }
 
@@ -101,11 +95,11 @@ void add_compare_command(CLI::App& app, int& exit_status) {
   auto* command =
       app.add_subcommand("compare", "compare several kinds of coordinates of the same cage");
   command->footer(
-      "OUTDIR receives a table (table.txt, table.json), pictures of one coordinate function and "
-      "of\n"
-      "the pose by all methods, weights, and index.html, a page with all of these in which the\n"
-      "cage can be moved. A method that fails is listed with the reason; the others continue.\n"
-      "Green coordinates also need normals, so they have neither a file of weights nor a page.");
+      "OUTDIR receives a table (table.json), pictures of one coordinate function and of the pose\n"
+      "by all methods, weights, and index.html, a page with the table and the pictures. A method\n"
+      "that fails is listed with the reason; the others continue. Green coordinates also need\n"
+      "normals, so they have no file of weights. flbc view draws a page in which the cage can be\n"
+      "moved by the weights of a method.");
   command->add_option("CAGE", a.cage, "closed polylines (2D) or surface (3D)")->required();
   command->add_option("MODEL", a.model,
                       "model inside the cage (default: the mesh of the cage interior)");

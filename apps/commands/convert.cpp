@@ -56,9 +56,7 @@ void check_arguments(const ConvertArguments& files) {
   } else {
     check_mesh_arguments(files);
   }
-  auto inputs = files_of_model(files.input);
-  inputs.insert(inputs.end(), {files.cage, files.points});
-  for (const auto& output : files_of_model(files.output)) require_distinct(inputs, {output});
+  require_distinct({files.input, files.cage, files.points}, {files.output});
 }
 
 SparseWeights load_weights(const ConvertArguments& files) {
@@ -110,12 +108,10 @@ void add_convert_command(CLI::App& app, int&) {
   auto* command =
       app.add_subcommand("convert", "convert weights, a mesh, or a model to another format");
   command->footer(
-      "Weights: .mtx, .dmat, .npy, .csv. Conversions between them are lossless. Also .lbw,\n"
-      "for graphics cards: single precision, at most 8 influences per vertex (flbc sparsify -k "
-      "8).\n"
-      "Models: .obj, .off, .ply, .stl, .om, .glb; .gltf is only read. Meshes: 2D .obj, .off,\n"
-      ".vtu; 3D .mesh, .node, .ele, .msh, .vtu. The program reports attributes that the new "
-      "format\n"
+      "Weights: .mtx, .npy, .csv. Conversions between them are lossless. Also .lbw, for graphics\n"
+      "cards: single precision, at most 8 influences per vertex (flbc sparsify -k 8).\n"
+      "Models: .obj, .off, .ply, .stl, .glb; .gltf is only read. Meshes: 2D .obj, .off; 3D\n"
+      ".mesh, .msh; .vtu is only written. The program reports attributes that the new format\n"
       "does not support. A .ply or .stl result is a text file if the input is.");
   command->add_option("IN", a.input, "file to convert")->required();
   command->add_option("-o,--output", a.output, "converted file, of the same kind as IN")

@@ -108,18 +108,15 @@ void check_arguments(const DeformArguments& arguments) {
 // No result may replace a file that is read, nor the other result.
 void check_outputs(const DeformArguments& arguments, const CageFiles& cages,
                    const std::vector<std::string>& outputs) {
-  auto inputs = files_of_model(arguments.file.model);
-  inputs.insert(inputs.end(),
-                {arguments.weights, arguments.poses.keyframes, arguments.rest, arguments.domain});
+  std::vector<std::string> inputs{arguments.file.model, arguments.weights,
+                                  arguments.poses.keyframes, arguments.rest, arguments.domain};
   inputs.insert(inputs.end(), cages.paths.begin(), cages.paths.end());
   require_distinct(inputs, {arguments.displacement});
   for (const auto& output : outputs) {
-    for (const auto& file : files_of_model(output)) {
-      // A file that is not there yet is no input. A sequence would take long otherwise.
-      std::error_code error;
-      if (!std::filesystem::exists(file, error)) continue;
-      require_distinct(inputs, {file, arguments.displacement});
-    }
+    // A file that is not there yet is no input. A sequence would take long otherwise.
+    std::error_code error;
+    if (!std::filesystem::exists(output, error)) continue;
+    require_distinct(inputs, {output, arguments.displacement});
   }
 }
 
@@ -222,9 +219,7 @@ class NewFiles {
   // To be called before a file is written.
   void expect(const std::string& path) {
     std::error_code ignored;
-    for (const auto& file : files_of_model(path)) {
-      if (!std::filesystem::exists(file, ignored)) paths_.push_back(file);
-    }
+    if (!std::filesystem::exists(path, ignored)) paths_.push_back(path);
   }
   void keep() { paths_.clear(); }
 
@@ -377,9 +372,8 @@ void add_deform_command(CLI::App& app, int&) {
       "Another format receives the polygons, colors, normals, and texture coordinates that it\n"
       "supports. The program reports those that are lost.\n"
       "The results of a sequence have the numbers of --pose pose_%d.obj, or count from 0.\n"
-      "Points (.npy), binary .ply files without normals, and .vtu files with raw appended points\n"
-      "may be of any size, with --domain: they are moved in batches, and everything in the file\n"
-      "except coordinates stays the same.\n"
+      "Points (.npy) and binary .ply files without normals may be of any size, with --domain.\n"
+      "They are moved in batches, and everything in the file except coordinates stays the same.\n"
       "Keyframes are text: 'k TIME' starts a keyframe, and 'c KEYFRAME DX DY DZ' is the\n"
       "displacement of a control point from rest, in the order of the control points.\n"
       "\n"
@@ -388,8 +382,8 @@ void add_deform_command(CLI::App& app, int&) {
       "  flbc deform model.obj --method green --rest cage.obj --pose pose.obj -o green.obj");
   command
       ->add_option("MODEL", a.file.model,
-                   "model (.obj .off .ply .stl .om .glb), domain mesh (.vtu; 3D: .mesh .node .ele "
-                   ".msh), or points (.npy .csv)")
+                   "model (.obj .off .ply .stl .glb), domain mesh (3D: .mesh .msh), or points "
+                   "(.npy .csv)")
       ->required();
   auto* weights = command->add_option("--weights", a.weights, describe_weight_file());
   auto* method =
@@ -423,9 +417,9 @@ void add_deform_command(CLI::App& app, int&) {
                    "deformed model or mesh; for several poses, a pattern such as out_%03d.obj")
       ->required();
   command->add_option("--displacement", a.displacement,
-                      "write displacement lengths, one column per pose: .npy, .dmat, .mtx, .csv");
+                      "write displacement lengths, one column per pose: .npy, .mtx, .csv");
   command->add_flag("--show-displacement", a.file.shows_displacement,
-                    "write displacement lengths as vertex colors, or as a field in .vtu and .mesh");
+                    "write displacement lengths as vertex colors, or as a field in .vtu");
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc draw: coordinate functions and deformations as pictures.
-#include <filesystem>
 #include <memory>
 #include <numeric>
 
@@ -25,7 +24,6 @@ struct DrawArguments {
   std::string weights;
   std::string cage;
   std::string pose;
-  std::string compared;  // other weights of the same vertices
   std::string output;
   std::string color;
   ModelView view;
@@ -52,23 +50,6 @@ std::vector<Index> all_of(Index count) {
   std::vector<Index> control_points(count);
   std::iota(control_points.begin(), control_points.end(), 0);
   return control_points;
-}
-
-std::string stem_of(const std::string& path) {
-  return std::filesystem::path(path).stem().string();
-}
-
-// Weights of --compare, for the same vertices as those drawn.
-SparseWeights load_compared(Eigen::Index control_points, Eigen::Index points,
-                            const DrawArguments& arguments) {
-  auto others = io::read_weights(arguments.compared);
-  check_sizes(others, control_points, points,
-              {arguments.compared, arguments.cage, arguments.model});
-  return others;
-}
-
-std::array<std::string, 2> names_of_compared(const DrawArguments& arguments) {
-  return {stem_of(arguments.weights), stem_of(arguments.compared)};
 }
 
 // A model at rest and, with a pose, also there.
@@ -107,11 +88,6 @@ std::string picture(const Cage<2>& cage, const DrawArguments& arguments) {
     return draw::draw_all(cage, shape, weights.dense(), all_of(cage.size()), arguments.options);
   }
   const auto values = weights.of_control_point(i);
-  if (!arguments.compared.empty()) {
-    const auto others = load_compared(cage.size(), shape.num_vertices(), arguments);
-    return draw::draw_comparison(cage, shape, values, others.of_control_point(i),
-                                 names_of_compared(arguments), i, arguments.options);
-  }
   if (arguments.pose.empty()) return draw::draw_weights(cage, shape, values, i, arguments.options);
   return draw::draw_deformation(cage.facets, shape.cells, {cage.points, shape.points},
                                 {posed.pose, posed.moved}, has_squares ? Eigen::VectorXd() : values,
@@ -135,13 +111,6 @@ std::string picture(const Cage<3>& cage, const DrawArguments& arguments) {
   if (arguments.all) {
     return draw::draw_model_sheet(model, places[0], posed.weights.dense(), view, arguments.options);
   }
-  if (!arguments.compared.empty()) {
-    const auto others = load_compared(cage.size(), posed.model.points.cols(), arguments);
-    const Index i = arguments.control_point;
-    return draw::draw_model_comparison(model, places[0], posed.weights.of_control_point(i),
-                                       others.of_control_point(i), names_of_compared(arguments), i,
-                                       view, arguments.options);
-  }
   if (posed.moved.cols() > 0) places.push_back({posed.pose, posed.moved});
   return draw::draw_model(model, places, shown_values(posed, arguments), view, arguments.options);
 }
@@ -158,26 +127,19 @@ void add_options(CLI::App& command, DrawArguments& a) {
   command.add_option("--model", a.model)->excludes(model)->group("");  // of earlier versions
   command.add_option("--weights", a.weights, "weights at the vertices")->required();
   command.add_option("--cage", a.cage, "cage of the weights")->required();
-  auto* compare = command.add_option("--compare", a.compared,
-                                     "other weights of the same vertices: draw both functions and "
-                                     "their difference");
   command.add_option("-o,--output", a.output, std::string("picture: ") + draw::kPictureExtensions)
       ->required();
   auto* point =
       command.add_option("--control-point", a.control_point,
                          "control point whose function is drawn, counted from 0 (default: 0)");
-  command.add_option("--pose", a.pose, "deformed cage: draw the model at rest and in this pose")
-      ->excludes(compare);
+  command.add_option("--pose", a.pose, "deformed cage: draw the model at rest and in this pose");
   add_choice(command, "--color", {kDisplacement, kWeight, kPlain}, a.color,
              "what the colors of the model show (default: weight, or plain with --pose)");
   add_view_options(command, a.view);
-  command.add_flag("--all", a.all, "draw all functions on one sheet")
-      ->excludes(point)
-      ->excludes(compare);
+  command.add_flag("--all", a.all, "draw all functions on one sheet")->excludes(point);
   command.add_option("--width", a.options.width, "width in pixels (default: 1200)");
   command.add_option("--isolines", a.options.isolines,
                      "number of isolines between 0 and 1 in 2D (default: 10)");
-  command.add_flag("--mesh", a.options.mesh_edges, "draw the edges of the mesh in 2D");
 }
 
 }  // namespace

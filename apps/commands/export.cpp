@@ -160,9 +160,8 @@ void write_vertex_groups(const Cage<Dim>& rest, const PointList<Dim>& points, co
 }
 
 void check_files(const ExportArguments& arguments, const CageFiles& poses) {
-  auto inputs = files_of_model(arguments.model);
-  inputs.insert(inputs.end(),
-                {arguments.weights, arguments.cage, arguments.poses.keyframes, arguments.locality});
+  std::vector<std::string> inputs{arguments.model, arguments.weights, arguments.cage,
+                                  arguments.poses.keyframes, arguments.locality};
   inputs.insert(inputs.end(), poses.paths.begin(), poses.paths.end());
   require_distinct(inputs, {arguments.output});
 }
@@ -270,10 +269,9 @@ void add_export_command(CLI::App& app, int&) {
       "  flbc export model.obj --weights few.mtx --cage cage.obj -o model.glb\n"
       "  flbc export model.obj --weights few.mtx --cage cage.obj --pose pose.obj -o posed.glb");
   command
-      ->add_option(
-          "MODEL", a.model,
-          "model (.obj .off .ply .stl .om .glb .gltf), or domain mesh (.vtu; 3D: .mesh .node .ele "
-          ".msh) whose boundary is exported")
+      ->add_option("MODEL", a.model,
+                   "model (.obj .off .ply .stl .glb .gltf), or domain mesh (3D: .mesh .msh) "
+                   "whose boundary is exported")
       ->required();
   command->add_option("--weights", a.weights, describe_weight_file())->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();

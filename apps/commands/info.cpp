@@ -2,7 +2,6 @@
 // flbc info: what is in a file.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iostream>
 #include <memory>
 
@@ -11,7 +10,6 @@
 #include "files/movable_model.h"
 #include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
-#include "flbc/io/point_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/meshing.h"
 #include "flbc/quality.h"
@@ -104,20 +102,6 @@ void print_cage(const Cage<Dim>& cage, const InfoArguments& arguments) {
   for (const auto& defect : defects) std::cout << "    " << defect.message << '\n';
 }
 
-// Points of a .vtu file that are moved in batches, because the file may be of any size.
-void print_appended_points(const std::string& path, const io::PointLayout& layout) {
-  PointList<3> box(3, 2);
-  std::ofstream nowhere;
-  io::rewrite_points<3>(path, layout, nowhere, [&](const PointList<3>& batch, std::int64_t first) {
-    const Vector<3> low = batch.rowwise().minCoeff(), high = batch.rowwise().maxCoeff();
-    box.col(0) = first == 0 ? low : Vector<3>(box.col(0).cwiseMin(low));
-    box.col(1) = first == 0 ? high : Vector<3>(box.col(1).cwiseMax(high));
-    return batch;
-  });
-  std::cout << path << ": " << layout.count << " points, appended to the file\n";
-  if (layout.count > 0) print_box(box);
-}
-
 void print_polygons(const InfoArguments& arguments) {
   const auto& path = arguments.path;
   const auto soup = io::read_polygons(path);
@@ -142,14 +126,8 @@ void print_info(const InfoArguments& arguments) {
   if (io::holds(path, {io::Content::kModel}) || !io::holds(path, kMeshFiles)) {
     return print_polygons(arguments);
   }
-  try {
-    std::visit([&](const auto& any) { print_domain(path, any.mesh()); },
-               load_any_model({path, path}));
-  } catch (const InputError&) {
-    const auto layout = io::find_point_layout(path);
-    if (!layout) throw;
-    print_appended_points(path, *layout);
-  }
+  std::visit([&](const auto& any) { print_domain(path, any.mesh()); },
+             load_any_model({path, path}));
 }
 
 }  // namespace

@@ -42,8 +42,7 @@ struct Column {
   nlohmann::ordered_json facts{};
 
   std::string weights_file() const { return "weights_" + name + ".npy"; }
-  std::string page_file() const { return "model_" + name + ".html"; }
-  //! Green coordinates have further weights, which files and pages have no room for.
+  //! Green coordinates have further weights, which files have no room for.
   bool has_normals() const { return settings.coordinates == Coordinates::kGreen; }
 };
 
@@ -89,11 +88,7 @@ void solve_columns(Comparison<Dim>& all);
 template <int Dim>
 std::vector<std::string> draw_grids(Comparison<Dim>& all);
 
-//! Writes a page for dragging by each method.
-template <int Dim>
-void write_viewers(Comparison<Dim>& all);
-
-//! The page that shows the table and the pictures, and switches between the pages for dragging.
+//! The page that shows the table and the pictures.
 //! \param pictures  names of files
 template <int Dim>
 std::string comparison_page(const Comparison<Dim>& all, const std::vector<std::string>& pictures);

@@ -77,31 +77,6 @@ void paint_bar(Canvas& canvas, const Box& bar, const ShownValues& shown, double 
                   shown.values.maxCoeff(), without_lines);
 }
 
-// Panels as draw_panels() has them. \param lines  their width, relative to that of labels
-std::string draw_in_rows(const DrawnModel& model, const std::vector<ModelPanel>& panels,
-                         Index control_point, const ObliqueView& view,
-                         const WeightPictureOptions& options, double lines) {
-  validate(options);
-  std::vector<ModelPlace> places;
-  for (const auto& panel : panels) {
-    places.push_back(panel.place);
-    check(model, {places.front(), panel.place}, {panel.values, control_point});
-  }
-  if (places.empty()) throw InputError("there is nothing to draw");
-  const Box content = common_box(places, view);
-  const auto sheet = plan_sheet(content, static_cast<int>(panels.size()), options);
-  Canvas canvas(sheet.width, sheet.height, options.format);
-  const double unit = std::max(0.6, 0.7 * pixel_unit(options));
-  for (std::size_t k = 0; k < panels.size(); ++k) {
-    const auto& [label, place, values] = panels[k];
-    const auto& frame = sheet.frames[k];
-    paint_model(canvas, {model, place, values, values.size() > 0 ? control_point : -1, view,
-                         PixelMap(content, frame), Vector<2>::Zero(), lines * unit});
-    paint_label(canvas, {frame.center().x(), frame.low.y()}, label, unit);
-  }
-  return canvas.encode();
-}
-
 }  // namespace
 
 std::string draw_model(const DrawnModel& model, const std::vector<ModelPlace>& places,
@@ -173,22 +148,29 @@ std::string draw_model_sheet(const DrawnModel& model, const ModelPlace& place,
   return canvas.encode();
 }
 
-std::string draw_model_comparison(const DrawnModel& model, const ModelPlace& place,
-                                  const Eigen::VectorXd& values, const Eigen::VectorXd& others,
-                                  const std::array<std::string, 2>& labels, Index control_point,
-                                  const ObliqueView& view, const WeightPictureOptions& options) {
-  check(model, {place}, {values, control_point});
-  check(model, {place}, {others, control_point});
-  const auto [shown, names] = compare_functions(values, others, labels);
-  std::vector<ModelPanel> panels;
-  for (int k = 0; k < 3; ++k) panels.push_back({names[k], place, shown[k]});
-  return draw_in_rows(model, panels, control_point, view, options, 1);
-}
-
 std::string draw_panels(const DrawnModel& model, const std::vector<ModelPanel>& panels,
                         Index control_point, const ObliqueView& view,
                         const WeightPictureOptions& options) {
-  return draw_in_rows(model, panels, control_point, view, options, 0.7);
+  constexpr double kLines = 0.7;  // width, relative to that of labels
+  validate(options);
+  std::vector<ModelPlace> places;
+  for (const auto& panel : panels) {
+    places.push_back(panel.place);
+    check(model, {places.front(), panel.place}, {panel.values, control_point});
+  }
+  if (places.empty()) throw InputError("there is nothing to draw");
+  const Box content = common_box(places, view);
+  const auto sheet = plan_sheet(content, static_cast<int>(panels.size()), options);
+  Canvas canvas(sheet.width, sheet.height, options.format);
+  const double unit = std::max(0.6, 0.7 * pixel_unit(options));
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    const auto& [label, place, values] = panels[k];
+    const auto& frame = sheet.frames[k];
+    paint_model(canvas, {model, place, values, values.size() > 0 ? control_point : -1, view,
+                         PixelMap(content, frame), Vector<2>::Zero(), kLines * unit});
+    paint_label(canvas, {frame.center().x(), frame.low.y()}, label, unit);
+  }
+  return canvas.encode();
 }
 
 }  // namespace flbc::draw

@@ -2,7 +2,6 @@
 // Pictures of a model in space and its cage, as the bytes of a file.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -30,14 +29,6 @@ std::string draw_model(const DrawnModel& model, const std::vector<ModelPlace>& p
 std::string draw_model_sheet(const DrawnModel& model, const ModelPlace& place,
                              const WeightMatrix& weights, const ObliqueView& view,
                              const WeightPictureOptions& options = {});
-
-//! Draws the model colored by a coordinate function, by another one, and by their difference.
-//! \param values, others  P each \param labels  names of both \throws as draw_model()
-std::string draw_model_comparison(const DrawnModel& model, const ModelPlace& place,
-                                  const Eigen::VectorXd& values, const Eigen::VectorXd& others,
-                                  const std::array<std::string, 2>& labels, Index control_point,
-                                  const ObliqueView& view,
-                                  const WeightPictureOptions& options = {});
 
 struct ModelPanel {
   std::string label;

@@ -19,7 +19,6 @@ struct WeightPictureOptions {
   int width = 1200;             //!< of the picture in pixels, 200 .. 6000; all sizes follow it
   int isolines = 10;            //!< lines at k / isolines between 0 and 1; 0 = none, up to 100
   double support_level = 1e-4;  //!< a gray line shows where the weight falls below; 0 = none
-  bool mesh_edges = false;      //!< show the edges of the domain mesh in 2D
   bool color_bar = true;        //!< explain the colors at the right side
   PictureFormat format = PictureFormat::kPng;
 };

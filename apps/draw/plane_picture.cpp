@@ -172,18 +172,6 @@ std::string draw_all(const Cage<2>& cage, const DomainMesh<2>& mesh, const Weigh
   return canvas.encode();
 }
 
-std::string draw_comparison(const Cage<2>& cage, const DomainMesh<2>& mesh,
-                            const Eigen::VectorXd& values, const Eigen::VectorXd& others,
-                            const std::array<std::string, 2>& labels, Index control_point,
-                            const WeightPictureOptions& options) {
-  check_weight(values, mesh.num_vertices(), control_point, cage.size());
-  check_weight(others, mesh.num_vertices(), control_point, cage.size());
-  const auto [shown, names] = compare_functions(values, others, labels);
-  std::vector<PlanePanel> panels;
-  for (int k = 0; k < 3; ++k) panels.push_back({names[k], {cage.points, mesh.points}, shown[k]});
-  return draw_panels(cage.facets, mesh.cells, panels, {}, control_point, options);
-}
-
 std::string draw_deformation(const FacetList<2>& facets, const CellList<2>& triangles,
                              const DrawnShape& before, const DrawnShape& after,
                              const Eigen::VectorXd& values, Index control_point,

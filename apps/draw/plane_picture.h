@@ -2,7 +2,6 @@
 // Pictures of coordinate functions and deformations in the plane, as the bytes of a file.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -28,16 +27,6 @@ std::string draw_weights(const Cage<2>& cage, const DomainMesh<2>& mesh,
 std::string draw_all(const Cage<2>& cage, const DomainMesh<2>& mesh, const WeightMatrix& weights,
                      const std::vector<Index>& control_points,
                      const WeightPictureOptions& options = {});
-
-//! Draws one coordinate function by two kinds of weights, and their absolute difference, for which
-//! the darkest color is its maximum.
-//! \param values, others  V
-//! \param labels  of the two
-//! \throws as draw_weights()
-std::string draw_comparison(const Cage<2>& cage, const DomainMesh<2>& mesh,
-                            const Eigen::VectorXd& values, const Eigen::VectorXd& others,
-                            const std::array<std::string, 2>& labels, Index control_point,
-                            const WeightPictureOptions& options = {});
 
 struct DrawnShape {
   PointList<2> control_points;  //!< 2 x n

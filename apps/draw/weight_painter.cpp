@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 #include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "draw/colormap.h"
@@ -18,7 +16,6 @@ namespace flbc::draw {
 namespace {
 
 constexpr Color kSupportLine{0.36F, 0.39F, 0.44F};
-constexpr Color kMeshEdge{0.25F, 0.28F, 0.33F};
 
 void fill_cells(Canvas& canvas, const PointList<2>& points, const CellList<2>& cells,
                 const Eigen::VectorXd& values) {
@@ -31,17 +28,6 @@ void fill_cells(Canvas& canvas, const PointList<2>& points, const CellList<2>& c
                 });
   }
   canvas.draw_raster(raster);
-}
-
-void draw_mesh_edges(Canvas& canvas, const PointList<2>& points, const CellList<2>& cells,
-                     double unit) {
-  std::set<std::pair<Index, Index>> edges;
-  for (const auto& v : cells.colwise()) {
-    for (int k = 0; k < 3; ++k) edges.insert(std::minmax({v[k], v[(k + 1) % 3]}));
-  }
-  std::vector<Segment> segments;
-  for (const auto& [a, b] : edges) segments.push_back({points.col(a), points.col(b)});
-  canvas.draw_segments(segments, 0.6 * unit, kMeshEdge, 0.35F);
 }
 
 void fill_box(Canvas& canvas, const Box& box, double value_at_bottom, double value_at_top) {
@@ -103,7 +89,6 @@ void paint_weight(Canvas& canvas, const PointList<2>& points, const CellList<2>&
   // Lines below a pixel's width would fade in small pictures.
   const double unit = std::max(0.6, pixel_unit(options));
   fill_cells(canvas, points, cells, values);
-  if (options.mesh_edges) draw_mesh_edges(canvas, points, cells, unit);
   if (options.support_level > 0) {
     canvas.draw_segments(trace_isolines(points, cells, values, {options.support_level}), 1.3 * unit,
                          kSupportLine);
@@ -168,17 +153,6 @@ void paint_length_bar(Canvas& canvas, const Box& box, double largest,
   canvas.draw_text({box.center().x() - text_width("d", height) / 2, box.low.y() - 26 * unit}, "d",
                    height, kInk);
   paint_scale(canvas, box, 0, {"0", short_number(largest / 2), short_number(largest)}, unit);
-}
-
-ComparedFunctions compare_functions(const Eigen::VectorXd& values, const Eigen::VectorXd& others,
-                                    const std::array<std::string, 2>& names) {
-  const Eigen::VectorXd difference = (values - others).cwiseAbs();
-  const double largest = difference.maxCoeff();
-  std::ostringstream label;
-  label.precision(2);
-  label << "difference, at most " << largest;
-  return {{values, others, difference / (largest > 0 ? largest : 1)},
-          {names[0], names[1], label.str()}};
 }
 
 void check_weight(const Eigen::VectorXd& values, Index num_vertices, Index control_point,

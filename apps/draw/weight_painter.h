@@ -3,7 +3,6 @@
 // positions and sizes are in pixels of the canvas.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -12,7 +11,7 @@
 
 namespace flbc::draw {
 
-//! Paints a function: its colors, its isolines and, if wanted, the edges of the mesh.
+//! Paints a function: its colors and its isolines.
 //! \param points  2 x V, \param values  V
 void paint_weight(Canvas& canvas, const PointList<2>& points, const CellList<2>& cells,
                   const Eigen::VectorXd& values, const WeightPictureOptions& options);
@@ -39,15 +38,6 @@ constexpr const char* kPoseLabel = "Pose";
 //! Writes a label above what it names. \param top  middle of its upper side \param unit  as
 //! pixel_unit()
 void paint_label(Canvas& canvas, const Vector<2>& top, const std::string& label, double unit);
-
-//! What a comparison of two functions shows: both, and their difference relative to its maximum.
-struct ComparedFunctions {
-  std::array<Eigen::VectorXd, 3> values;
-  std::array<std::string, 3> names;
-};
-
-ComparedFunctions compare_functions(const Eigen::VectorXd& values, const Eigen::VectorXd& others,
-                                    const std::array<std::string, 2>& names);
 
 //! \throws InputError if the values are not one finite number per vertex, OptionError if there is
 //! no such control point

@@ -8,9 +8,6 @@
 #include "files/load.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
-#ifdef FLBC_WITH_OPENMESH
-#include "flbc/openmesh/om_file.h"
-#endif
 
 namespace flbc::app {
 namespace {
@@ -19,7 +16,6 @@ using io::Content;
 using io::holds;
 
 constexpr std::initializer_list<Content> kShowing = {Content::kColors, Content::kFields};
-const char* const kField = "displacement";
 
 bool is_model_file(const std::string& path) {
   return holds(path, {Content::kModel});
@@ -44,20 +40,6 @@ PointList<3> colors_of(const Eigen::VectorXd& lengths, double largest) {
   return colors;
 }
 
-void set_field(std::vector<io::VertexField>& fields, const Eigen::VectorXd& values) {
-  const auto old = std::find_if(fields.begin(), fields.end(),
-                                [](const auto& field) { return field.name == kField; });
-  if (old != fields.end()) fields.erase(old);
-  fields.push_back({kField, values});
-}
-
-void save(const std::string& path, const io::Model& model) {
-#ifdef FLBC_WITH_OPENMESH
-  if (io::extension_of(path) == "om") return openmesh::write_om(path, model);
-#endif
-  io::write_model(path, model);
-}
-
 }  // namespace
 
 void require_mesh_readable(const std::string& path) {
@@ -68,11 +50,6 @@ void require_mesh_readable(const std::string& path) {
 
 void require_formats(const MovedFile& file) {
   require_mesh_readable(file.model);
-#ifndef FLBC_WITH_OPENMESH
-  if (io::extension_of(file.output) == "om" && !is_rewritten(file)) {
-    throw OptionError(file.output + ": this program was built without OpenMesh");
-  }
-#endif
   require_writable(file.output, kMeshFiles);
   if (file.shows_displacement && !holds(file.output, kShowing)) {
     throw OptionError(file.output +
@@ -106,14 +83,6 @@ void require_formats_of(const MovedFile& file) {
       (is_mesh && is_model ? ", or in .vtu" : ""));
 }
 
-std::vector<std::string> files_of_model(const std::string& path) {
-  const auto extension = io::extension_of(path);
-  const auto stem = path.substr(0, path.size() - extension.size());
-  if (extension == "node" || extension == "ele") return {path, stem + "node", stem + "ele"};
-  if (extension == "mesh") return {path, stem + "sol"};
-  return {path};
-}
-
 template <int Dim>
 MovableModel<Dim>::MovableModel(MovedFile file) : file_(std::move(file)) {
   const auto& path = file_.model;
@@ -140,11 +109,9 @@ MovableModel<Dim>::MovableModel(MovedFile file) : file_(std::move(file)) {
     }
     model_.reset();
   }
-  mesh_ = io::read_domain<Dim>(path, fields_);
+  mesh_ = io::read_domain<Dim>(path);
   points_ = mesh_.points;
-  if (holds(file_.output, {Content::kFields})) return;
-  for (const auto& field : fields_) losses_.push_back("field \"" + field.name + "\"");
-  if (Dim == 2) find_losses({io::to_polygons(mesh_)});
+  if (Dim == 2 && !holds(file_.output, {Content::kFields})) find_losses({io::to_polygons(mesh_)});
 }
 
 template <int Dim>
@@ -202,11 +169,10 @@ void MovableModel<Dim>::write(const std::string& path, const PointList<Dim>& poi
       model.attributes.colors = colors_of(lengths, largest);
       model.gltf.reset();  // its document has other colors
     }
-    return save(path, model);
+    return io::write_model(path, model);
   }
   std::vector<io::VertexField> fields;
-  if (holds(path, {Content::kFields})) fields = fields_;
-  if (file_.shows_displacement) set_field(fields, lengths);
+  if (file_.shows_displacement) fields.push_back({"displacement", lengths});
   io::write_domain<Dim>(path, {points, mesh_.cells}, fields);
 }
 
@@ -223,21 +189,7 @@ AnyModel load_any_model(const MovedFile& file) {
     if (holds(file.output, {Content::kMesh2D}) && !is_model_file(file.output)) return load(kPlane);
     return load(kSpace);
   }
-  // Only the cells of a .vtu file show its dimension, and so what it can become.
-  try {
-    MovableModel<2> model(file);
-    require_formats_of<2>(file);
-    return model;
-  } catch (const InputError& no_triangles) {
-    try {
-      MovableModel<3> model(file);
-      require_formats_of<3>(file);
-      return model;
-    } catch (const InputError& no_tetrahedra) {
-      throw InputError(path + ": neither a 2D mesh (" + no_triangles.what() + ") nor a 3D one (" +
-                       no_tetrahedra.what() + ")");
-    }
-  }
+  return MovableModel<2>(file);  // .vtu: refuses with the way out
 }
 
 Index count_vertices(const std::string& path) {

@@ -23,7 +23,7 @@ constexpr std::initializer_list<io::Content> kMeshFiles = {
 struct MovedFile {
   std::string model;                //!< that is read
   std::string output;               //!< that is written, maybe with a place for a number
-  bool shows_displacement = false;  //!< as colours, or as a field in .vtu and .mesh
+  bool shows_displacement = false;  //!< as colours, or as a field in .vtu
   bool is_anew = false;             //!< even into the format it has
 };
 
@@ -40,9 +40,6 @@ void require_formats_of(const MovedFile& file);
 
 //! Whether Gaussian splats become moved splats, which takes the Jacobians of the poses.
 bool moves_splats(const MovedFile& file);
-
-//! The file with those that lie beside it in some formats: .node and .ele, .mesh and .sol.
-std::vector<std::string> files_of_model(const std::string& path);
 
 //! A model or a mesh of the interior. Models are rewritten in place if the result has the same
 //! format and no new colours: then nothing is lost. All else is written anew.
@@ -90,14 +87,13 @@ class MovableModel {
   std::optional<io::ModelFile> model_;
   std::optional<io::SplatFile> splats_;
   DomainMesh<Dim> mesh_;
-  std::vector<io::VertexField> fields_;  // at its vertices
-  std::vector<std::string> losses_;      // a phrase each
+  std::vector<std::string> losses_;  // a phrase each
 };
 
 //! Either dimension. Models that remain models are taken for 3D ones, which loses nothing.
 using AnyModel = std::variant<MovableModel<2>, MovableModel<3>>;
 
-//! Reads a file whose dimension may follow only from its content, with the checks of
+//! Reads a file whose dimension may follow only from the result, with the checks of
 //! require_formats_of().
 //! \throws OptionError, IoError, InputError
 AnyModel load_any_model(const MovedFile& file);

@@ -39,7 +39,7 @@ def read_cage(path: Path) -> Cage:
     Parameters
     ----------
     path : str or path
-        .obj, .off, .ply, .stl, or .om.
+        .obj, .off, .ply, or .stl.
 
     Raises
     ------
@@ -54,7 +54,7 @@ def write_cage(path: Path, cage: CageLike) -> None:
     Parameters
     ----------
     path : str or path
-        .obj, and in 3D also .off, .ply, .stl, or .om.
+        .obj, and in 3D also .off, .ply, or .stl.
     cage : Cage, or what `Cage` accepts
 
     Raises
@@ -96,7 +96,7 @@ def read_model(path: Path, dim: Optional[int] = None) -> Model:
     Parameters
     ----------
     path : str or path
-        .obj, .off, .ply, .stl, or .om.
+        .obj, .off, .ply, or .stl.
     dim : int, optional
         Number of coordinates, 2 or 3. Default: 2 if all points have the same z.
 
@@ -126,7 +126,7 @@ def write_model(
     *,
     source: Optional[Path] = None,
 ) -> None:
-    """Writes a model: .obj, .off, .ply, .stl, or .om.
+    """Writes a model: .obj, .off, .ply, or .stl.
 
     Parameters
     ----------
@@ -151,34 +151,32 @@ def write_model(
     _core.write_model(str(path), points, polygons, as_polygons(None, "", 0))
 
 
-def read_mesh(path: Path, dim: Optional[int] = None) -> DomainMesh:
+def read_mesh(path: Path) -> DomainMesh:
     """Reads a domain mesh.
 
     Parameters
     ----------
     path : str or path
-        2D: .obj, .off, .vtu. 3D: MEDIT .mesh, TetGen .node or .ele, Gmsh .msh, .vtu.
-    dim : int, optional
-        For .vtu; default: by its cells.
+        2D: .obj, .off. 3D: MEDIT .mesh, Gmsh .msh.
 
     Raises
     ------
     IoError, InputError
     """
-    return mesh_from(_core.read_mesh(str(path), dim or 0))
+    return mesh_from(_core.read_mesh(str(path)))
 
 
 def write_mesh(
     path: Path, mesh: DomainMesh, fields: Optional[Mapping[str, ArrayLike]] = None
 ) -> None:
-    """Writes a domain mesh in the formats of `read_mesh`.
+    """Writes a domain mesh in the formats of `read_mesh`, and .vtu for viewers.
 
     Parameters
     ----------
     path : str or path
     mesh : DomainMesh
     fields : mapping of str to array_like, shape (V,), optional
-        Values at vertices, such as ``{"hand": solution.weights[:, 3]}``, for .vtu and .mesh.
+        Values at vertices, such as ``{"hand": solution.weights[:, 3]}``, for .vtu.
 
     Raises
     ------
@@ -201,7 +199,7 @@ def read_weights(path: Path) -> Weights:
     Parameters
     ----------
     path : str or path
-        .npy, .dmat, .csv, .lbw (dense), or .mtx (sparse).
+        .npy, .csv (dense), or .mtx (sparse).
 
     Returns
     -------
@@ -220,7 +218,7 @@ def write_weights(path: Path, weights: Weights) -> None:
     Parameters
     ----------
     path : str or path
-        .npy, .dmat, .csv, .mtx, or .lbw, which holds at most 8 influences per vertex.
+        .npy, .csv, .mtx, or .lbw, which holds at most 8 influences per vertex.
     weights : array_like or sparse matrix, shape (P, n)
 
     Raises

@@ -14,9 +14,6 @@
 #include "flbc/placement.h"
 #include "gltf/skin.h"
 #include "view/page.h"
-#ifdef FLBC_WITH_OPENMESH
-#include "flbc/openmesh/om_file.h"
-#endif
 
 namespace flbc::python {
 namespace {
@@ -36,20 +33,11 @@ py::tuple read_model(const std::string& path) {
                         polygons_of(soup.polylines));
 }
 
-void save(const std::string& path, const io::Model& model) {
-  if (io::extension_of(path) != "om") return io::write_model(path, model);
-#ifdef FLBC_WITH_OPENMESH
-  openmesh::write_om(path, model);
-#else
-  throw OptionError(path + ": this flbc was built without OpenMesh");
-#endif
-}
-
 void write_model(const std::string& path, const Doubles& points, const Polygons& polygons,
                  const Polygons& polylines) {
   io::Model model;
   model.soup = {places_of(points), lists_of(polygons), lists_of(polylines)};
-  without_gil([&] { save(path, model); });
+  without_gil([&] { io::write_model(path, model); });
 }
 
 // Writes a file again with its vertices moved.
@@ -58,26 +46,18 @@ void write_moved(const std::string& path, const Doubles& points, const std::stri
     const auto moved = points_of<decltype(dim)::value>(points);
     without_gil([&] {
       const io::ModelFile file(source);
-      if (io::extension_of(path) != io::extension_of(source)) return save(path, file.moved(moved));
+      if (io::extension_of(path) != io::extension_of(source))
+        return io::write_model(path, file.moved(moved));
       io::write_file(path, [&](std::ostream& out) { file.write(out, moved); });
     });
   });
 }
 
-bool holds(const std::string& path, io::Content content) {
-  return io::holds(path, {content});
-}
-
-py::tuple read_mesh(const std::string& path, int dim) {
-  const bool is_2d = dim == 2 || (dim == 0 && !holds(path, io::Content::kMesh3D));
-  if (is_2d) return as_python(without_gil([&] { return io::read_domain<2>(path); }));
-  const bool is_either = dim == 0 && holds(path, io::Content::kMesh2D);
-  if (!is_either) return as_python(without_gil([&] { return io::read_domain<3>(path); }));
-  try {
+py::tuple read_mesh(const std::string& path) {
+  if (io::holds(path, {io::Content::kMesh3D})) {
     return as_python(without_gil([&] { return io::read_domain<3>(path); }));
-  } catch (const InputError&) {
-    return as_python(without_gil([&] { return io::read_domain<2>(path); }));
   }
+  return as_python(without_gil([&] { return io::read_domain<2>(path); }));
 }
 
 void write_mesh(const std::string& path, const Doubles& vertices, const Indices& cells,

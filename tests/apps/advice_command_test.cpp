@@ -157,9 +157,9 @@ flbc info w.npy
 # save the mesh as text
 2 printf '$MeshFormat\n4.1 1 8\n' >x.msh; flbc info x.msh
 flbc mesh 3d/limb_cage.obj $V -o x.msh && flbc info x.msh
-# save the file in ASCII mode
-2 flbc mesh square.obj $V -o x.vtu && sed s/ascii/binary/ x.vtu >y.vtu; flbc info y.vtu
-flbc info x.vtu
+# save the mesh as .mesh (in 2D .obj) as well
+1 flbc mesh square.obj $V -o x.vtu && flbc info x.vtu
+flbc mesh square.obj $V -o x.obj && flbc info x.obj
 # for a smaller page, reduce influences per vertex, for example -k 4
 0 grid >grid.obj && flbc cage grid.obj --control-points 12 -o c.obj && flbc solve c.obj --model grid.obj --method harmonic $V -o x.npy && flbc view grid.obj --weights x.npy --cage c.obj -k 12 -o p.html
 flbc view grid.obj --weights x.npy --cage c.obj -k 4 -o p.html

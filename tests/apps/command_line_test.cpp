@@ -2,6 +2,7 @@
 // The program as its users and their scripts see it: files, messages, exit status.
 #include "support/command_line.h"
 #include "flbc/io/mesh_io.h"
+#include "support/vtu_fields.h"
 
 namespace flbc::testing {
 namespace {
@@ -63,27 +64,8 @@ TEST_F(CommandLine, DrawsOnlyWhatFits) {
   expect("solve " + cage + " -o w.npy --vertices 500 --method harmonic -q --save-domain d.obj");
   const std::string draw = "draw d.obj --weights w.npy -o p.png --cage ";
   expect_refused(draw + cage + " --control-point 1000", 1, "--control-point must be in [0, ");
-  // Of two kinds of weights, both functions and their difference.
-  expect("solve " + cage + " --domain d.obj -q --method meanvalue -o m.npy");
-  expect(draw + cage + " --compare m.npy");
-  const auto three = slurp("p.png");
-  expect(draw + cage + " --compare w.npy");
-  EXPECT_NE(slurp("p.png"), three);
-  fs::remove("p.png");
-  expect_refused(draw + cage + " --all --compare m.npy", 1, "cannot be combined");
+  expect_refused(draw + cage + " --all --control-point 0", 1, "cannot be combined");
   expect_refused(draw + "2d/ring_cage.obj", 2, "has weights for 24 control points, but");
-}
-
-TEST_F(CommandLine, ComparesFunctionsIn3D) {
-  const std::string cage = "3d/torus_cage.obj";
-  const auto solve = "solve " + cage + " -q --vertices 300 --save-domain d.mesh";
-  expect(solve + " --method harmonic -o w.npy");
-  expect("solve " + cage + " --domain d.mesh -q --method meanvalue -o m.npy");
-  const auto draw = "draw d.mesh --cage " + cage + " --weights w.npy --width 300 -o p.svg";
-  expect(draw + " --compare w.npy");
-  const auto same = slurp("p.svg");
-  expect(draw + " --compare m.npy");
-  EXPECT_NE(slurp("p.svg"), same);
 }
 
 // Scripts name the model by --model.
@@ -125,17 +107,11 @@ TEST_F(CommandLine, TellsWhatIsInAFile) {
   expect("convert -q w.npy -o w.mtx");
   const auto words = [](const std::string& info) { return info.substr(info.find(": ")); };
   EXPECT_EQ(words(run("info w.mtx").output), words(result.output));
-  for (const std::string mesh : {"d.obj", "d.mesh"}) {
-    SCOPED_TRACE(mesh);
-    const std::string cage = mesh == "d.obj" ? "2d/ring_cage.obj" : "3d/torus_cage.obj";
-    expect("mesh " + cage + " --vertices 800 -q -o " + mesh);
-    expect("convert -q " + mesh + " -o d.vtu");
-    const auto info = expect("info d.vtu");
-    expect_piece(info.output, mesh == "d.obj" ? " triangles, area " : " tetrahedra, volume ");
-    if (mesh == "d.mesh") {
-      EXPECT_EQ(words(info.output), words(run("info " + mesh).output));
-    }
-  }
+  expect("mesh 3d/torus_cage.obj --vertices 800 -q -o d.mesh");
+  expect("convert -q d.mesh -o d.msh");
+  result = expect("info d.msh");
+  expect_piece(result.output, " tetrahedra, volume ");
+  EXPECT_EQ(words(result.output), words(run("info d.mesh").output));
   io::write_weights("p.npy", SparseWeights(Eigen::MatrixXd{{0.0, 2.0}, {1.0, 5.0}, {-1.0, 3.0}}));
   EXPECT_EQ(expect("info p.npy").output, "p.npy: 2 points in 3D\n  from (0, 1, -1) to (2, 5, 3)\n");
   result = expect("info " + file("scan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"));
@@ -234,7 +210,7 @@ TEST_F(CommandLine, WrongUsageIsStatus1) {
   expect_refused("solve " + cage + o + " --threads -1", 1, "threads must be in");
   expect_refused("solve " + cage + o + " --embed", 1, "--model");
   expect_refused("solve " + cage + o + " --domain a.obj --vertices 100", 1, "--domain");
-  expect_refused("solve " + cage + " -o w.xls", 1, ".mtx, .dmat, .npy, .csv or .lbw");
+  expect_refused("solve " + cage + " -o w.xls", 1, ".mtx, .npy, .csv or .lbw");
   expect_refused("mesh " + cage + " -o d.mesh", 1, ".obj, .off or .vtu");
   expect_refused("solve cage.xyz" + o, 1, "cage.xyz");
   for (const std::string count : {"0", "abc", "1e9", "99999999999"}) {
@@ -331,14 +307,14 @@ TEST_F(CommandLine, PointsAsNumbersAndFunctionsAsFields) {
     EXPECT_EQ(io::read_weights("w.npy").dense(), expected) << list;
     expect("check " + cage + " --model " + list + " --weights w.npy");
     expect("sparsify w.npy --cage " + cage + " --points " + list + " -k 4 -q -o s.mtx");
-    expect("convert w.npy -q --points " + list + " -o w.dmat");
+    expect("convert w.npy -q --points " + list + " -o w.mtx");
   }
   expect(solve + "w.npy --model " + file("q.csv", "1,2,3\n"), 2,
          "q.csv: holds 1 rows of 3 numbers; points need 2 coordinates");
 
-  std::vector<io::VertexField> fields;
-  const auto domain = io::read_domain<2>("d.vtu", fields);
-  expect("solve " + cage + " --method harmonic -q --domain d.vtu -o v.npy");
+  const auto fields = fields_in_vtu(slurp("d.vtu"));
+  expect(solve + "w.npy --model " + model + " --save-domain d.obj");
+  expect("solve " + cage + " --method harmonic -q --domain d.obj -o v.npy");
   const auto weights = io::read_weights("v.npy").dense();
   ASSERT_EQ(fields.size(), 3 * static_cast<std::size_t>(weights.rows()));
   for (std::size_t i = 0; i < static_cast<std::size_t>(weights.rows()); ++i) {

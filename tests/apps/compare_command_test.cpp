@@ -108,8 +108,7 @@ TEST_F(CompareCommand, CountsOfWeightsAreThoseOfTheFiles) {
   EXPECT_NEAR(columns["harmonic"]["total_variation"].get<double>(), 1, 1e-9);
   EXPECT_LT(columns["local"]["reach"], columns["harmonic"]["reach"]);
   EXPECT_GT(columns["local"]["distortion"], 0) << "of the generated poses";
-  const auto table = slurp("compared/table.txt");
-  expect_piece(table, "share of the model vertices");
+  expect_piece(slurp("compared/index.html"), "share of the model vertices");
 }
 
 TEST_F(CompareCommand, ReplacesOnlyItsOwnFilesWithoutForce) {
@@ -141,7 +140,7 @@ TEST_F(CompareCommand, AMethodThatFailsSaysWhyAndTheOthersContinue) {
   const auto report = json_in("compared/table.json");
   EXPECT_EQ(report["columns"].size(), 1U);
   expect_piece(report["failures"]["blended"].get<std::string>(), "in 2D");
-  expect_piece(slurp("compared/table.txt"), "blended failed: ");
+  expect_piece(slurp("compared/index.html"), "blended failed: ");
 }
 
 TEST_F(CompareCommand, ReportsTheThreadsThatItUsed) {

@@ -48,41 +48,6 @@ class DeformPoints : public CommandLineTest {
     return file(name, content);
   }
 
-  // A .vtu file of raw arrays, the points between a field and the cells.
-  std::string write_vtu(const std::string& name, const WeightMatrix& points, bool is_small) const {
-    std::string data = "_", header;
-    const auto append = [&](const std::string& array) {
-      const auto bytes = static_cast<std::uint64_t>(array.size());
-      data.append(reinterpret_cast<const char*>(&bytes), is_small ? 4 : 8);
-      data += array;
-    };
-    append(std::string(static_cast<std::size_t>(8 * points.cols()), '<'));
-    const auto offset = data.size() - 1;
-    std::string coordinates;
-    for (const double number : points.reshaped()) {
-      const auto rounded = static_cast<float>(number);
-      coordinates.append(is_small ? reinterpret_cast<const char*>(&rounded)
-                                  : reinterpret_cast<const char*>(&number),
-                         is_small ? 4 : 8);
-    }
-    append(coordinates);
-    append("cells </AppendedData>");
-    return file(
-        name,
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-        "byte_order=\"LittleEndian\"" +
-            std::string(is_small ? "" : " header_type=\"UInt64\"") +
-            ">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" + std::to_string(points.cols()) +
-            "\" NumberOfCells=\"1\">\n<PointData>\n<DataArray type=\"Float64\" Name=\"f\" "
-            "format=\"appended\" offset=\"0\"/>\n</PointData>\n<Points>\n<DataArray type=\"" +
-            (is_small ? "Float32" : "Float64") +
-            "\" Name=\"Points\" NumberOfComponents=\"3\" format=\"appended\" offset=\"" +
-            std::to_string(offset) +
-            "\"/>\n</Points>\n</Piece>\n</UnstructuredGrid>\n"
-            "<AppendedData encoding=\"raw\">\n" +
-            data + "\n</AppendedData>\n</VTKFile>\n");
-  }
-
   std::string deform(const std::string& input, const std::string& output) const {
     return "deform " + input + rig_ + "-o " + output + ' ';
   }
@@ -135,60 +100,6 @@ TEST_F(DeformPoints, KeepsAllOtherBytesOfPly) {
     std::memcpy(of + 3, expected.data() + record + 1, 12);
     for (int d = 0; d < 3; ++d) ASSERT_NEAR(of[d], of[d + 3], 1e-6);
   }
-}
-
-TEST_F(DeformPoints, KeepsAllOtherBytesOfVtu) {
-  for (const bool is_small : {false, true}) {
-    write_vtu("p.vtu", points_, is_small);
-    const auto info = expect("info p.vtu").output;
-    EXPECT_EQ(info.find("p.vtu: 70000 points, appended to the file\n  from ("), 0U) << info;
-    expect(deform("p.vtu", "q.vtu"), 0, "70000 vertices, 1 pose");
-    const WeightMatrix rounded = is_small ? points_.cast<float>().cast<double>().eval() : points_;
-    const auto expected = slurp(write_vtu("expected.vtu", moved(rounded), is_small));
-    const auto found = slurp("q.vtu");
-    ASSERT_EQ(found.size(), expected.size());
-    const std::size_t width = is_small ? 4 : 8;
-    const auto begin = expected.find("\n_") + 2 + width + 8 * kPoints + width;
-    const auto end = begin + 3 * width * kPoints;
-    EXPECT_EQ(found.substr(0, begin), expected.substr(0, begin));
-    EXPECT_EQ(found.substr(end), expected.substr(end));
-    for (auto k = begin; k < end; k += width) {
-      const auto number = [&](const std::string& bytes) {
-        float of_four;
-        double of_eight;
-        std::memcpy(&of_four, bytes.data() + k, 4);
-        std::memcpy(&of_eight, bytes.data() + k, std::min<std::size_t>(8, bytes.size() - k));
-        return is_small ? of_four : of_eight;
-      };
-      ASSERT_NEAR(number(found), number(expected), is_small ? 1e-6 : 1e-14);
-    }
-  }
-}
-
-TEST_F(DeformPoints, RefusesVtuThatItCannotRewrite) {
-  write_vtu("p.vtu", points_, false);
-  const auto content = slurp("p.vtu");
-  const auto refuses = [&](const std::string& old, const std::string& changed,
-                           const std::string& message) {
-    auto other = content;
-    other.replace(other.find(old), old.size(), changed);
-    file("other.vtu", other);
-    expect(deform("other.vtu", "q.vtu"), 2, message);
-    EXPECT_FALSE(std::filesystem::exists("q.vtu"));
-  };
-  refuses("UInt64\"", "UInt64\" compressor=\"vtkZLibDataCompressor\"", "compressed");
-  refuses("LittleEndian", "BigEndian", "byte_order \"BigEndian\"");
-  refuses("\"UInt64\"", "\"UInt16\"", "header_type \"UInt16\"");
-  refuses("\"raw\"", "\"base64\"", "encoding \"base64\"");
-  refuses("NumberOfPoints=\"70000\"", "NumberOfPoints=\"70001\"", "1680000 bytes, not 1680024");
-  refuses("NumberOfPoints=\"70000\"", "NumberOfPoints=\"-1\"", "NumberOfPoints \"-1\"");
-  refuses("NumberOfComponents=\"3\"", "NumberOfComponents=\"2\"", "NumberOfComponents \"2\"");
-  refuses("offset=\"560008\"", "offset=\"1e9\"", "offset \"1e9\"");
-  refuses("offset=\"560008\"", "offset=\"9223372036854775807\"", "too short");
-  refuses("</Piece>", "</Piece><Piece/>", "more than one piece");
-  refuses("</Piece>", "</Points>", "malformed");
-  refuses("raw\">\n_", "raw\">\n", "no \"_\"");
-  refuses(content.substr(content.size() / 2), "", "too short for 70000 points");
 }
 
 TEST_F(DeformPoints, FailuresLeaveNoFile) {

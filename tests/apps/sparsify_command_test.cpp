@@ -75,7 +75,7 @@ TEST_F(SparsifyCommand, ModelsIn2DAnd3D) {
               "");
     expect("check " + cage + " --weights d.npy --domain " + domain_file);
   };
-  sparsify("2d/ring", "ring.vtu", 5);
+  sparsify("2d/ring", "ring.off", 5);
   expect_sparse<2>("2d/ring_cage.obj", points_in<2>("2d/ring_model.obj"), "w.npy", "s.mtx", 5,
                    json_in("s.json"));
   sparsify("3d/limb", "limb.mesh", 6);
@@ -102,9 +102,9 @@ TEST_F(SparsifyCommand, PoissonOnAModelAndOnAMesh) {
     EXPECT_LT(poisson["independent"]["rms"], plain["independent"]["rms"]);
     EXPECT_LT(poisson["smooth"]["rms"], plain["smooth"]["rms"]);
   };
-  solve("2d/ring", "ring.vtu");
+  solve("2d/ring", "ring.off");
   compare("w.npy --cage 2d/ring_cage.obj --points 2d/ring_model.obj");
-  compare("v.npy --cage 2d/ring_cage.obj --points ring.vtu");
+  compare("v.npy --cage 2d/ring_cage.obj --points ring.off");
   solve("3d/limb", "limb.mesh");
   compare("w.npy --cage 3d/limb_cage.obj --points 3d/limb_model.obj");
   compare("v.npy --cage 3d/limb_cage.obj --points limb.mesh");
@@ -112,18 +112,18 @@ TEST_F(SparsifyCommand, PoissonOnAModelAndOnAMesh) {
 
 // With a pose the weights are chosen for it.
 TEST_F(SparsifyCommand, PoissonMakesTheErrorSmallInThePosesGiven) {
-  solve("2d/ring", "ring.vtu");
+  solve("2d/ring", "ring.off");
   auto pose = io::read_polygons("2d/ring_cage.obj");
   for (std::size_t i = 0; i < pose.points.size(); i += 3) pose.points[i] *= 1.3;
   io::write_model("pose.obj", {pose});
   const std::string arguments =
-      "sparsify v.npy --cage 2d/ring_cage.obj --points ring.vtu -k 3 -q --reduction poisson "
+      "sparsify v.npy --cage 2d/ring_cage.obj --points ring.off -k 3 -q --reduction poisson "
       "-o ";
   expect(arguments + "without.npy");
   expect(arguments + "with.npy --pose pose.obj --report r.json");
   const auto before = io::read_weights("v.npy").dense();
   const auto points = io::to_points<2>(pose, "pose.obj");
-  const auto domain = io::read_domain<2>("ring.vtu");
+  const auto domain = io::read_domain<2>("ring.off");
   const auto error = [&](const std::string& name) {
     return edge_error<2>(domain.points, edges_of_cells(domain), {points}, before,
                          io::read_weights(name).dense());
@@ -153,8 +153,8 @@ TEST_F(SparsifyCommand, PoissonNeedsNeighbours) {
 
 TEST_F(SparsifyCommand, Thresholds) {
   const auto arguments = square();
-  expect("sparsify " + arguments + " -k 3 -q -o s.dmat");
-  const auto sparse = io::read_weights("s.dmat").dense();
+  expect("sparsify " + arguments + " -k 3 -q -o s.mtx");
+  const auto sparse = io::read_weights("s.mtx").dense();
   EXPECT_LE((sparse.array() != 0).colwise().count().maxCoeff(), 3);
   const PointList<2> points = points_in<2>("cage.obj") * sparse;
   EXPECT_LE((points - points_in<2>("model.obj")).norm(), 1e-13);

@@ -122,8 +122,7 @@ TEST_F(VectorPictures, ShowWhatPngShows) {
     expect(solve + "m.npy --model " + model);
     const auto domain = scene.mesh + " --weights w.npy --cage " + cage;
     const auto of_model = model + " --weights m.npy --cage " + cage;
-    expect_all_formats_agree(domain + " --control-point 3" + (plane ? " --mesh" : ""),
-                             scene.control_point);
+    expect_all_formats_agree(domain + " --control-point 3", scene.control_point);
     expect_all_formats_agree(domain + " --all", scene.all);
     expect_all_formats_agree(of_model + " --pose " + scene.name + "_cage_pose.obj", "Pose");
     if (!plane) expect_all_formats_agree(of_model + " --all", scene.all);

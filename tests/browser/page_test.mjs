@@ -542,33 +542,6 @@ async function testWithoutWebGl() {
   await tab.close();
 }
 
-// The menu of flbc compare changes the coordinates and keeps the pose and the camera.
-async function testComparison() {
-  const folder = join(work, "compared");
-  execFileSync(program, ["compare", join(meshes, "2d", "figure_cage.obj"), "--vertices", "300",
-                         "--methods", "meanvalue,bbw", "--force", "-q", "-o", folder]);
-  const tab = await browser.newPage();
-  await tab.goto(`file://${folder}/index.html`);
-  const showing = async (name) => {
-    const frame = await tab.waitForFrame((frame) => frame.url().endsWith(`model_${name}.html`));
-    await frame.waitForFunction(() => window.flbc);
-    return frame;
-  };
-  const before = await showing("bbw");
-  const place = await before.evaluate(() => {
-    const moved = window.flbc.controlPoint(1).map((x) => 1.05 * x + 0.01);
-    window.flbc.move(1, moved);
-    return moved;
-  });
-  const points = await before.evaluate(() => [...window.flbc.points()]);
-  await tab.select("select", "meanvalue");
-  const after = await showing("meanvalue");
-  await after.waitForFunction((x) => window.flbc.controlPoint(1)[0] === x, {}, place[0]);
-  assert.deepEqual(await after.evaluate(() => window.flbc.controlPoint(1)), place);
-  assert.ok(largestDifference(await after.evaluate(() => [...window.flbc.points()]), points) > 0);
-  await tab.close();
-}
-
 const samples = [["figure", 2, "2d"], ["limb", 3, "3d"]];
 try {
   for (const [name, dim, folder] of samples) {
@@ -592,7 +565,6 @@ try {
     await testTexture();
     await testCard("square", 2);
     await testCard("limb", 3);
-    await testComparison();
     await testWithoutWebGl();
   }
 } finally {

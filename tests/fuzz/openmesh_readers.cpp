@@ -1,43 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Readers of the bindings to OpenMesh.
+// Readers of properties in .om files.
 #include <sstream>
 #include <string>
 
-#include "flbc/io/model_file.h"
 #include "flbc/openmesh/influences.h"
-#include "flbc/openmesh/mesh_io.h"
-#include "flbc/openmesh/om_file.h"
 #include "flbc/openmesh/wide_property.h"
 #include "fuzz/reader.h"
 
 namespace flbc::fuzz {
 namespace {
-
-void read_om(const std::string& path) {
-  const io::ModelFile file(path);
-  const auto& soup = file.model().soup;
-  for (const auto& point : soup.points) require(point.allFinite(), "points are finite");
-  for (const auto& polygon : soup.polygons) {
-    for (const Index vertex : polygon) {
-      require(vertex >= 0 && vertex < static_cast<Index>(soup.points.size()), "vertices in range");
-    }
-  }
-}
-
-std::string om_file(bool has_attributes) {
-  io::Model model;
-  model.soup.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1.0 / 3}};
-  model.soup.polygons = {{0, 1, 2}, {0, 2, 3}};
-  if (has_attributes) {
-    model.attributes.colors = PointList<3>::Constant(3, 4, 0.5);
-    model.attributes.normals = PointList<3>::Identity(3, 4);
-    model.attributes.corners = {{{-1, 0}, {-1, 1}, {-1, 2}}, {{-1, 0}, {-1, 2}, {-1, 3}}};
-  }
-  return written("a.om", [&](const std::string& path) { openmesh::write_om(path, model); });
-}
-
-// ---- properties in .om files
-// ---------------------------------------------------------------------
 
 constexpr std::size_t kElements = 3;
 
@@ -81,8 +52,7 @@ std::string stored_influences() {
 }  // namespace
 
 std::vector<Reader> openmesh_readers() {
-  return {{"om", "input.om", read_om, {om_file(false), om_file(true)}},
-          {"rows", "input.rows", read_rows<double>, {stored_rows<double>()}},
+  return {{"rows", "input.rows", read_rows<double>, {stored_rows<double>()}},
           {"rows_single", "input.rows", read_rows<float>, {stored_rows<float>()}},
           {"influences", "input.pairs", read_influences, {stored_influences()}}};
 }

@@ -50,26 +50,12 @@ std::string ply(const std::string& type, int bytes) {
          std::string("\3\0\0\0\0\1\0\0\0\1\0\0\0", 13);
 }
 
-std::string vtu(const std::string& header_type, const std::string& type, int bytes) {
-  std::string size(header_type.empty() ? 4 : 8, '\0');
-  size[0] = static_cast<char>(6 * bytes);
-  return "<VTKFile type='UnstructuredGrid' byte_order='LittleEndian'" + header_type +
-         "><UnstructuredGrid><Piece NumberOfPoints='2'><Points><DataArray type='" + type +
-         "' NumberOfComponents='3' format='appended' offset='3'/></Points></Piece>"
-         "</UnstructuredGrid><AppendedData encoding='raw'>_abc" +
-         size + coordinates(bytes) + "xyz</AppendedData></VTKFile>";
-}
-
 }  // namespace
 
 std::vector<Reader> point_readers() {
   return {
       {"points_npy", "input.npy", read_points, {npy_of_shape("(2, 3)"), npy_of_shape("(3, 2)")}},
-      {"points_ply", "input.ply", read_points, {ply("float", 4), ply("double", 8)}},
-      {"points_vtu",
-       "input.vtu",
-       read_points,
-       {vtu("", "Float32", 4), vtu(" header_type='UInt64'", "Float64", 8)}}};
+      {"points_ply", "input.ply", read_points, {ply("float", 4), ply("double", 8)}}};
 }
 
 }  // namespace flbc::fuzz

@@ -48,7 +48,6 @@ std::string file_of_weights(const std::string& name) {
 
 const char* const kMtxArray =
     "%%MatrixMarket matrix array real general\n% by hand\n2 2\n1\n0\n0.25\n1e-3\n";
-const char* const kDmatText = "2 3\n1 0 0.5\n0 1 0.5\n";
 const char* const kKeyframes = "k 0\nk 0.5 # s\nc 0 0 0 0\nc 1 1 0 -1e-3\nc 0 1 2 3\nc 1 0 0 0\n";
 
 }  // namespace
@@ -56,14 +55,12 @@ const char* const kKeyframes = "k 0\nk 0.5 # s\nc 0 0 0 0\nc 1 1 0 -1e-3\nc 0 1 
 std::vector<Reader> weight_readers() {
   return {
       {"mtx", "input.mtx", read_weights, {file_of_weights("a.mtx"), kMtxArray}},
-      {"dmat", "input.dmat", read_weights, {file_of_weights("a.dmat"), kDmatText}},
       {"npy",
        "input.npy",
        read_weights,
        {file_of_weights("a.npy"),
         npy("{'descr': '<f4', 'fortran_order': True, 'shape': (3L, 2), }", std::string(24, '\0'))}},
       {"csv", "input.csv", read_weights, {file_of_weights("a.csv")}},
-      {"lbw", "input.lbw", read_weights, {file_of_weights("a.lbw")}},
       {"keyframes", "input.txt", read_keyframes, {kKeyframes}}};
 }
 

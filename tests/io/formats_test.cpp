@@ -22,8 +22,8 @@ TEST_F(Formats, ExtensionsTellWhatFilesHold) {
   for (const char* unknown : {"obj", "a.", "a.txt", "-", ""}) {
     EXPECT_FALSE(holds(unknown, {Content::kModel, Content::kWeights})) << unknown;
   }
-  EXPECT_EQ(io::extensions_of({Content::kFields}), ".vtu or .mesh");
-  EXPECT_EQ(io::extensions_of({Content::kWeights}), ".mtx, .dmat, .npy, .csv or .lbw");
+  EXPECT_EQ(io::extensions_of({Content::kFields}), ".vtu");
+  EXPECT_EQ(io::extensions_of({Content::kWeights}), ".mtx, .npy, .csv or .lbw");
 }
 
 TEST_F(Formats, OtherFilesAreNoModels) {

@@ -3,7 +3,6 @@
 #include "flbc/io/model_file.h"
 
 #include "flbc/io/cage_io.h"
-#include "flbc/openmesh/om_file.h"
 #include "support/model_kinds.h"
 
 namespace flbc::testing {
@@ -15,11 +14,7 @@ using OpenMesh::IO::Options;
 class ModelConversion : public ModelFileTest {
  protected:
   std::string save(const std::string& name, const io::Model& model) const {
-    if (io::extension_of(name) == "om") {
-      openmesh::write_om(path(name), model);
-    } else {
-      io::write_model(path(name), model);
-    }
+    io::write_model(path(name), model);
     return path(name);
   }
 };
@@ -29,7 +24,7 @@ TEST_F(ModelConversion, EveryFormatBecomesEveryOther) {
   for (const ModelKind& kind : kModelKinds) {
     write_kind(mesh, kind);
     const auto model = ModelFile(path(kind.file)).moved<3>(turned(points_of(mesh)));
-    for (const char* output : {"o.obj", "o.off", "o.ply", "o.om"}) {
+    for (const char* output : {"o.obj", "o.off", "o.ply"}) {
       SCOPED_TRACE(kind.file + std::string(" ") + output);
       const auto moved = read_by_openmesh(save(output, model), kind.attributes());
       EXPECT_EQ(points_of(moved), turned(points_of(mesh)));
@@ -60,7 +55,7 @@ TEST_F(ModelConversion, CoordinatesSurviveAllFormatsButStl) {
   auto model = open("a.obj", text).model();
   for (const bool is_text : {true, false}) {
     model.is_text = is_text;
-    for (const char* output : {"o.obj", "o.off", "o.ply", "o.om"}) {
+    for (const char* output : {"o.obj", "o.off", "o.ply"}) {
       SCOPED_TRACE(output);
       const ModelFile written(save(output, model));
       EXPECT_TRUE(
@@ -89,10 +84,8 @@ TEST_F(ModelConversion, WhatIsLostIsTold) {
             (Phrases{"texture coordinates (they differ between corners of a vertex)"}));
   EXPECT_EQ(losses(paint + "f 1/1/1 2/2/1 3/2/1\nf 1/3/1 3/2/1 4/2/1\n", "o.ply"), Phrases());
   EXPECT_EQ(losses(paint + "f 1/1/1 2/2/1 3/2/1\nf 1/2/1 3/2/1 4/2/1\n", "o.obj"), Phrases());
-  EXPECT_EQ(losses(paint + "f 1/1/1 2/2/1 3/2/1\nf 1/1 3/2 4/2\n", "o.om"),
+  EXPECT_EQ(losses(paint + "f 1/1/1 2/2/1 3/2/1\nf 1/1 3/2 4/2\n", "o.off"),
             (Phrases{"normals (they differ between corners of a vertex)"}));
-  EXPECT_EQ(losses(square + "vt 0.1 0\nf 1/1 2/1 3/1\n", "o.om"),
-            (Phrases{"texture coordinates beyond single precision"}));
   const std::string coloured = "v 0.1 0 0 0.5 0 1\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n";
   EXPECT_EQ(losses(coloured, "o.ply"), (Phrases{"colors beyond 256 levels"}));
   EXPECT_EQ(losses(coloured, "o.obj"), Phrases());
@@ -103,21 +96,6 @@ TEST_F(ModelConversion, WhatIsLostIsTold) {
                          "0 1 0 1 1 1 255\n3 0 1 2 255 0 0\n");
   EXPECT_EQ(io::losses(seen.model(), "o.ply"), (Phrases{"transparency", "colors of polygons"}));
   EXPECT_EQ(seen.model().attributes.colors.col(1), Vector<3>(0, 1, 0));
-}
-
-TEST_F(ModelConversion, HalfEdgeMeshesRefuseByName) {
-  const auto model = open("a.obj",
-                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\n"
-                          "f 1 2 3\nf 1 2 4\nf 1 2 5\n")
-                         .model();
-  ::testing::internal::CaptureStderr();
-  expect_error<InputError>([&] { openmesh::write_om(path("o.om"), model); },
-                           {"polygon 1 does not fit into a half-edge mesh"});
-  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
-  EXPECT_FALSE(std::filesystem::exists(path("o.om")));
-  ::testing::internal::CaptureStderr();
-  openmesh::write_om(path("o.om"), open("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").model());
-  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 }  // namespace

@@ -213,7 +213,6 @@ TEST_F(PolygonFile, StlCages) {
 TEST_F(PolygonFile, FilesThatCannotBeOpened) {
   expect_unopenable({"obj", "off", "ply", "stl"}, read_polygons,
                     [](const auto& file) { write_model(file, {awkward_soup()}); });
-  expect_error<IoError>([&] { read_polygons(path("missing.om")); }, {"missing.om", "No such file"});
 }
 
 TEST_F(PolygonFile, PointsThatAreNotFiniteAreNotWritten) {

@@ -37,7 +37,7 @@ class WeightsFile : public FormatTest {
     }
   }
   void expect_round_trips(const WeightMatrix& weights) const {
-    for (const std::string extension : {"mtx", "dmat", "npy", "NPY", "csv"}) {
+    for (const std::string extension : {"mtx", "npy", "NPY", "csv"}) {
       if (extension == "csv" && weights.size() == 0) continue;  // has no sizes
       const std::string file = path("weights." + extension);
       write_weights(file, weights);
@@ -46,7 +46,7 @@ class WeightsFile : public FormatTest {
   }
 };
 
-const char* const kExtensions[] = {"mtx", "dmat", "npy"};
+const char* const kExtensions[] = {"mtx", "npy"};
 
 // 3 control points, as many points as needed.
 WeightMatrix awkward_weights() {
@@ -123,7 +123,7 @@ TEST_F(WeightsFile, LbwHasEightWeightsPerVertexTheLargestFirst) {
   EXPECT_EQ(number(std::uint16_t{}, 18), 299U);
   EXPECT_EQ(number(float{}, 16 + 2 * 16), 0.75F);
   EXPECT_EQ(number(float{}, 16 + 2 * 16 + 8), 0.0F);
-  EXPECT_EQ(read_weights(path("w.lbw")).dense(), weights);
+  expect_error<OptionError>([&] { read_weights(path("w.lbw")); }, {path("w.lbw"), "only written"});
 
   weights(7, 1) = 0.1;
   expect_error<InputError>([&] { write_weights(path("w.lbw"), weights); },
@@ -131,23 +131,6 @@ TEST_F(WeightsFile, LbwHasEightWeightsPerVertexTheLargestFirst) {
   expect_error<InputError>(
       [&] { write_weights(path("w.lbw"), WeightMatrix(WeightMatrix::Identity(65537, 1))); },
       {"65536 control points"});
-  const auto refuse = [&](const std::string& bytes, const std::string& words) {
-    make("damaged.lbw", bytes);
-    expect_error<InputError>([&] { read_weights(path("damaged.lbw")).dense(); },
-                             {"damaged.lbw", words});
-  };
-  const auto changed = [&](std::size_t at, const std::string& bytes) {
-    auto copy = written;
-    return copy.replace(at, bytes.size(), bytes);
-  };
-  refuse(written.substr(0, 15), "not an LBW file");
-  refuse(written.substr(0, written.size() - 1), "vertices take 112");
-  refuse(changed(3, "2"), "not an LBW file");
-  refuse(changed(12, "\4"), "8 weights per vertex");
-  refuse(changed(4, "\3"), "3 vertices take");
-  refuse(changed(8, std::string("\xff\xff\xff\xff")), "65536 control points");
-  refuse(changed(17, "\7"), "point 0");                            // a control point out of range
-  refuse(changed(48, std::string("\0\0\xc0\x7f", 4)), "point 0");  // NaN
 }
 
 TEST_F(WeightsFile, NegativeZeroHasNoEntryInMtx) {
@@ -165,11 +148,6 @@ TEST_F(WeightsFile, MtxHasPointsAsRows) {
   flbc::testing::expect_piece(written, "\n3 2 6\n");
   flbc::testing::expect_piece(written, "\n3 1 3\n");
   flbc::testing::expect_piece(written, "\n1 2 4\n");
-}
-
-TEST_F(WeightsFile, DmatIsWrittenInBinaryByControlPoint) {
-  write_weights(path("weights.dmat"), small_weights());
-  EXPECT_EQ(content("weights.dmat"), "0 0\n2 3\n" + doubles({1, 2, 3, 4, 5, 6}));
 }
 
 TEST_F(WeightsFile, NpyIsWrittenByPointAndAligned) {
@@ -199,13 +177,6 @@ TEST_F(WeightsFile, MtxVariants) {
       "%%MatrixMarket matrix array integer general\n3 2\n1 2 3\n4 5 6",
   };
   expect_small_weights("w.mtx", variants);
-}
-
-TEST_F(WeightsFile, DmatVariants) {
-  const std::vector<std::string> variants = {
-      "2 3\n1\n2\n3\n4\n5\n6\n", "2 3\r\n1\r\n2\r\n3\r\n4\r\n5\r\n6\r\n", "2 3 1 2 3 4 5 6",
-      "\n 2 3\n1 2 3\n4 5 6\n\n", "0 0\n2 3\n" + doubles({1, 2, 3, 4, 5, 6})};
-  expect_small_weights("w.dmat", variants);
 }
 
 TEST_F(WeightsFile, NpyVariants) {
@@ -263,27 +234,6 @@ TEST_F(WeightsFile, MalformedMtx) {
        {array + "300000 200000\n1 2 3\n", ":2: ", "too short"}});
 }
 
-TEST_F(WeightsFile, MalformedDmat) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  expect_malformed(
-      "w.dmat",
-      {{"", ":1: ", "end of the file"},
-       {std::string("\0\x01\xff\xfe\0\0garbage", 13), ":1: ", "expected an integer"},
-       {"2\n", ":1: ", "expected an integer"},
-       {"2 -3\n", ":1: ", "-3 rows are declared"},
-       {"2 3\n1 2 3\n4 5\n", ":3: ", "the file ends after 5 of 6 numbers"},
-       {"2 3\n1 2 3\n4 5 6\n7\n", ":4: ", "expected the end of the file"},
-       {"2000000000 2000000000\n1 2 3\n", ":1: ", "too short"},
-       {"922347750 0\n", ":1: ", "not a weight matrix"},
-       {"0 0\n922347750 0\n", ": at byte 16: ", "not a weight matrix"},
-       {"0 0\n", ":1: ", "the file ends before the size"},
-       {"0 0\n2 3\n" + doubles({1, 2, 3, 4, 5}), ": at byte 48: ", "after 5 of 6 numbers"},
-       {"0 0\n2 3\n" + doubles({1, 2, 3, 4, 5, 6, 7}), ": at byte 56: ", "has 8 more bytes"},
-       {"0 0\n2 3\n" + doubles({1, 2, 3, 4, nan, 6}),
-        ": at byte 40: ", "control point 1 at point 1 is not finite"},
-       {"0 0\n2000000000 2000000000\n" + doubles({1, 2}), ": at byte ", "after 2 of 4000000000"}});
-}
-
 TEST_F(WeightsFile, MalformedNpy) {
   const double infinity = std::numeric_limits<double>::infinity();
   const std::string head = "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), }";
@@ -330,9 +280,9 @@ TEST_F(WeightsFile, OtherExtensionsAreRefused) {
   for (const std::string name : {"weights.txt", "weights.mat", "weights", "-"}) {
     const std::string file = name == "-" ? name : path(name);
     expect_error<OptionError>([&] { read_weights(file).dense(); },
-                              {file, ".mtx, .dmat, .npy, .csv or .lbw"});
+                              {file, ".mtx, .npy, .csv or .lbw"});
     expect_error<OptionError>([&] { write_weights(file, small_weights()); },
-                              {file, ".mtx, .dmat, .npy, .csv or .lbw"});
+                              {file, ".mtx, .npy, .csv or .lbw"});
   }
   EXPECT_TRUE(names().empty());
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The iteration on a mesh against the array kernel, and its state in the properties of the mesh.
+// The iteration on a mesh against that of the core on arrays, and its state in the properties of
+// the mesh.
 #include "flbc/openmesh/gradient_admm.h"
 
 #include "flbc/openmesh/convert.h"

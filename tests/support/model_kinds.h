@@ -29,9 +29,7 @@ constexpr ModelKind kModelKinds[] = {
     {"binary.ply", OpenMesh::IO::Options::Binary},
     {"big.ply", OpenMesh::IO::Options::Binary | OpenMesh::IO::Options::MSB},
     {"a.off", 0},
-    {"a.obj", 0},
-    {"a.om", 0},
-    {"normals.om", OpenMesh::IO::Options::FaceNormal}};
+    {"a.obj", 0}};
 
 //! A turn about the z axis by a right angle and a shift, exact in single precision.
 inline PointList<3> turned(const PointList<3>& points) {

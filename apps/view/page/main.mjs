@@ -38,28 +38,6 @@ function hookOf(viewer) {
   };
 }
 
-// Lets a page around this one, such as that of flbc compare, take control points and camera from
-// one page to the next.
-function answerPageAround(viewer) {
-  const { editor, camera } = viewer;
-  const around = window.parent;
-  if (around === window) return;
-  window.addEventListener("message", ({ data, source }) => {
-    if (source !== around || !data) return;
-    if (data.ask === "state") {
-      const { yaw, pitch, target, halfHeight, basis } = camera;
-      around.postMessage({ points: editor.points,
-                           view: { yaw, pitch, target, halfHeight, basis } }, "*");
-    } else if (data.points && data.points.length === editor.points.length) {
-      Object.assign(camera, data.view);
-      editor.begin();
-      editor.setPoints(data.points);
-      editor.end();
-    }
-  });
-  around.postMessage({ ask: "state" }, "*");
-}
-
 // Shows a model and its cage. \param signal  ends listening to keys
 export function show(content, signal) {
   const canvas = document.getElementById("canvas");
@@ -85,7 +63,6 @@ export function show(content, signal) {
   window.flbc = hookOf(viewer);
   if (keepPose(viewer)) tell("The pose of your last visit. Ctrl+Z: the cage at rest");
   viewer.changed();
-  answerPageAround(viewer);
   return viewer;
 }
 

@@ -5,9 +5,9 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include <flbc/io/cage_io.h>
+#include <flbc/io/model_file.h>
 #include <flbc/openmesh/bind.h>
 #include <flbc/openmesh/lbc.h>
-#include <flbc/openmesh/mesh_io.h>
 
 #include "judge.h"
 
@@ -19,7 +19,7 @@ flbc::Cage<2> read_square() {
                          "property double y\nproperty double z\nelement face 1\n"
                          "property list uchar int vertex_indices\nend_header\n"
                          "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
-  const auto soup = flbc::openmesh::read_polygons(path);
+  const auto soup = flbc::io::read_polygons(path);
   return std::get<flbc::Cage<2>>(flbc::io::to_cage(soup, path));
 }
 

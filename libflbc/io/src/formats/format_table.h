@@ -25,7 +25,7 @@ struct ModelFormat {
 
 template <int Dim>
 struct MeshFormat {
-  DomainMesh<Dim> (*read)(const std::string& path, std::vector<VertexField>* fields) = nullptr;
+  DomainMesh<Dim> (*read)(const std::string& path) = nullptr;
   void (*write)(const std::string& path, const DomainMesh<Dim>& mesh,
                 const std::vector<VertexField>& fields) = nullptr;
   bool keeps_fields = false;

@@ -18,24 +18,19 @@ namespace {
 constexpr MeshFormat<2> kTriangles{read_triangles, write_triangles};
 template <int Dim>
 constexpr MeshFormat<Dim> kVtu{read_vtu<Dim>, write_vtu<Dim>, true};
-constexpr MeshFormat<3> kTetGen{read_tetgen, write_tetgen};
 
 constexpr Format kFormats[] = {
     {"obj", {read_obj, write_obj, Attributes::kCorners}, kTriangles},
     {"off", {read_off, write_off, Attributes::kVertices}, kTriangles},
     {"ply", {read_ply, write_ply, Attributes::kVertices}},
     {"stl", {read_stl, write_stl}},
-    {"om", {read_om, nullptr, Attributes::kVertices}},  // OpenMesh writes it: flbc::openmesh
     {"glb", {read_gltf, write_glb, Attributes::kCorners}},
     {"gltf", {read_gltf, nullptr, Attributes::kCorners}},
     {"vrm", {read_gltf, nullptr, Attributes::kCorners}},  // .glb of persons
     {"vtu", {}, kVtu<2>, kVtu<3>},
-    {"mesh", {}, {}, {read_medit, write_medit, true}},
-    {"node", {}, {}, kTetGen},
-    {"ele", {}, {}, kTetGen},
+    {"mesh", {}, {}, {read_medit, write_medit}},
     {"msh", {}, {}, {read_gmsh, write_gmsh}},
     {"mtx", {}, {}, {}, {read_mtx, write_mtx}},
-    {"dmat", {}, {}, {}, {read_dmat, write_dmat}},
     {"npy", {}, {}, {}, {read_npy, write_npy}},
     {"csv", {}, {}, {}, {read_csv, write_csv}},
     {"lbw", {}, {}, {}, {read_lbw, write_lbw}},
@@ -99,6 +94,11 @@ std::string conversion_hint(const std::string& path) {
       {" dxf svg ",
        "import it into Blender, convert the curves to meshes, and export .obj; a drawing can "
        "also be saved as .png with a transparent background"},
+      {" om ", "read it with OpenMesh and save it as .ply: OpenMesh::IO::write_mesh()"},
+      {" node ele ", "convert it to .mesh first: tetgen -g writes it, and meshio converts it"},
+      {" dmat ",
+       "write .csv from libigl: out << W.format(Eigen::IOFormat(Eigen::FullPrecision, "
+       "Eigen::DontAlignCols, \",\"))"},
       {" spz splat ksplat sog ",
        "export it as an uncompressed .ply first, for example in SuperSplat"},
       {" gz bz2 xz zst zip 7z ", "unpack it first"}};

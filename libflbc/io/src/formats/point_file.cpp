@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -11,8 +10,6 @@
 #include <optional>
 #include <ostream>
 #include <system_error>
-
-#include <pugixml.hpp>
 
 #include "base/instantiate.h"
 #include "flbc/errors.h"
@@ -24,72 +21,6 @@
 
 namespace flbc::io {
 namespace {
-
-// Where a VTK XML file has its points as raw bytes after the XML.
-struct VtuPoints {
-  std::size_t block = 0;       // position of the block: its size in bytes, then the coordinates
-  std::size_t size_width = 0;  // bytes of this size: 4 or 8, little-endian
-  std::int64_t count = 0;      // points, of 3 coordinates
-  bool is_double = false;      // float64, otherwise float32
-};
-
-// \param tag  position of "<AppendedData" \return nothing if the points are not appended
-std::optional<VtuPoints> vtu_points(const std::string& path, const std::string& start,
-                                    std::size_t tag) {
-  const auto fail = [&](const std::string& message) { throw InputError(path + ": " + message); };
-  const auto end = start.find('>', tag);
-  // Bytes after the tag are not XML.
-  const auto xml = start.substr(0, end) + "></AppendedData></VTKFile>";
-  pugi::xml_document document;
-  const auto parsed =
-      document.load_buffer(xml.data(), xml.size(), pugi::parse_default, pugi::encoding_utf8);
-  if (end == std::string::npos || !parsed) {
-    fail(std::string("the XML is malformed: ") + parsed.description());
-  }
-  const auto data = start.find_first_not_of(" \t\r\n", end + 1);
-  if (data == std::string::npos || start[data] != '_') {
-    fail("the appended data have no \"_\" at their start");
-  }
-  // Which of the values an attribute has.
-  const auto choice = [&](const pugi::xml_node& node, const std::string& attribute,
-                          const std::vector<std::string>& values) {
-    const std::string value = node.attribute(attribute.c_str()).value();
-    const auto found = std::find(values.begin(), values.end(), value);
-    if (found == values.end()) {
-      fail("the " + attribute + " " + in_quotes(value) + " is not supported; save the file with " +
-           in_quotes(values.back()));
-    }
-    return found - values.begin();
-  };
-  const auto whole_number = [&](const pugi::xml_node& node, const char* attribute) {
-    const std::string text = node.attribute(attribute).value();
-    std::int64_t number = -1;
-    const auto stop = std::from_chars(text.data(), text.data() + text.size(), number).ptr;
-    if (stop != text.data() + text.size() || number < 0) {
-      fail(std::string(attribute) + " " + in_quotes(text) + " is not a number from 0");
-    }
-    return number;
-  };
-  const auto file = document.document_element();
-  if (file.name() != std::string("VTKFile")) fail("the first tag must be <VTKFile>");
-  const auto piece = file.child("UnstructuredGrid").child("Piece");
-  if (!piece) fail("the file has no unstructured grid");
-  const auto array = piece.child("Points").child("DataArray");
-  if (array.attribute("format").value() != std::string("appended")) return {};
-  if (piece.next_sibling("Piece")) fail("the grid has more than one piece; merge them");
-  if (file.attribute("compressor")) {
-    fail("the data are compressed; save the file without compression");
-  }
-  choice(file.child("AppendedData"), "encoding", {"raw"});
-  choice(file, "byte_order", {"LittleEndian"});
-  choice(array, "NumberOfComponents", {"3"});
-  VtuPoints points;
-  points.count = whole_number(piece, "NumberOfPoints");
-  points.block = data + 1 + static_cast<std::size_t>(whole_number(array, "offset"));
-  points.size_width = choice(file, "header_type", {"", "UInt32", "UInt64"}) == 2 ? 8 : 4;
-  points.is_double = choice(array, "type", {"Float32", "Float64"}) == 1;
-  return points;
-}
 
 constexpr std::size_t kMostHeader = 1 << 16;
 constexpr std::int64_t kPointsAtOnce = 1 << 16;
@@ -105,12 +36,6 @@ class PointInput {
     stream_.read(bytes, static_cast<std::streamsize>(count));
     if (stream_.bad()) fail(errno);
     return static_cast<std::size_t>(stream_.gcount());
-  }
-  // As read(), from a position; nothing after the end of the file.
-  std::size_t read_at(std::size_t position, char* bytes, std::size_t count) {
-    stream_.clear();
-    if (!stream_.seekg(static_cast<std::streamoff>(position))) return 0;
-    return read(bytes, count);
   }
 
  private:
@@ -160,51 +85,21 @@ std::optional<PointLayout> ply_layout(const std::string& path, const std::string
   return layout;
 }
 
-[[noreturn]] void fail_short(const std::string& path, std::int64_t count) {
-  throw InputError(path + ": the file is too short for " + std::to_string(count) + " points");
-}
-
-std::optional<PointLayout> vtu_layout(const std::string& path, const std::string& start,
-                                      PointInput& input) {
-  const auto tag = start.find("<AppendedData");
-  if (tag == std::string::npos) return {};
-  const auto points = vtu_points(path, start, tag);
-  if (!points) return {};
-  const std::size_t width = points->is_double ? 8 : 4;
-  const PointLayout layout{points->block + points->size_width,
-                           3 * width,
-                           points->count,
-                           {0, width, 2 * width},
-                           points->is_double};
-  char bytes[8] = {};
-  if (input.read_at(points->block, bytes, points->size_width) != points->size_width) {
-    fail_short(path, layout.count);
-  }
-  const auto size = number_at<std::uint64_t>(bytes);
-  const auto expected = static_cast<std::uint64_t>(layout.count) * layout.stride;
-  if (size != expected) {
-    throw InputError(path + ": the block of points has " + std::to_string(size) + " bytes, not " +
-                     std::to_string(expected));
-  }
-  return layout;
-}
-
 }  // namespace
 
 std::optional<PointLayout> find_point_layout(const std::string& path) {
   const auto extension = extension_of(path);
-  if (extension != "npy" && extension != "ply" && extension != "vtu") return {};
+  if (extension != "npy" && extension != "ply") return {};
   PointInput input(path);
   std::string start(kMostHeader, '\0');
   start.resize(input.read(start.data(), start.size()));
-  const auto layout = extension == "npy"   ? npy_layout(path, start)
-                      : extension == "ply" ? ply_layout(path, start)
-                                           : vtu_layout(path, start, input);
+  const auto layout = extension == "npy" ? npy_layout(path, start) : ply_layout(path, start);
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
   if (layout && (size < layout->header || (size - layout->header) / layout->stride <
                                               static_cast<std::uintmax_t>(layout->count))) {
-    fail_short(path, layout->count);
+    throw InputError(path + ": the file is too short for " + std::to_string(layout->count) +
+                     " points");
   }
   return layout;
 }

@@ -187,7 +187,7 @@ class GmshReader {
 
 }  // namespace
 
-DomainMesh<3> read_gmsh(const std::string& path, std::vector<VertexField>*) {
+DomainMesh<3> read_gmsh(const std::string& path) {
   return GmshReader(path).read();
 }
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // MEDIT .mesh: sections that start with a keyword and a number of elements; each element ends with
-// a reference number. Vertices are numbered from 1. Values per vertex are in a separate .sol file
-// of the same form.
-#include <algorithm>
-#include <filesystem>
-#include <optional>
+// a reference number. Vertices are numbered from 1.
+#include <ostream>
 
 #include "flbc/io/files.h"
 #include "mesh/mesh_formats.h"
@@ -76,46 +73,9 @@ void for_sections(TextReader& reader, const Read& read) {
   }
 }
 
-// The format has no names, so they are written as comments, "# field K NAME".
-constexpr const char* kNameComment = "# field ";
+}  // namespace
 
-std::string name_of_field(const std::string& content, Index field) {
-  const std::string start = kNameComment + std::to_string(field) + " ";
-  std::size_t begin = content.compare(0, start.size(), start) == 0 ? 0 : content.find("\n" + start);
-  if (begin == std::string::npos) return "solution " + std::to_string(field);
-  begin = content.find(start, begin) + start.size();
-  std::string name =
-      content.substr(begin, std::min(content.find('\n', begin), content.size()) - begin);
-  if (!name.empty() && name.back() == '\r') name.pop_back();
-  return name;
-}
-
-std::vector<VertexField> read_solution(TextReader& reader, Index num_vertices) {
-  const Index count = read_count(reader, "vertices", 0);
-  if (count != num_vertices) {
-    reader.fail("there are values for " + std::to_string(count) + " vertices, but the mesh has " +
-                std::to_string(num_vertices));
-  }
-  const Index num_fields = read_count(reader, "fields", 2 + 2 * static_cast<std::size_t>(count));
-  for (Index k = 0; k < num_fields; ++k) {
-    reader.next_word_of("types of fields", k, num_fields);
-    if (reader.integer() != 1) {
-      reader.fail("field " + std::to_string(k) + " has vectors or tensors; only scalars (type 1) " +
-                  "are supported");
-    }
-  }
-  std::vector<VertexField> fields(static_cast<std::size_t>(num_fields));
-  for (auto& field : fields) field.values.resize(count);
-  for (Index v = 0; v < count; ++v) {
-    for (auto& field : fields) {
-      reader.next_word_of("vertex values", v, count);
-      field.values[v] = reader.number();
-    }
-  }
-  return fields;
-}
-
-DomainMesh<3> read_medit_mesh(const std::string& path) {
+DomainMesh<3> read_medit(const std::string& path) {
   TextReader reader(path, read_file(path), {'#', false});
   DomainMesh<3> mesh;
   bool has_vertices = false;
@@ -144,83 +104,23 @@ DomainMesh<3> read_medit_mesh(const std::string& path) {
   return mesh;
 }
 
-std::vector<VertexField> read_medit_solution(const std::string& path, Index num_vertices) {
-  const std::string content = read_file(path);
-  TextReader reader(path, content, {'#', false});
-  std::optional<std::vector<VertexField>> fields;
-  for_sections(reader, [&](std::string_view keyword) {
-    if (keyword != "SolAtVertices" || fields) return false;
-    fields = read_solution(reader, num_vertices);
-    return true;
-  });
-  if (!fields) reader.fail("the file has no section SolAtVertices");
-  for (std::size_t k = 0; k < fields->size(); ++k) {
-    (*fields)[k].name = name_of_field(content, static_cast<Index>(k));
-  }
-  return std::move(*fields);
-}
-
-void write_medit_mesh(std::ostream& out, const DomainMesh<3>& mesh) {
-  TextWriter writer(out);
-  writer << "MeshVersionFormatted 2\nDimension 3\n";
-  writer << "Vertices\n" << mesh.num_vertices() << "\n";
-  for (Index v = 0; v < mesh.num_vertices(); ++v) {
-    write_point(writer, mesh, v);
-    writer << " 0\n";
-  }
-  writer << "Tetrahedra\n" << mesh.num_cells() << "\n";
-  for (Index s = 0; s < mesh.num_cells(); ++s) {
-    for (int k = 0; k < 4; ++k) writer << mesh.cells(k, s) + std::int64_t{1} << " ";
-    writer << "1\n";
-  }
-  writer << "End\n";
-  writer.flush();
-}
-
-void write_medit_solution(std::ostream& out, const std::vector<VertexField>& fields) {
-  TextWriter writer(out);
-  writer << "MeshVersionFormatted 2\nDimension 3\n";
-  for (std::size_t k = 0; k < fields.size(); ++k) {
-    writer << kNameComment << k << " " << fields[k].name << "\n";
-  }
-  const Eigen::Index num_vertices = fields.empty() ? 0 : fields.front().values.size();
-  writer << "SolAtVertices\n" << num_vertices << "\n" << fields.size();
-  for (std::size_t k = 0; k < fields.size(); ++k) writer << " 1";
-  writer << "\n";
-  for (Eigen::Index v = 0; v < num_vertices; ++v) {
-    for (std::size_t k = 0; k < fields.size(); ++k) {
-      writer << (k > 0 ? " " : "") << fields[k].values[v];
-    }
-    writer << "\n";
-  }
-  writer << "End\n";
-  writer.flush();
-}
-
-std::string solution_path(const std::string& path) {
-  return std::filesystem::path(path).replace_extension(".sol").string();
-}
-
-}  // namespace
-
-DomainMesh<3> read_medit(const std::string& path, std::vector<VertexField>* fields) {
-  auto mesh = read_medit_mesh(path);
-  const std::string solution = solution_path(path);
-  if (fields && std::filesystem::exists(solution)) {
-    *fields = read_medit_solution(solution, mesh.num_vertices());
-  }
-  return mesh;
-}
-
 void write_medit(const std::string& path, const DomainMesh<3>& mesh,
-                 const std::vector<VertexField>& fields) {
-  // If one of the two files cannot be written, neither is created.
+                 const std::vector<VertexField>&) {
   write_file(path, [&](std::ostream& out) {
-    write_medit_mesh(out, mesh);
-    out.flush();
-    if (!out || fields.empty()) return;
-    write_file(solution_path(path),
-               [&](std::ostream& solution) { write_medit_solution(solution, fields); });
+    TextWriter writer(out);
+    writer << "MeshVersionFormatted 2\nDimension 3\n";
+    writer << "Vertices\n" << mesh.num_vertices() << "\n";
+    for (Index v = 0; v < mesh.num_vertices(); ++v) {
+      write_point(writer, mesh, v);
+      writer << " 0\n";
+    }
+    writer << "Tetrahedra\n" << mesh.num_cells() << "\n";
+    for (Index s = 0; s < mesh.num_cells(); ++s) {
+      for (int k = 0; k < 4; ++k) writer << mesh.cells(k, s) + std::int64_t{1} << " ";
+      writer << "1\n";
+    }
+    writer << "End\n";
+    writer.flush();
   });
 }
 

@@ -13,24 +13,20 @@
 
 namespace flbc::io {
 
-//! \param fields  output: scalars per vertex if the format supports them; null: skip them
-DomainMesh<2> read_triangles(const std::string& path, std::vector<VertexField>* fields);
-DomainMesh<3> read_medit(const std::string& path, std::vector<VertexField>* fields);
-DomainMesh<3> read_gmsh(const std::string& path, std::vector<VertexField>* fields);
+DomainMesh<2> read_triangles(const std::string& path);
+DomainMesh<3> read_medit(const std::string& path);
+DomainMesh<3> read_gmsh(const std::string& path);
+//! \throws OptionError with the way out, because only viewers read .vtu
 template <int Dim>
-DomainMesh<Dim> read_vtu(const std::string& path, std::vector<VertexField>* fields);
-//! \param path  the .node or the .ele file; the other one is in the same directory
-DomainMesh<3> read_tetgen(const std::string& path, std::vector<VertexField>* fields);
+DomainMesh<Dim> read_vtu(const std::string& path);
 
-//! \param fields  empty if the format has none
+//! \param fields  empty but for .vtu
 void write_triangles(const std::string& path, const DomainMesh<2>& mesh,
                      const std::vector<VertexField>& fields);
 void write_medit(const std::string& path, const DomainMesh<3>& mesh,
                  const std::vector<VertexField>& fields);
 void write_gmsh(const std::string& path, const DomainMesh<3>& mesh,
                 const std::vector<VertexField>& fields);
-void write_tetgen(const std::string& path, const DomainMesh<3>& mesh,
-                  const std::vector<VertexField>& fields);
 template <int Dim>
 void write_vtu(const std::string& path, const DomainMesh<Dim>& mesh,
                const std::vector<VertexField>& fields);

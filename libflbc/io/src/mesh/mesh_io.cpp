@@ -42,17 +42,6 @@ const MeshFormat<Dim>& mesh_format(const std::string& path, const std::string& a
   return format_of(path, kMesh<Dim>, phrase.c_str()).template mesh<Dim>();
 }
 
-template <int Dim>
-DomainMesh<Dim> read_and_validate(const std::string& path, std::vector<VertexField>* fields) {
-  DomainMesh<Dim> mesh = mesh_format<Dim>(path, "read").read(path, fields);
-  try {
-    normalize_and_validate(mesh);
-  } catch (const InputError& error) {
-    throw InputError(path + ": " + error.what());
-  }
-  return mesh;
-}
-
 void check_fields(const std::string& path, const std::vector<VertexField>& fields,
                   Index num_vertices) {
   std::set<std::string> names;
@@ -74,7 +63,7 @@ void check_fields(const std::string& path, const std::vector<VertexField>& field
 
 }  // namespace
 
-DomainMesh<2> read_triangles(const std::string& path, std::vector<VertexField>*) {
+DomainMesh<2> read_triangles(const std::string& path) {
   return from_soup(path, read_polygons(path));
 }
 
@@ -111,14 +100,12 @@ PolygonSoup to_polygons(const DomainMesh<Dim>& mesh) {
 
 template <int Dim>
 DomainMesh<Dim> read_domain(const std::string& path) {
-  return read_and_validate<Dim>(path, nullptr);
-}
-
-template <int Dim>
-DomainMesh<Dim> read_domain(const std::string& path, std::vector<VertexField>& fields) {
-  std::vector<VertexField> read;
-  auto mesh = read_and_validate<Dim>(path, &read);
-  fields = std::move(read);
+  DomainMesh<Dim> mesh = mesh_format<Dim>(path, "read").read(path);
+  try {
+    normalize_and_validate(mesh);
+  } catch (const InputError& error) {
+    throw InputError(path + ": " + error.what());
+  }
   return mesh;
 }
 
@@ -135,11 +122,10 @@ void write_domain(const std::string& path, const DomainMesh<Dim>& mesh,
   format.write(path, mesh, fields);
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                          \
-  template PolygonSoup to_polygons(const DomainMesh<Dim>&);                            \
-  template DomainMesh<Dim> read_domain(const std::string&);                            \
-  template DomainMesh<Dim> read_domain(const std::string&, std::vector<VertexField>&); \
-  template void write_domain(const std::string&, const DomainMesh<Dim>&,               \
+#define FLBC_INSTANTIATE(Dim)                                            \
+  template PolygonSoup to_polygons(const DomainMesh<Dim>&);              \
+  template DomainMesh<Dim> read_domain(const std::string&);              \
+  template void write_domain(const std::string&, const DomainMesh<Dim>&, \
                              const std::vector<VertexField>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the VTK XML format for unstructured grids, as text.
+// Writes the VTK XML format for unstructured grids, as text; viewers read it.
 #include <ostream>
 
 #include "base/instantiate.h"
+#include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "mesh/mesh_formats.h"
 #include "text/text_writer.h"
@@ -66,6 +67,13 @@ void write_fields(TextWriter& writer, const std::vector<VertexField>& fields) {
 }  // namespace
 
 template <int Dim>
+DomainMesh<Dim> read_vtu(const std::string& path) {
+  throw OptionError(path +
+                    ": .vtu files are only written, for viewers such as ParaView; save the mesh "
+                    "as .mesh (in 2D .obj) as well, or convert it, for example with meshio");
+}
+
+template <int Dim>
 void write_vtu(const std::string& path, const DomainMesh<Dim>& mesh,
                const std::vector<VertexField>& fields) {
   write_file(path, [&](std::ostream& out) {
@@ -82,6 +90,7 @@ void write_vtu(const std::string& path, const DomainMesh<Dim>& mesh,
   });
 }
 
+FLBC_INSTANTIATE_FUNCTION(read_vtu)
 FLBC_INSTANTIATE_FUNCTION(write_vtu)
 
 }  // namespace flbc::io

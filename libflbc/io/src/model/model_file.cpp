@@ -165,14 +165,10 @@ PointList<3> in_space(const PolygonSoup& soup, const PointList<Dim>& points) {
   return result;
 }
 
-template <class Matrix>
-bool are_single(const Matrix& numbers) {
-  return numbers.template cast<float>().template cast<double>() == numbers;
-}
-
 bool are_single(const std::vector<Vector<3>>& points) {
-  return std::all_of(points.begin(), points.end(),
-                     [](const auto& point) { return are_single<Vector<3>>(point); });
+  return std::all_of(points.begin(), points.end(), [](const auto& point) {
+    return point.template cast<float>().template cast<double>() == point;
+  });
 }
 
 // Rounds decimals with few digits to the intended color levels.
@@ -298,11 +294,9 @@ std::vector<std::string> losses(const Model& model, const std::string& path) {
     add_if(attributes.normals.cols() > 0, "normals of vertices");
     add_if(attributes.texture_coordinates.cols() > 0, "texture coordinates");
   } else if (kept == Attributes::kVertices) {
-    const auto texture = texture_coordinates_at_vertices(model);
     add_if(!normals_at_vertices(model), "normals (they differ between corners of a vertex)");
-    add_if(!texture, "texture coordinates (they differ between corners of a vertex)");
-    add_if(format.extension == "om" && texture && !are_single(*texture),
-           "texture coordinates beyond single precision");
+    add_if(!texture_coordinates_at_vertices(model),
+           "texture coordinates (they differ between corners of a vertex)");
     add_if(!are_levels(attributes.colors), "colors beyond 256 levels");
   }
   return phrases;
@@ -311,9 +305,7 @@ std::vector<std::string> losses(const Model& model, const std::string& path) {
 void write_model(const std::string& path, const Model& model) {
   const auto& format = format_of(path, Content::kModel, "write a model as");
   if (!format.model.write) {
-    throw OptionError(path + (format.extension == "om"
-                                  ? ": this format is written by OpenMesh (flbc::openmesh)"
-                                  : ": this format is only read; write .glb"));
+    throw OptionError(path + ": this format is only read; write .glb");
   }
   write_file(path, [&](std::ostream& out) { format.model.write(out, model); });
 }

@@ -24,10 +24,9 @@ struct PointLayout {
 };
 
 //! Reads only the header.
-//! \return nothing unless the file is a .npy array in C order, a binary little-endian .ply file that
-//! starts with vertices without normals, or a .vtu file with appended points
-//! \throws IoError; InputError if the header is malformed, a .npy array is not points, appended
-//! points of a .vtu file are not raw, little-endian, uncompressed, and in one piece, or the file is
+//! \return nothing unless the file is a .npy array in C order, or a binary little-endian .ply file
+//! that starts with vertices without normals
+//! \throws IoError; InputError if the header is malformed, a .npy array is not points, or the file is
 //! shorter than its header says
 std::optional<PointLayout> find_point_layout(const std::string& path);
 

@@ -11,17 +11,16 @@
 
 namespace flbc::io {
 
-//! Reads Matrix Market (.mtx: coordinate or array, real or integer, general), DMAT (.dmat, text or
-//! binary, as libigl writes it) or NumPy (.npy: version 1 to 3, float32 or float64, C or Fortran
-//! order, two dimensions).
+//! Reads Matrix Market (.mtx: coordinate or array, real or integer, general), NumPy (.npy: version
+//! 1 to 3, float32 or float64, C or Fortran order, two dimensions), or .csv.
 //! \return weights of the points; for .mtx, no dense matrix is allocated
 //! \throws IoError if the file cannot be read; InputError naming file and line or byte if it is
 //! malformed, contains a non-finite number, or ends early; OptionError for another extension
 SparseWeights read_weights(const std::string& path);
 
 //! Writes the format chosen by the extension: .mtx (coordinate real general, 17 digits, without
-//! zeros), .dmat (binary) or .npy (float64). For .mtx, no dense matrix is
-//! allocated.
+//! zeros), .npy (float64), .csv, or .lbw (single precision, for graphics cards). For .mtx, no dense
+//! matrix is allocated.
 //! \param weights  of the points
 //! \throws IoError if the file cannot be written; InputError if a weight is not finite; OptionError
 //! for another extension

@@ -36,7 +36,7 @@ template <int Dim>
 Period<Dim> make_period(const LbcProblem<Dim>& problem, const Eigen::RowVectorXd& psi) {
   const auto& mesh = problem.mesh;
   Period<Dim> period{PointList<Dim>(Dim, mesh.num_cells()),
-                     Eigen::VectorXd::Zero(problem.num_control_points()), 1};
+                     Eigen::VectorXd::Zero(problem.num_control_points())};
   Eigen::VectorXd flux = Eigen::VectorXd::Zero(mesh.num_vertices());  // K psi
   for (Index s = 0; s < mesh.num_cells(); ++s) {
     const auto geometry = cell_geometry(mesh, s);
@@ -53,9 +53,9 @@ Period<Dim> make_period(const LbcProblem<Dim>& problem, const Eigen::RowVectorXd
     problem.boundary.scatter(static_cast<Index>(b), weights);
     period.values += flux[problem.boundary.vertices[b]] * weights;
   }
-  period.norm = period.field.norm();
-  period.field /= period.norm;
-  period.values /= period.norm;
+  const double norm = period.field.norm();
+  period.field /= norm;
+  period.values /= norm;
   return period;
 }
 

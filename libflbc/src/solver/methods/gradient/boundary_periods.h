@@ -22,7 +22,6 @@ template <int Dim>
 struct Period {
   PointList<Dim> field;    //!< Dim x F, A_s grad psi(s), scaled to norm 1 over all cells
   Eigen::VectorXd values;  //!< n, the right-hand side for each control point, scaled equally
-  double norm = 1;         //!< both were divided by it
 };
 
 //! One period for each boundary component after the first; empty for a connected boundary.

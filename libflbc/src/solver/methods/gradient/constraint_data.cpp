@@ -4,10 +4,10 @@
 #include <Eigen/LU>
 
 #include "base/instantiate.h"
+#include "base/padded_rows.h"
 #include "base/parallel.h"
 #include "mesh/cell_geometry.h"
 #include "problem/barycentric_constraints.h"
-#include "solver/methods/gradient/gradient_kernel.h"
 
 namespace flbc::gradient {
 namespace {
@@ -45,59 +45,37 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim - 1> boundary_slopes(
 }
 
 template <class Scalar, int Dim>
-void set_up_facets(const LbcProblem<Dim>& problem, std::size_t stride,
+void set_up_facets(const LbcProblem<Dim>& problem, Eigen::Index rows,
                    ConstraintData<Scalar, Dim>& data) {
-  constexpr std::size_t kTangents = Dim - 1;
   const auto& topology = problem.topology;
-  const auto num_boundary = static_cast<std::size_t>((topology.sides.row(1).array() < 0).count());
-  data.tangents.resize(topology.num_facets() * kTangents * Dim);
+  const Eigen::Index num_boundary = (topology.sides.row(1).array() < 0).count();
+  data.tangents.resize(topology.num_facets());
   data.boundary_index.assign(topology.num_facets(), -1);
-  data.boundary_slope = AlignedArray<Scalar>(num_boundary * kTangents * stride);
+  data.boundary_slope.setZero(rows, num_boundary * (Dim - 1));
   Index boundary = 0;
   for (Index f = 0; f < topology.num_facets(); ++f) {
     const auto tangents = tangent_basis(problem, f);
-    Eigen::Map<Eigen::Matrix<Scalar, Dim, Dim - 1>>(data.tangents.data() + f * kTangents * Dim) =
-        tangents.template cast<Scalar>();
+    data.tangents[f] = tangents.template cast<Scalar>();
     if (!topology.is_boundary(f)) continue;
-    const auto slopes = boundary_slopes(problem, f, tangents);
-    for (std::size_t t = 0; t < kTangents; ++t) {
-      Scalar* row = data.boundary_slope.data() + (boundary * kTangents + t) * stride;
-      for (Index i = 0; i < slopes.rows(); ++i) row[i] = static_cast<Scalar>(slopes(i, t));
-    }
+    data.boundary_slope.block(0, Eigen::Index{boundary} * (Dim - 1), problem.num_control_points(),
+                              Dim - 1) =
+        boundary_slopes(problem, f, tangents).template cast<Scalar>();
     data.boundary_index[f] = boundary++;
-  }
-}
-
-template <class Scalar, int Dim>
-void set_up_interpolation(const LbcProblem<Dim>& problem, std::size_t stride,
-                          ConstraintData<Scalar, Dim>& data) {
-  const Index n = problem.num_control_points();
-  const BarycentricConstraints<Dim> constraints(problem.cage.points);
-  data.basis = AlignedArray<Scalar>((Dim + 1) * stride);
-  data.target = AlignedArray<Scalar>(2 * kLanes);
-  const Eigen::Matrix<double, Dim + 1, Dim> target = constraints.gradient_target();
-  for (int k = 0; k <= Dim; ++k) {
-    for (Index i = 0; i < n; ++i) {
-      data.basis[k * stride + i] = static_cast<Scalar>(constraints.basis()(i, k));
-    }
-    for (int d = 0; d < Dim; ++d)
-      data.target[d * (Dim + 1) + k] = static_cast<Scalar>(target(k, d));
   }
 }
 
 // The radius phi A / mu and the smoothing epsilon A / (mu + epsilon A) of the Z-step.
 template <class Scalar, int Dim>
-void set_up_proximal_maps(const LbcProblem<Dim>& problem, double penalty, std::size_t stride,
+void set_up_proximal_maps(const LbcProblem<Dim>& problem, double penalty, Eigen::Index rows,
                           ConstraintData<Scalar, Dim>& data) {
-  const Index n = problem.num_control_points();
   data.smoothing.resize(problem.mesh.num_cells());
-  data.radius = AlignedArray<Scalar>(static_cast<std::size_t>(problem.mesh.num_cells()) * stride);
+  data.radius.setZero(rows, problem.mesh.num_cells());
   parallel_for(problem.mesh.num_cells(), [&](Index s) {
     const double scale = cell_geometry(problem.mesh, s).measure / penalty;
     const double quadratic = problem.smoothness * scale;
     data.smoothing[s] = static_cast<Scalar>(quadratic / (1 + quadratic));
-    for (Index i = 0; i < n; ++i) {
-      data.radius[s * stride + i] = static_cast<Scalar>(scale * problem.phi(i, s));
+    for (Index i = 0; i < problem.num_control_points(); ++i) {
+      data.radius(i, s) = static_cast<Scalar>(scale * problem.phi(i, s));
     }
   });
 }
@@ -105,12 +83,16 @@ void set_up_proximal_maps(const LbcProblem<Dim>& problem, double penalty, std::s
 }  // namespace
 
 template <class Scalar, int Dim>
-ConstraintData<Scalar, Dim> make_constraint_data(const LbcProblem<Dim>& problem, double penalty,
-                                                 std::size_t stride) {
+ConstraintData<Scalar, Dim> make_constraint_data(const LbcProblem<Dim>& problem, double penalty) {
+  const Index n = problem.num_control_points();
+  const auto rows = static_cast<Eigen::Index>(padded(static_cast<std::size_t>(n)));
   ConstraintData<Scalar, Dim> data;
-  set_up_facets(problem, stride, data);
-  set_up_interpolation(problem, stride, data);
-  set_up_proximal_maps(problem, penalty, stride, data);
+  const BarycentricConstraints<Dim> constraints(problem.cage.points);
+  data.basis.setZero(rows, Dim + 1);
+  data.basis.topRows(n) = constraints.basis().template cast<Scalar>();
+  data.target = constraints.gradient_target().template cast<Scalar>();
+  set_up_facets(problem, rows, data);
+  set_up_proximal_maps(problem, penalty, rows, data);
   return data;
 }
 

@@ -1,32 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The constraints of the gradient ADMM, constant during the iteration, laid out for the inner
-//! loops.
+//! The constraints of the gradient ADMM, constant during the iteration.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
-#include "base/aligned_array.h"
 #include "flbc/lbc_problem.h"
 
 namespace flbc::gradient {
 
-//! Arrays of gradient_kernel.h, with the shapes given there.
+//! A row per control point, and some columns per cell or facet. Rows are padded with zeros, so
+//! vector instructions need no remainder.
+template <class Scalar>
+using Field = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+//! F cells, E facets.
 template <class Scalar, int Dim>
 struct ConstraintData {
-  AlignedArray<Scalar> radius;
-  std::vector<Scalar> smoothing;
-  AlignedArray<Scalar> boundary_slope;
-  AlignedArray<Scalar> basis;
-  AlignedArray<Scalar> target;
-  std::vector<Scalar> tangents;
-  std::vector<Index> boundary_index;
+  Field<Scalar> radius;           //!< a column per cell: phi A / mu
+  std::vector<Scalar> smoothing;  //!< of F cells: epsilon A / (mu + epsilon A)
+  Eigen::Matrix<Scalar, Eigen::Dynamic, Dim + 1> basis;  //!< orthonormal basis Q of [1; c]
+  Eigen::Matrix<Scalar, Dim + 1, Dim> target;            //!< Q^T g for every g that satisfies (8)
+  //! Orthonormal bases of the tangent spaces of E facets.
+  std::vector<Eigen::Matrix<Scalar, Dim, Dim - 1>> tangents;
+  std::vector<Index> boundary_index;  //!< of E facets: number among those of the boundary, or -1
+  Field<Scalar> boundary_slope;       //!< Dim - 1 columns per boundary facet: h of (9)
 };
 
-//! \param penalty  mu > 0 \param stride  values per row
+//! \param penalty  mu > 0
 template <class Scalar, int Dim>
-ConstraintData<Scalar, Dim> make_constraint_data(const LbcProblem<Dim>& problem, double penalty,
-                                                 std::size_t stride);
+ConstraintData<Scalar, Dim> make_constraint_data(const LbcProblem<Dim>& problem, double penalty);
 
 }  // namespace flbc::gradient

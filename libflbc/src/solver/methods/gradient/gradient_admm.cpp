@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 #include "base/flush_denormals.h"
 #include "base/instantiate.h"
@@ -14,171 +14,192 @@
 namespace flbc::gradient {
 namespace {
 
-// Calls `body(begin, end)` for blocks of [0, count) in parallel. Every step flushes denormal
-// numbers, because they are slow, and because all steps must agree for bit-identical results.
-template <class Body>
-void parallel_blocks(Index count, const Body& body) {
-  parallel_for(count, [&](Index begin, Index end) {
-    const FlushDenormals scope;
-    body(begin, end);
-  });
+// The columns of a cell or facet.
+template <int Columns, class FieldOf>
+auto columns_of(FieldOf& field, Index element) {
+  return field.template middleCols<Columns>(Eigen::Index{Columns} * element);
+}
+
+// Moves a dual by its over-relaxed step. \param sides  number of copies with this dual
+template <class Dual, class Step, class Scalar>
+Change move_dual(Dual dual, const Step& step, Scalar relaxation, int sides) {
+  dual += relaxation * step;
+  return {sides * static_cast<double>(step.squaredNorm()), 0, 0};
 }
 
 }  // namespace
 
 template <class Scalar, int Dim>
 GradientAdmm<Scalar, Dim>::GradientAdmm(const LbcProblem<Dim>& problem, double penalty,
-                                        double relaxation, const std::vector<Period<Dim>>& periods)
+                                        double relaxation, std::vector<Period<Dim>> periods)
     : problem_(problem),
-      kernel_(select_kernel<Kernel<Scalar, Dim>>()),
       n_(problem.num_control_points()),
-      stride_(padded(static_cast<std::size_t>(n_))),
       penalty_(penalty),
-      relaxation_(relaxation),
-      num_periods_(periods.size()),
-      M_(Dim + 2 + static_cast<double>(periods.size())) {
-  const auto cells = static_cast<std::size_t>(problem.mesh.num_cells());
-  const auto facets = static_cast<std::size_t>(problem.topology.num_facets());
-  gradient_ = AlignedArray<Scalar>(cells * Dim * stride_);
-  extrapolated_ = AlignedArray<Scalar>(cells * Dim * stride_);
-  tv_dual_ = AlignedArray<Scalar>(cells * Dim * stride_);
-  facet_dual_ = AlignedArray<Scalar>(facets * (Dim - 1) * stride_);
-  data_ = make_constraint_data<Scalar>(problem, penalty, stride_);
-  period_dual_ = AlignedArray<Scalar>(periods.size() * stride_);
-  period_values_ = AlignedArray<double>(periods.size() * stride_);
-  for (std::size_t p = 0; p < periods.size(); ++p) {
-    for (const double number : periods[p].field.reshaped()) {
-      period_fields_.push_back(static_cast<Scalar>(number));
-    }
-    std::copy_n(periods[p].values.data(), n_, period_values_.data() + p * stride_);
-  }
-  cell_pass_ = make_cell_pass(problem.mesh, problem.topology, omp_get_max_threads());
-  for (const auto& part : cell_pass_.parts) {
-    slots_.emplace_back(static_cast<std::size_t>(part.num_slots) * Dim * stride_);
-  }
-  cell_change_.resize(cells);
-  facet_change_.resize(facets);
+      relaxation_(static_cast<Scalar>(relaxation)),
+      periods_(std::move(periods)),
+      M_(Dim + 2 + static_cast<double>(periods_.size())),
+      data_(make_constraint_data<Scalar>(problem, penalty)) {
+  const Eigen::Index rows = data_.basis.rows();
+  const auto columns = Eigen::Index{Dim} * problem.mesh.num_cells();
+  gradient_.setZero(rows, columns);
+  extrapolated_.setZero(rows, columns);
+  tv_dual_.setZero(rows, columns);
+  facet_dual_.setZero(rows, Eigen::Index{Dim - 1} * problem.topology.num_facets());
+  period_dual_.setZero(rows, static_cast<Eigen::Index>(periods_.size()));
 }
 
-// The dual step of the period constraints. The field has norm 1, so the dual grows by the
-// violation.
 template <class Scalar, int Dim>
-double GradientAdmm<Scalar, Dim>::update_periods() {
-  double change = 0;
-  const Index num_cells = problem_.mesh.num_cells();
-  for (std::size_t p = 0; p < num_periods_; ++p) {
-    const Scalar* fields = period_fields_.data() + p * num_cells * Dim;
-    const Eigen::ArrayXd zero = Eigen::ArrayXd::Zero(static_cast<Eigen::Index>(stride_));
-    const Eigen::ArrayXd sums = parallel_sum(num_cells, zero, [&](Index begin, Index end) {
-      Eigen::ArrayXd sum = zero;
-      for (Index row = begin * Dim; row < end * Dim; ++row) {
-        const Scalar* gradients = extrapolated_.data() + row * stride_;
-        for (std::size_t i = 0; i < stride_; ++i) {
-          sum[i] += static_cast<double>(fields[row]) * static_cast<double>(gradients[i]);
-        }
-      }
-      return sum;
-    });
-    for (std::size_t i = 0; i < stride_; ++i) {
-      const double step = period_values_[p * stride_ + i] - sums[i];
-      period_dual_[p * stride_ + i] += static_cast<Scalar>(relaxation_ * step);
-      change += step * step;
-    }
-  }
-  return change;
+template <class GradientsOf>
+void GradientAdmm<Scalar, Dim>::start(const GradientsOf& gradients_of) {
+  parallel_for(problem_.mesh.num_cells(), [&](Index s) {
+    columns_of<Dim>(gradient_, s).topRows(n_) = gradients_of(s);
+    columns_of<Dim>(extrapolated_, s) = columns_of<Dim>(gradient_, s);
+  });
 }
 
 template <class Scalar, int Dim>
 void GradientAdmm<Scalar, Dim>::start_from_least_norm() {
-  parallel_for(problem_.mesh.num_cells(), [&](Index s) {
-    for (int d = 0; d < Dim; ++d) {
-      const std::size_t row = (static_cast<std::size_t>(s) * Dim + d) * stride_;
-      for (std::size_t i = 0; i < stride_; ++i) {
-        Scalar value = 0;
-        for (int k = 0; k <= Dim; ++k)
-          value += data_.target[d * (Dim + 1) + k] * data_.basis[k * stride_ + i];
-        gradient_[row + i] = extrapolated_[row + i] = value;
-      }
-    }
-  });
+  const Vectors least = data_.basis.topRows(n_) * data_.target;
+  start([&](Index) -> const Vectors& { return least; });
 }
 
 template <class Scalar, int Dim>
 void GradientAdmm<Scalar, Dim>::start_from_weights(const WeightMatrix& weights) {
-  parallel_for(problem_.mesh.num_cells(), [&](Index s) {
-    const auto gradient =
-        weight_gradients(problem_.mesh, s, cell_geometry(problem_.mesh, s), weights);
-    for (int d = 0; d < Dim; ++d) {
-      const std::size_t row = (static_cast<std::size_t>(s) * Dim + d) * stride_;
-      for (Index i = 0; i < n_; ++i) {
-        gradient_[row + i] = extrapolated_[row + i] = static_cast<Scalar>(gradient(i, d));
-      }
-    }
+  start([&](Index s) -> Vectors {
+    return weight_gradients(problem_.mesh, s, cell_geometry(problem_.mesh, s), weights)
+        .template cast<Scalar>();
   });
 }
 
-// A pass takes the G-step of one iteration and the duals of the next one together. With periods, a
-// sum over all cells is needed in between.
+// Sums the changes by steps at all elements, in parallel. Every step flushes denormal numbers,
+// because they are slow.
+template <class Scalar, int Dim>
+template <class Step>
+Change GradientAdmm<Scalar, Dim>::for_all(Index count, const Step& step) {
+  return parallel_sum(count, Change{}, [&](Index begin, Index end) {
+    const FlushDenormals scope;
+    Scratch scratch;
+    Change change;
+    for (Index k = begin; k < end; ++k) change += step(k, scratch);
+    return change;
+  });
+}
+
 template <class Scalar, int Dim>
 Change GradientAdmm<Scalar, Dim>::iterate(int count) {
-  const auto arrays = make_arrays();
-  if (num_periods_ > 0) {
-    Change change;
-    for (int k = 0; k < count; ++k) {
-      xyz_steps(arrays);
-      const double period_change = update_periods();
-      change = g_step(arrays);
-      change.dual = noted_change() + period_change;
-    }
-    return change;
+  Change change;
+  for (int k = 0; k < count; ++k) {
+    change = for_all(problem_.topology.num_facets(), [&](Index facet, Scratch& scratch) {
+      return problem_.topology.is_boundary(facet) ? x_step(facet, scratch) : y_step(facet, scratch);
+    });
+    for (std::size_t p = 0; p < periods_.size(); ++p) change += period_step(p);
+    change += for_all(problem_.mesh.num_cells(), [&](Index cell, Scratch& scratch) {
+      Change of_cell = z_step(cell, scratch);
+      return of_cell += g_step(cell, scratch);
+    });
   }
-  xyz_steps(arrays);
-  for (int k = 1; k < count; ++k) pass(arrays, k == count - 1);
-  Change change = g_step(arrays);
-  change.dual = noted_change();
   return change;
 }
 
+// (9): the dual grows by the violation of t . g = h.
 template <class Scalar, int Dim>
-void GradientAdmm<Scalar, Dim>::xyz_steps(const Arrays<Scalar, Dim>& arrays) {
-  parallel_blocks(problem_.topology.num_facets(),
-                  [&](Index begin, Index end) { kernel_.xy_step(arrays, begin, end); });
-  parallel_blocks(problem_.mesh.num_cells(),
-                  [&](Index begin, Index end) { kernel_.z_step(arrays, begin, end); });
+Change GradientAdmm<Scalar, Dim>::x_step(Index facet, Scratch& scratch) {
+  const auto e = columns_of<Dim>(extrapolated_, problem_.topology.sides(0, facet));
+  auto& step = scratch.tangential;
+  step = columns_of<Dim - 1>(data_.boundary_slope, data_.boundary_index[facet]) -
+         e.lazyProduct(data_.tangents[facet]);
+  return move_dual(columns_of<Dim - 1>(facet_dual_, facet), step, relaxation_, 1);
 }
 
+// (10): the dual grows by half the jump of the tangential gradient.
 template <class Scalar, int Dim>
-Change GradientAdmm<Scalar, Dim>::g_step(const Arrays<Scalar, Dim>& arrays) {
-  return parallel_sum(problem_.mesh.num_cells(), Change{}, [&](Index begin, Index end) {
-    const FlushDenormals scope;
-    return kernel_.g_step(arrays, begin, end);
-  });
+Change GradientAdmm<Scalar, Dim>::y_step(Index facet, Scratch& scratch) {
+  const auto sides = problem_.topology.sides.col(facet);
+  auto& half_jump = scratch.vectors;
+  auto& step = scratch.tangential;
+  half_jump = Scalar(0.5) *
+              (columns_of<Dim>(extrapolated_, sides[1]) - columns_of<Dim>(extrapolated_, sides[0]));
+  step.noalias() = half_jump.lazyProduct(data_.tangents[facet]);
+  return move_dual(columns_of<Dim - 1>(facet_dual_, facet), step, relaxation_, 2);
 }
 
+// Multiplies the vectors of a cell by theta + (1 - theta) min(1, radius / length), where theta is
+// the smoothing of the cell and the radius is phi A / mu.
 template <class Scalar, int Dim>
-void GradientAdmm<Scalar, Dim>::pass(const Arrays<Scalar, Dim>& arrays, bool note) {
-  const auto num_parts = static_cast<Index>(cell_pass_.parts.size());
-  parallel_for(
-      num_parts,
-      [&](Index p) {
-        const FlushDenormals scope;
-        (note ? kernel_.pass_and_note : kernel_.pass)(arrays, cell_pass_.parts[p].path(),
-                                                      slots_[p].data());
-      },
-      2);
-  parallel_blocks(static_cast<Index>(cell_pass_.seams.size()), [&](Index begin, Index end) {
-    kernel_.listed_xy_step(arrays, cell_pass_.seams.data() + begin, end - begin, note);
-  });
+void GradientAdmm<Scalar, Dim>::shrink(Index cell, Vectors& vectors, Factors& factors) const {
+  const auto radius = data_.radius.col(cell).array();
+  const Scalar theta = data_.smoothing[cell];
+  factors = vectors.col(0).array().square();
+  for (int d = 1; d < Dim; ++d) factors += vectors.col(d).array().square();
+  factors = factors.max(radius.square() + std::numeric_limits<Scalar>::min());
+  factors = theta + (Scalar(1) - theta) * radius / factors.sqrt();
+  for (int d = 0; d < Dim; ++d) vectors.col(d).array() *= factors;
 }
 
+// (7): the dual of Z = G is u - e, shortened.
 template <class Scalar, int Dim>
-double GradientAdmm<Scalar, Dim>::noted_change() const {
-  const auto sum_of = [](const std::vector<double>& changes) {
-    return parallel_sum(static_cast<Index>(changes.size()), 0.0, [&](Index begin, Index end) {
-      return std::accumulate(changes.begin() + begin, changes.begin() + end, 0.0);
-    });
+Change GradientAdmm<Scalar, Dim>::z_step(Index cell, Scratch& scratch) {
+  auto dual = columns_of<Dim>(tv_dual_, cell);
+  auto& step = scratch.vectors;
+  step = dual - columns_of<Dim>(extrapolated_, cell);
+  shrink(cell, step, scratch.factors);
+  step -= dual;
+  return move_dual(dual, step, relaxation_, 1);
+}
+
+// The field of a period has norm 1, so its dual grows by the violation.
+template <class Scalar, int Dim>
+Change GradientAdmm<Scalar, Dim>::period_step(std::size_t period) {
+  const auto& constraint = periods_[period];
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n_);
+  const auto add_up = [&](Index begin, Index end) {
+    Eigen::VectorXd sum = zero;
+    for (Index s = begin; s < end; ++s) {
+      sum += columns_of<Dim>(extrapolated_, s).topRows(n_).template cast<double>() *
+             constraint.field.col(s);
+    }
+    return sum;
   };
-  return sum_of(facet_change_) + sum_of(cell_change_);
+  const Eigen::VectorXd step =
+      constraint.values - parallel_sum(problem_.mesh.num_cells(), zero, add_up);
+  period_dual_.col(static_cast<Eigen::Index>(period)).head(n_) +=
+      relaxation_ * step.template cast<Scalar>();
+  return {step.squaredNorm(), 0, 0};
+}
+
+// r_s of (11): g + (sum of its duals) / M.
+template <class Scalar, int Dim>
+void GradientAdmm<Scalar, Dim>::average_candidates(Index cell, Vectors& average) const {
+  using Row = Eigen::Matrix<Scalar, 1, Dim>;
+  average = columns_of<Dim>(tv_dual_, cell);
+  for (const Index facet : problem_.topology.cell_facets.col(cell)) {
+    const auto sign = Scalar(problem_.topology.sides(0, facet) == cell ? 1 : -1);
+    const Eigen::Matrix<Scalar, Dim - 1, Dim> tangents = sign * data_.tangents[facet].transpose();
+    average.noalias() += columns_of<Dim - 1>(facet_dual_, facet).lazyProduct(tangents);
+  }
+  for (std::size_t p = 0; p < periods_.size(); ++p) {
+    const Row field = periods_[p].field.col(cell).transpose().template cast<Scalar>();
+    average.noalias() += period_dual_.col(static_cast<Eigen::Index>(p)).lazyProduct(field);
+  }
+  average = columns_of<Dim>(gradient_, cell) + static_cast<Scalar>(1 / M_) * average;
+}
+
+// (8), (11): the average r, projected as r - Q (Q^T r - target).
+template <class Scalar, int Dim>
+Change GradientAdmm<Scalar, Dim>::g_step(Index cell, Scratch& scratch) {
+  auto g = columns_of<Dim>(gradient_, cell);
+  auto e = columns_of<Dim>(extrapolated_, cell);
+  auto& projected = scratch.vectors;
+  auto& step = scratch.step;
+  average_candidates(cell, projected);
+  const Eigen::Matrix<Scalar, Dim + 1, Dim> excess =
+      data_.basis.transpose().lazyProduct(projected) - data_.target;
+  projected.noalias() -= data_.basis.lazyProduct(excess);
+  step = projected - g;
+  const auto lead = relaxation_ == 1 ? (e - projected).squaredNorm() : Scalar(0);
+  e = projected + step;
+  g += relaxation_ * step;
+  return {0, static_cast<double>(step.squaredNorm()), static_cast<double>(lead)};
 }
 
 template <class Scalar, int Dim>
@@ -197,61 +218,23 @@ double GradientAdmm<Scalar, Dim>::num_residual_components() const {
 
 template <class Scalar, int Dim>
 CellFieldView<Scalar, Dim> GradientAdmm<Scalar, Dim>::flux() const {
-  using Rows = Eigen::Map<Eigen::Array<Scalar, Dim, Eigen::Dynamic, Eigen::RowMajor>>;
-  using ConstRows = Eigen::Map<const Eigen::Array<Scalar, Dim, Eigen::Dynamic, Eigen::RowMajor>>;
-  using ConstRow = Eigen::Map<const Eigen::Array<Scalar, 1, Eigen::Dynamic>>;
-  const auto columns = static_cast<Eigen::Index>(stride_);
-  flux_ = AlignedArray<Scalar>(tv_dual_.size());
-  parallel_for(problem_.mesh.num_cells(), [&](Index s) {
-    const std::size_t block = static_cast<std::size_t>(s) * Dim * stride_;
-    Rows flux(flux_.data() + block, Dim, columns);
-    flux = ConstRows(extrapolated_.data() + block, Dim, columns) -
-           ConstRows(tv_dual_.data() + block, Dim, columns);
-    const auto length =
-        flux.square().colwise().sum().sqrt().max(std::numeric_limits<Scalar>::min());
-    const ConstRow radius(data_.radius.data() + s * stride_, columns);
-    const Scalar theta = data_.smoothing[s];
-    const Eigen::Array<Scalar, 1, Eigen::Dynamic> shrink =
-        static_cast<Scalar>(penalty_) *
-        (theta + (Scalar(1) - theta) * (radius / length).min(Scalar(1)));
-    flux.rowwise() *= shrink;
+  flux_.resizeLike(tv_dual_);
+  parallel_for(problem_.mesh.num_cells(), [&](Index begin, Index end) {
+    Scratch scratch;
+    for (Index s = begin; s < end; ++s) {
+      scratch.vectors = columns_of<Dim>(extrapolated_, s) - columns_of<Dim>(tv_dual_, s);
+      shrink(s, scratch.vectors, scratch.factors);
+      columns_of<Dim>(flux_, s) = static_cast<Scalar>(penalty_) * scratch.vectors;
+    }
   });
-  return {flux_.data(), stride_, n_};
+  return view(flux_);
 }
 
 template <class Scalar, int Dim>
 double GradientAdmm<Scalar, Dim>::state_scalars_per_cell() const {
-  const std::size_t numbers =
+  const Eigen::Index numbers =
       gradient_.size() + extrapolated_.size() + tv_dual_.size() + facet_dual_.size();
-  return static_cast<double>(numbers) / static_cast<double>(stride_) / problem_.mesh.num_cells();
-}
-
-template <class Scalar, int Dim>
-Arrays<Scalar, Dim> GradientAdmm<Scalar, Dim>::make_arrays() {
-  Arrays<Scalar, Dim> arrays;
-  arrays.stride = stride_;
-  arrays.gradient = gradient_.data();
-  arrays.extrapolated = extrapolated_.data();
-  arrays.tv_dual = tv_dual_.data();
-  arrays.period_dual = period_dual_.data();
-  arrays.facet_dual = facet_dual_.data();
-  arrays.cell_change = cell_change_.data();
-  arrays.facet_change = facet_change_.data();
-  arrays.radius = data_.radius.data();
-  arrays.smoothing = data_.smoothing.data();
-  arrays.boundary_slope = data_.boundary_slope.data();
-  arrays.tangents = data_.tangents.data();
-  arrays.sides = problem_.topology.sides.data();
-  arrays.boundary_index = data_.boundary_index.data();
-  arrays.cell_facets = problem_.topology.cell_facets.data();
-  arrays.period_fields = period_fields_.data();
-  arrays.num_periods = num_periods_;
-  arrays.num_cells = static_cast<std::size_t>(problem_.mesh.num_cells());
-  arrays.inverse_M = static_cast<Scalar>(1 / M_);
-  arrays.basis = data_.basis.data();
-  arrays.target = data_.target.data();
-  arrays.relaxation = static_cast<Scalar>(relaxation_);
-  return arrays;
+  return static_cast<double>(numbers / gradient_.rows()) / problem_.mesh.num_cells();
 }
 
 FLBC_INSTANTIATE_SCALAR_CLASS(GradientAdmm)

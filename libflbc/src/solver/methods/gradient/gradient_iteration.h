@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "coordinates/poisson_weights.h"
+#include "flbc/recovery.h"
 #include "solver/methods/gradient/gradient_admm.h"
 #include "solver/plan/constants.h"
 #include "solver/plan/settings.h"
