@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "files/load.h"
-#include "files/locality_file.h"
 #include "files/model_facets.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage_facts.h"
@@ -139,9 +138,14 @@ Solution compute_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
   if (settings.penalty) {
     options.penalty = published_penalty(cage, domain, options.method, *settings.penalty);
   }
-  if (settings.phi.empty()) return flbc::solve(cage, domain, options, observer);
-  auto problem =
-      make_problem(cage, domain, DistanceScheme::kConstant, *resolve(options).smoothness);
+  const bool has_reach = settings.reach.size() > 0;
+  if (settings.phi.empty() && !has_reach) return flbc::solve(cage, domain, options, observer);
+  const auto scheme = has_reach ? options.phi : DistanceScheme::kConstant;
+  auto problem = make_problem(cage, domain, scheme, *resolve(options).smoothness);
+  if (has_reach) {
+    problem.phi = WeightFunctions(settings.reach.cwiseInverse().asDiagonal() * problem.phi.dense());
+    return flbc::solve(problem, options, observer);
+  }
   problem.phi = WeightFunctions(io::read_weights(settings.phi).dense());
   return naming(settings.phi, [&] { return flbc::solve(problem, options, observer); });
 }
@@ -242,7 +246,11 @@ void CageSolver<Dim>::load_masks(bool quiet) {
   if (settings_.locality.empty()) return;
   const bool has_model = !settings_.model.empty();
   const auto& points = has_model ? model_ : domain_.points;
-  auto masks = load_locality<Dim>(settings_.locality, cage_, points, settings_.model);
+  locality_ = load_locality(settings_.locality, cage_, points, settings_.model);
+  if (locality_.reach.size() > 0 && !settings_.phi.empty()) {
+    throw OptionError("--phi: " + settings_.locality + " changes phi too; leave out one of them");
+  }
+  auto masks = locality_.masks;
   if (settings_.mirror_axis >= 0) {
     masks = MirroredModel<Dim>(cage_, settings_.mirror_axis, points).symmetrized(masks);
   }
@@ -255,8 +263,11 @@ void CageSolver<Dim>::load_masks(bool quiet) {
           PointMasks(masks, cage_.size(), domain_.num_vertices()).points().size());
     }
   });
-  const auto note = masks_.note();
-  if (!note.empty() && !quiet) std::cerr << "flbc: " << settings_.locality << ": " << note << '\n';
+  for (const auto& note : {locality_.note(), masks_.note()}) {
+    if (!note.empty() && !quiet) {
+      std::cerr << "flbc: " << settings_.locality << ": " << note << '\n';
+    }
+  }
 }
 
 template <int Dim>
@@ -302,6 +313,7 @@ void CageSolver<Dim>::solve(bool quiet) {
   observer.stage = [&](Stage stage, double done) { bar.show(name_of(stage), done); };
   auto settings = settings_;
   settings.options.masks = masks_.of_mesh;
+  settings.reach = locality_.reach;
   solution_ = naming(settings_.domain.empty() ? settings_.cage : settings_.domain,
                      [&] { return compute_weights(cage_, domain_, settings, observer); });
   if (settings_.history) history_ = recorder.finished(report());
@@ -354,7 +366,8 @@ nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
   if (!settings_.locality.empty()) {
     json["locality"] = {{"file", settings_.locality},
                         {"masked_vertices", masks_.masked},
-                        {"on_facets", masks_.on_facets}};
+                        {"on_facets", masks_.on_facets},
+                        {"freed", locality_.freed}};
   }
   if (!report().parts.empty()) json["parts"] = parts_json(cage_, report().parts);
   if (!history_.empty()) json["history"] = history_json(history_);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "files/load.h"
+#include "files/locality_file.h"
 #include "flbc/cage.h"
 #include "flbc/cell_locator.h"
 #include "flbc/errors.h"
@@ -96,6 +97,7 @@ class CageSolver {
   Solution solution_;  // at the vertices of the domain
   std::vector<HistoryEntry> history_;
   Placement<Dim> placement_;  // of the model's vertices
+  Locality locality_;
   PlacedMasks masks_;
   EmbeddablePoints<Dim> embedded_;  // of the model, if it is to be embedded
   SparseWeights rows_;              // at the model's vertices, once solved

@@ -215,10 +215,9 @@ const SparseWeights& Rig<Dim>::weights_of_points() {
   const auto weights_in = [&](const Placement<Dim>& placement) {
     return weights_at(cage(), mesh(), solution().weights, placement);
   };
+  const bool has_moved = placement_.points.cols() != points_.cols();  // the cage
   auto weights = weights_in(placed());
-  if (!options_.masks.empty()) {  // the cage may have moved
-    masks_ = placed_masks(points_, placement_, options_);
-  }
+  if (has_moved && !options_.masks.empty()) masks_ = placed_masks(points_, placement_, options_);
   weights_ = enforce_locality<Dim>(
       cage(), placement_, std::move(weights), masks_, options_.mirror_axis,
       [&](const PointList<Dim>& points) {

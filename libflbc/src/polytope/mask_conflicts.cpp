@@ -8,7 +8,7 @@
 #include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/parallel.h"
-#include "flbc/errors.h"
+#include "flbc/mask_conflicts.h"
 #include "polytope/nearest_point_in_hull.h"
 #include "polytope/scaling.h"
 #include "polytope/weight_projection.h"
@@ -120,15 +120,18 @@ void refuse_mask_conflicts(const PointList<Dim>& control_points, const PointList
   const Feasibility<Dim> feasibility(control_points, points);
   const auto allowed = masks.allowed(conflicts.front());
   const auto cure = find_cure(feasibility, masks, conflicts);
-  throw InputError(
+  throw MaskConflict(
       std::to_string(conflicts.size()) + " of " + std::to_string(masks.points().size()) +
-      " masked vertices cannot follow the control points that may move them; the first is vertex " +
-      std::to_string(conflicts.front()) + " at " + format_point(points.col(conflicts.front())) +
-      (allowed.empty() ? ", for which all are masked, although its weights must sum to 1"
-                       : ", " + format_number(feasibility.distance(conflicts.front(), allowed)) +
-                             " outside their convex hull") +
-      "; remove control point" + (cure.size() == 1 ? " " : "s ") + list(cure) +
-      " from the masks, or make the regions smaller");
+          " masked vertices cannot follow the control points that may move them; the first is "
+          "vertex " +
+          std::to_string(conflicts.front()) + " at " + format_point(points.col(conflicts.front())) +
+          (allowed.empty()
+               ? ", for which all are masked, although its weights must sum to 1"
+               : ", " + format_number(feasibility.distance(conflicts.front(), allowed)) +
+                     " outside their convex hull") +
+          "; remove control point" + (cure.size() == 1 ? " " : "s ") + list(cure) +
+          " from the masks, or make the regions smaller",
+      conflicts, cure);
 }
 
 template <int Dim>
