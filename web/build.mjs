@@ -36,7 +36,7 @@ function module(assets, license) {
 function page(assets) {
   const names = /set\(page_modules\s+([^)]*)\)/.exec(read("../apps/view/CMakeLists.txt"))[1].trim().split(/\s+/);
   const script = joined([...names.map((name) => `${view}${name}.mjs`), "js/flbc.mjs", "page/reshaping.mjs",
-                         "page/shapes.mjs", "page/cage_edits.mjs", "page/app.mjs"]);
+                         "page/protecting.mjs", "page/shapes.mjs", "page/cage_edits.mjs", "page/app.mjs"]);
   const kSamples = { Character: "3d/character", Limb: "3d/limb", Torus: "3d/torus", "Figure, in 2D": "2d/figure" };
   const samples = {};
   let buttons = "";

@@ -62,7 +62,7 @@ Transferred<Dim> from_domain(const Cage<Dim>& cage, const SparseWeights& weights
   if (!arguments.quiet) warn_outside(placement, cage, arguments.to);
   auto transferred = weights_at(cage, domain, weights, placement);
   if (!arguments.locality.empty()) {
-    const auto masks = load_locality(arguments.locality, cage, to, arguments.to);
+    const auto masks = load_locality(arguments.locality, cage, to, arguments.to).masks;
     transferred = naming(arguments.locality, [&] {
       return enforce_masks(cage, placement, transferred,
                            place_masks(cage, domain, placement, masks));

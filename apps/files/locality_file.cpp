@@ -9,6 +9,7 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/formats.h"
+#include "flbc/io/vertex_attribute.h"
 #include "flbc/place_masks.h"
 #include "instantiate.h"
 
@@ -49,6 +50,15 @@ std::vector<Index> vertices_of_group(const std::string& model, const std::string
   return vertices;
 }
 
+std::vector<Index> vertices_of_attribute(const std::string& model, const std::string& name) {
+  const auto values = io::vertex_attribute(model, name);
+  std::vector<Index> vertices;
+  for (Index v = 0; v < values.size(); ++v) {
+    if (values[v] > 0.5) vertices.push_back(v);
+  }
+  return vertices;
+}
+
 template <int Dim>
 std::vector<Index> points_in_box(const LocalityJson& box, const PointList<Dim>& points) {
   const auto corner = [&](int k) {
@@ -76,9 +86,41 @@ std::vector<Index> indices_of(const LocalityJson& chosen, const PointList<Dim>& 
   if (chosen.contains("group") && !model.empty()) {
     return vertices_of_group(model, chosen["group"].get<std::string>());
   }
+  if (chosen.contains("attribute") && !model.empty()) {
+    return vertices_of_attribute(model, chosen["attribute"].get<std::string>());
+  }
   throw InputError(
       "give a list of numbers, {\"vertices\": [...]}, {\"box\": [lowest, highest]}, or, for "
-      "regions of a model, {\"group\": name}");
+      "regions of a model, {\"group\": name} or {\"attribute\": name}");
+}
+
+// Factors of the reach of control points; none if all are 1.
+template <int Dim>
+Eigen::VectorXd reach_in(const LocalityJson& json, const PointList<Dim>& control_points) {
+  constexpr double kMost = 16;
+  if (!json.contains("reach")) return {};
+  Eigen::VectorXd reach = Eigen::VectorXd::Ones(control_points.cols());
+  for (const auto& entry : json["reach"]) {
+    const auto factor = entry.at("factor").get<double>();
+    if (!(factor >= 1 / kMost && factor <= kMost)) {
+      throw InputError("reach: a factor must be from 1/16 to 16");
+    }
+    for (const Index i : indices_of<Dim>(entry.at("control_points"), control_points, "")) {
+      if (i < 0 || i >= reach.size()) {
+        throw InputError("reach: there is no control point " + std::to_string(i));
+      }
+      reach[i] = factor;
+    }
+  }
+  return (reach.array() == 1).all() ? Eigen::VectorXd() : reach;
+}
+
+// Whether control points in conflict are removed from masks.
+bool relaxes(const LocalityJson& json) {
+  const auto choice = json.is_array() ? "fail" : json.value("conflicts", "fail");
+  if (choice == "relax") return true;
+  if (choice == "fail") return false;
+  throw InputError("conflicts: invalid value \"" + choice + "\"; choose from fail, relax");
 }
 
 }  // namespace
@@ -89,14 +131,28 @@ CLI::Option* add_locality_option(CLI::App& command, std::string& path) {
                             "not move, where their weights become exactly 0");
 }
 
+std::string Locality::note() const {
+  std::string numbers;
+  for (const Index i : freed) numbers += (numbers.empty() ? "" : ", ") + std::to_string(i);
+  if (freed.empty()) return "";
+  return "removed control point" + (freed.size() == 1 ? " " : std::string("s ")) + numbers +
+         " from the masks, so that all vertices have weights";
+}
+
 template <int Dim>
-std::vector<flbc::Mask> load_locality(const std::string& path, const Cage<Dim>& cage,
-                                      const PointList<Dim>& points, const std::string& model) {
-  std::vector<flbc::Mask> masks;
-  if (path.empty()) return masks;
+Locality load_locality(const std::string& path, const Cage<Dim>& cage, const PointList<Dim>& points,
+                       const std::string& model) {
+  Locality locality;
+  auto& masks = locality.masks;
+  if (path.empty()) return locality;
   std::string entry;  // that is read
   try {
-    for (const auto& mask : LocalityJson::parse(io::read_file(path))) {
+    const auto json = LocalityJson::parse(io::read_file(path));
+    locality.reach = reach_in<Dim>(json, cage.points);
+    const auto list = json.is_array()          ? json
+                      : json.contains("reach") ? json.value("masks", LocalityJson::array())
+                                               : json.at("masks");
+    for (const auto& mask : list) {
       entry = "entry " + std::to_string(masks.size()) + ": ";
       masks.push_back({indices_of<Dim>(mask.at("control_points"), cage.points, ""),
                        indices_of<Dim>(mask.at("region"), points, model)});
@@ -106,6 +162,7 @@ std::vector<flbc::Mask> load_locality(const std::string& path, const Cage<Dim>& 
     }
     entry.clear();
     PointMasks(masks, cage.size(), static_cast<Index>(points.cols()));  // checks the numbers
+    if (relaxes(json)) masks = relax_masks(cage, points, masks, locality.freed);
   } catch (const LocalityJson::parse_error& error) {
     throw InputError(path + ": not JSON, at byte " + std::to_string(error.byte));
   } catch (const LocalityJson::exception&) {
@@ -115,14 +172,14 @@ std::vector<flbc::Mask> load_locality(const std::string& path, const Cage<Dim>& 
   } catch (const InputError& error) {
     throw InputError(path + ": " + entry + error.what());
   }
-  return masks;
+  return locality;
 }
 
 template <int Dim>
 std::vector<flbc::Mask> load_locality_inside(const std::string& path, const Cage<Dim>& cage,
                                              const PointList<Dim>& points,
                                              const std::string& model) {
-  return end_at_facets(cage, points, load_locality(path, cage, points, model));
+  return end_at_facets(cage, points, load_locality(path, cage, points, model).masks);
 }
 
 FLBC_INSTANTIATE_FUNCTION(load_locality)

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Files of masks: a JSON list of {"control_points": ..., "region": ...}. Both are a list of
+//! Locality files: JSON of masks, {"control_points": ..., "region": ...}. Both are a list of
 //! numbers from 0, {"vertices": [...]}, or {"box": [lowest, highest]}; a region also {"group":
-//! name} of a .obj model.
+//! name} of a .obj model, or {"attribute": name} of a .ply or glTF model, above 0.5. The masks are
+//! a list, or are in an object {"masks": [...], "conflicts": "relax", "reach": [{"control_points":
+//! ..., "factor": 0.5}]}.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,14 +19,25 @@ namespace flbc::app {
 //! Adds --locality. \param path  outlives the command
 CLI::Option* add_locality_option(CLI::App& command, std::string& path);
 
-//! The masks of a file, of the vertices of a model or mesh; none for an empty path.
-//! \param points  Dim x P \param model  file of the points, for groups; may be empty
+//! The content of a locality file.
+struct Locality {
+  std::vector<flbc::Mask> masks{};
+  std::vector<Index> freed{};  //!< control points that "relax" removed from the masks
+  //! Factors in [1/16, 16], by which phi of each control point is divided; empty if all are 1.
+  Eigen::VectorXd reach{};
+
+  //! About the control points that were freed; empty if there are none.
+  std::string note() const;
+};
+
+//! Reads a file, for the vertices of a model or mesh. Empty for an empty path.
+//! \param points  Dim x P \param model  file of the points, for groups and attributes; may be empty
 //! \throws IoError; InputError naming the file and the entry
 template <int Dim>
-std::vector<flbc::Mask> load_locality(const std::string& path, const Cage<Dim>& cage,
-                                      const PointList<Dim>& points, const std::string& model);
+Locality load_locality(const std::string& path, const Cage<Dim>& cage, const PointList<Dim>& points,
+                       const std::string& model);
 
-//! The same without masks that end at facets, for weights that obey the others.
+//! Its masks without those that end at facets, for weights that obey the others.
 template <int Dim>
 std::vector<flbc::Mask> load_locality_inside(const std::string& path, const Cage<Dim>& cage,
                                              const PointList<Dim>& points,

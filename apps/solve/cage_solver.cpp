@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "files/load.h"
-#include "files/locality_file.h"
 #include "files/model_facets.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage_facts.h"
@@ -138,9 +137,14 @@ Solution compute_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
   if (settings.penalty) {
     options.penalty = published_penalty(cage, domain, options.method, *settings.penalty);
   }
-  if (settings.phi.empty()) return flbc::solve(cage, domain, options, observer);
-  auto problem =
-      make_problem(cage, domain, DistanceScheme::kConstant, *resolve(options).smoothness);
+  const bool has_reach = settings.reach.size() > 0;
+  if (settings.phi.empty() && !has_reach) return flbc::solve(cage, domain, options, observer);
+  const auto scheme = has_reach ? options.phi : DistanceScheme::kConstant;
+  auto problem = make_problem(cage, domain, scheme, *resolve(options).smoothness);
+  if (has_reach) {
+    problem.phi = WeightFunctions(settings.reach.cwiseInverse().asDiagonal() * problem.phi.dense());
+    return flbc::solve(problem, options, observer);
+  }
   problem.phi = WeightFunctions(io::read_weights(settings.phi).dense());
   return naming(settings.phi, [&] { return flbc::solve(problem, options, observer); });
 }
@@ -244,10 +248,17 @@ void CageSolver<Dim>::load_masks(bool quiet) {
   rig_->set_options(options);
   if (settings_.locality.empty()) return;
   const auto& points = settings_.model.empty() ? domain().points : model_;
-  options.masks = load_locality<Dim>(settings_.locality, cage_, points, settings_.model);
+  locality_ = load_locality(settings_.locality, cage_, points, settings_.model);
+  if (locality_.reach.size() > 0 && !settings_.phi.empty()) {
+    throw OptionError("--phi: " + settings_.locality + " changes phi too; leave out one of them");
+  }
+  options.masks = locality_.masks;
   naming(settings_.locality, [&] { rig_->set_options(options); });
-  const auto note = rig_->masks().note();
-  if (!note.empty() && !quiet) std::cerr << "flbc: " << settings_.locality << ": " << note << '\n';
+  for (const auto& note : {locality_.note(), rig_->masks().note()}) {
+    if (!note.empty() && !quiet) {
+      std::cerr << "flbc: " << settings_.locality << ": " << note << '\n';
+    }
+  }
 }
 
 template <int Dim>
@@ -294,6 +305,7 @@ void CageSolver<Dim>::solve(bool quiet) {
     return true;
   };
   observer.stage = [&](Stage stage, double done) { bar.show(name_of(stage), done); };
+  settings.reach = locality_.reach;
   rig_->set_solution(naming(settings_.domain.empty() ? settings_.cage : settings_.domain,
                             [&] { return compute_weights(cage_, domain(), settings, observer); }));
   if (settings_.history) history_ = recorder.finished(report());
@@ -333,7 +345,8 @@ nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
   if (!settings_.locality.empty()) {
     json["locality"] = {{"file", settings_.locality},
                         {"masked_vertices", rig_->masks().masked},
-                        {"on_facets", rig_->masks().on_facets}};
+                        {"on_facets", rig_->masks().on_facets},
+                        {"freed", locality_.freed}};
   }
   if (!report().parts.empty()) json["parts"] = parts_json(cage_, report().parts);
   if (!history_.empty()) json["history"] = history_json(history_);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "files/load.h"
+#include "files/locality_file.h"
 #include "flbc/cage.h"
 #include "flbc/errors.h"
 #include "flbc/io/formats.h"
@@ -96,6 +97,7 @@ class CageSolver {
   double mesh_seconds_ = 0;           // for making or reading it
   std::string mesher_ = "none";
   std::vector<HistoryEntry> history_;
+  Locality locality_;
   EmbeddablePoints<Dim> embedded_;  // of the model, if it is to be embedded
   std::unique_ptr<Rig<Dim>> rig_;
   struct {

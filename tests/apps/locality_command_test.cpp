@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // --locality, --symmetric, and flbc compose as their users see them.
+#include "flbc/io/mesh_io.h"
+#include "flbc/quality.h"
 #include "support/command_line.h"
 
 namespace flbc::testing {
@@ -80,6 +82,60 @@ TEST_F(LocalityCommand, ConflictsAreNamedAndTheAdviceWorks) {
   EXPECT_EQ(solve(rest).status, 0);
 }
 
+TEST_F(LocalityCommand, ConflictsAreRelaxed) {
+  file("masks.json",
+       "{\"masks\": [{\"control_points\": {\"box\": [[-99, -99, -99], [99, 99, 99]]}, \"region\": "
+       "[0, 5, 9]}], \"conflicts\": \"relax\"}");
+  const std::string of_model = "3d/limb_cage.obj --model 3d/limb_model.obj --locality masks.json";
+  expect("solve " + of_model + " --vertices 1500 -o w.npy --report report.json", 0,
+         "masks.json: removed control points ");
+  const auto freed = json_in("report.json")["locality"]["freed"].get<std::set<Index>>();
+  const auto weights = io::read_weights("w.npy").dense();
+  EXPECT_GE(freed.size(), 4U);  // each vertex needs four at most
+  EXPECT_LE(freed.size(), 12U);
+  for (const Index p : {0, 5, 9}) {
+    for (Index i = 0; i < weights.rows(); ++i) {
+      EXPECT_TRUE(freed.count(i) > 0 || weights(i, p) == 0) << p << ' ' << i;
+    }
+  }
+  expect(
+      "sparsify w.npy --cage 3d/limb_cage.obj --points 3d/limb_model.obj -k 8 -o few.npy -q "
+      "--locality masks.json");
+}
+
+TEST_F(LocalityCommand, ReachIsAFactorOfPhi) {
+  const std::string path = "2d/figure_cage.obj";
+  expect("solve " + path + " --vertices 1500 --save-domain domain.obj -q -o w.npy");
+  const auto solve = "solve " + path + " --domain domain.obj --distances exact --certify -q -o ";
+  expect(solve + "free.npy");
+  const auto domain = io::read_domain<2>("domain.obj");
+  const auto cage = std::get<Cage<2>>(io::to_cage(io::read_polygons(path), path));
+  auto problem = make_problem(cage, domain, DistanceScheme::kSquare, 0.003);
+  const Eigen::MatrixXd phi = problem.phi.dense();
+  const auto free = io::read_weights("free.npy");
+  double before = 0;  // the mean weight for a smaller reach
+  for (const double factor : {0.25, 1.0, 4.0}) {
+    file("reach.json",
+         "{\"reach\": [{\"control_points\": [3, 7], \"factor\": " + std::to_string(factor) + "}]}");
+    expect(solve + "w.npy --locality reach.json --report report.json");
+    const auto weights = io::read_weights("w.npy");
+    const double mean = (weights.dense().row(3) + weights.dense().row(7)).mean();
+    EXPECT_GT(mean, 1.02 * before) << factor;
+    before = mean;
+    EXPECT_EQ(slurp("w.npy") == slurp("free.npy"), factor == 1) << factor;
+    // Each is optimal for its own phi, which a proof confirms.
+    Eigen::MatrixXd scaled = phi;
+    for (const Index i : {3, 7}) scaled.row(i) /= factor;
+    problem.phi = WeightFunctions(scaled);
+    const double own = objective(problem, weights), other = objective(problem, free);
+    EXPECT_LE(own, other) << factor;
+    const auto report = json_in("report.json");
+    EXPECT_NEAR(report["certified_objective"].get<double>() * problem.scale, own, 1e-6 * own);
+    EXPECT_LE(report["lower_bound"].get<double>() * problem.scale, own);
+    EXPECT_LT(report["relative_gap"], 0.1);
+  }
+}
+
 TEST_F(LocalityCommand, DefectiveFilesAreRefused) {
   const auto refused = [&](const std::string& content, const std::string& words) {
     file("bad.json", content);
@@ -93,6 +149,11 @@ TEST_F(LocalityCommand, DefectiveFilesAreRefused) {
   refused("[{\"control_points\": [0], \"region\": {\"box\": [[0], [1]]}}]",
           "a box needs corners of 3");
   refused("[{\"control_points\": [], \"region\": [0]}]", "no control points or no vertices");
+  refused("{\"masks\": [], \"conflicts\": \"no\"}",
+          "invalid value \"no\"; choose from fail, relax");
+  refused("{\"mask\": []}", "bad.json: not a list of masks");
+  refused("{\"reach\": [{\"control_points\": [0], \"factor\": 17}]}", "from 1/16 to 16");
+  refused("{\"reach\": [{\"control_points\": [99], \"factor\": 2}]}", "no control point 99");
   expect("solve 3d/limb_cage.obj -o w.npy --method gradient --locality bad.json", 1,
          "--locality: the method gradient does not use it");
 }
@@ -112,6 +173,54 @@ TEST_F(LocalityCommand, GroupsOfAnObjModelAreRegions) {
       "--locality masks.json");
   const auto weights = io::read_weights("w.npy").dense();
   for (const Index p : {1, 2, 3}) EXPECT_EQ(weights(0, p), 0);
+}
+
+TEST_F(LocalityCommand, AttributesOfPlyAndGltfModelsAreRegions) {
+  const std::string of_mask = "[{\"control_points\": [0], \"region\": {\"attribute\": ";
+  const auto expect_zeros = [&](const std::string& model, const std::vector<Index>& region) {
+    expect("solve cage.obj --model " + model +
+           " --vertices 800 -o weights.npy -q --locality masks.json");
+    const auto weights = io::read_weights("weights.npy").dense();
+    for (Index p = 0; p < weights.cols(); ++p) {
+      const bool is_in = std::count(region.begin(), region.end(), p) > 0;
+      EXPECT_EQ(weights(0, p) == 0, is_in) << model << ' ' << p;
+    }
+  };
+  // All vertices are near the first control point, and inside the hull of the others.
+  file("cage.obj",
+       "v 0 0 -1.1\nv -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\n"
+       "v -1 1 1\nf 1 3 2\nf 1 4 3\nf 1 5 4\nf 1 2 5\nf 6 7 8\nf 6 8 9\nf 2 3 7\nf 2 7 6\nf 3 4 8\n"
+       "f 3 8 7\nf 4 5 9\nf 4 9 8\nf 5 2 6\nf 5 6 9\n");
+  file("model.ply",
+       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+       "property float z\nproperty uchar belt\nelement face 1\n"
+       "property list uchar int vertex_indices\nend_header\n"
+       "-0.5 0 -0.95 1\n0.5 0 -0.95 0\n0 -0.5 -0.95 1\n0 0.5 -0.95 0\n4 0 2 1 3\n");
+  file("masks.json", of_mask + "\"belt\"}}]");
+  expect_zeros("model.ply", {0, 2});
+
+  // Vertices 2 and 3 of the file are at one place.
+  const float z = -0.95F;
+  const float numbers[] = {-0.5F, 0, z, 0.5F, 0, z, 0, -0.5F, z, 0,
+                           -0.5F, z, 0, 0.5F, z, 0, 0, 1,     0, 0};
+  std::ofstream("model.bin", std::ios::binary)
+      .write(reinterpret_cast<const char*>(numbers), sizeof numbers);
+  file("model.gltf",
+       "{\"asset\": {\"version\": \"2.0\"}, \"buffers\": [{\"uri\": \"model.bin\", \"byteLength\": "
+       "80}], "
+       "\"bufferViews\": [{\"buffer\": 0, \"byteLength\": 60}, "
+       "{\"buffer\": 0, \"byteOffset\": 60, \"byteLength\": 20}], \"accessors\": ["
+       "{\"bufferView\": 0, \"componentType\": 5126, \"count\": 5, \"type\": \"VEC3\"}, "
+       "{\"bufferView\": 1, \"componentType\": 5126, \"count\": 5, \"type\": \"SCALAR\"}], "
+       "\"meshes\": [{\"primitives\": [{\"mode\": 6, \"attributes\": "
+       "{\"POSITION\": 0, \"_BELT\": 1}}]}], \"nodes\": [{\"mesh\": 0}]}");
+  file("masks.json", of_mask + "\"_BELT\"}}]");
+  expect_zeros("model.gltf", {2});
+  file("masks.json", of_mask + "\"_HEAD\"}}]");
+  expect("solve cage.obj --model model.gltf -o w.npy --locality masks.json", 2,
+         "model.gltf: the vertices have no attribute \"_HEAD\"");
+  expect("solve cage.obj --model cage.obj -o w.npy --locality masks.json", 2,
+         "only .ply, .glb, and .gltf models have attributes");
 }
 
 TEST_F(LocalityCommand, MirroredVerticesAreAlike) {

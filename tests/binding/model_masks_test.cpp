@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Masks of a model: exact zeros at its points after each step of a bind.
+#include "flbc/mask_conflicts.h"
 #include "flbc/place_masks.h"
 #include "flbc/rig.h"
 #include "support/errors.h"
@@ -130,6 +131,38 @@ TEST_IN_2D_AND_3D(ModelMasksTest, ConflictsNameTheVertexOfTheModel) {
   options.masks = {grid.mask(cage.points, 0.3, 0.4)};
   std::string first = "the first is vertex " + std::to_string(2);
   expect_refused(first, [&] { bind<Dim>(cage, mesh, grid.points, grid.edges, options); });
+}
+
+TEST_IN_2D_AND_3D(ModelMasksTest, AConflictHasItsPointsAndItsCure) {
+  const auto [cage, mesh, name] = box_in_grid<Dim>();
+  const Grid<Dim> grid(0.07);
+  BindOptions options;
+  options.masks = {grid.mask(cage.points, 0.3, 0.4)};
+  // The control points that are left span a box.
+  double end = 0;
+  for (const double x : cage.points.row(0)) end = x > 0.3 ? end : std::max(end, x);
+  std::vector<Index> beyond;
+  for (const Index p : options.masks[0].points) {
+    if (grid.points(0, p) > end) beyond.push_back(p);
+  }
+  std::vector<Index> cure;
+  try {
+    bind<Dim>(cage, mesh, grid.points, grid.edges, options);
+    FAIL();
+  } catch (const MaskConflict& conflict) {
+    EXPECT_EQ(conflict.points, beyond);
+    cure = conflict.control_points;
+  }
+  std::vector<Index> freed;
+  options.masks = relax_masks(cage, grid.points, options.masks, freed);
+  EXPECT_FALSE(cure.empty());
+  EXPECT_EQ(freed, cure);
+  EXPECT_FALSE(options.masks[0].control_points.empty());
+  for (const Index i : freed) EXPECT_GT(cage.points(0, i), 0.3);
+  const auto binding = bind<Dim>(cage, mesh, grid.points, grid.edges, options);
+  expect_obeyed(binding, cage.points, grid.points, options.masks[0]);
+  EXPECT_TRUE(relax_masks(cage, grid.points, options.masks, freed) == options.masks);
+  EXPECT_TRUE(freed.empty());
 }
 
 }  // namespace

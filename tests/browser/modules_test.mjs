@@ -19,6 +19,7 @@ const { pick, pointsInside, rectangle } = await load("picking");
 const { CageGraph } = await load("rings");
 const { ToolDrag } = await load("actions");
 const { Reshaper } = await import(new URL("../../web/page/reshaping.mjs", import.meta.url));
+const { Protector } = await import(new URL("../../web/page/protecting.mjs", import.meta.url));
 const { cageToObj, mergePoints, splitEdge } = await import(new URL("../../web/page/cage_edits.mjs", import.meta.url));
 const { commandOf } = await load("saving");
 const { kWeightedSum } = await load("shaders");
@@ -400,6 +401,103 @@ test("of a resting cage the last shape is solved, one at a time, and refused sha
   assert.equal(editor.points[0], 3);
   reshaper.toggle();
   near(editor.points, [3, 0, 0, 1, 0, 0, 0, 1, 0]);
+});
+
+test("a region is painted on the front of the model, and weights obey the latest stroke", async () => {
+  // Two squares of 21 x 21 points each, one behind the other, seen from the front.
+  const count = 21;
+  const base = [0.5, -0.5].flatMap((z) => Array.from({ length: count * count }, (_, p) =>
+    [2 * (p % count) / (count - 1) - 1, 2 * Math.floor(p / count) / (count - 1) - 1, z]).flat());
+  const triangles = [0, count * count].flatMap((first) => Array.from({ length: (count - 1) ** 2 }, (_, s) => {
+    const a = first + s % (count - 1) + count * Math.floor(s / (count - 1));
+    return [a, a + 1, a + count, a + 1, a + count + 1, a + count];
+  }).flat());
+  const camera = cameraOf(3);
+  camera.look(0, 0);
+  const asked = [];
+  const content = { center: [0, 0, 0], surface: { triangles, sources: null } };
+  const viewer = { camera, content, editor: new Editor(kCube, 3), changed: () => {}, reshaper: { take: () => true },
+                   deformer: { points: Float32Array.from(base), base } };
+  let conflict;
+  const protector = new Protector(viewer, {
+    protect: async (masks) => {
+      asked.push(masks);
+      const given = masks.masks ?? masks;
+      return { onFacets: 0, conflict, masks: given.map((mask) => ({ controlPoints: mask.control_points.slice(0, 1), vertices: mask.region.vertices })) };
+    },
+    refine: async () => ({ converged: asked.at(-1) === "refine" || asked.push("refine") > 0 }),
+  });
+  const settled = async () => { do await new Promise((done) => setTimeout(done, 5)); while (protector.isBusy); };
+  const place = (k) => base.slice(3 * k, 3 * k + 3);
+  const stroke = (erases, ...places) => {
+    const [first, ...others] = places.map((x) => camera.project(x));
+    if (!protector.begin(first, erases)) return false;
+    for (const spot of others) protector.to(spot);
+    protector.end();
+    return true;
+  };
+  protector.toggle();
+  await settled();
+  assert.deepEqual(asked.splice(0), [[], "refine"], "the solver gets ready");
+  let told = "";
+  protector.tell = (text) => { told = text; };
+  assert.equal(stroke(false, [0, 0, 0.5]), true);
+  assert.match(told, /First select the control points/);
+  assert.equal(protector.masked.size, 0);
+  viewer.editor.select([5, 3]);
+  assert.equal(stroke(false, [3, 3, 0.5]), false, "not on the model");
+
+  const radius = Math.hypot(...camera.step([0, 0, 0.5], protector.radius, 0));
+  stroke(false, [-0.5, 0, 0.5], [0.5, 0, 0.5]);
+  stroke(false, [0.5, 0, 0.5], [0, 0, 0.5]);  // while the first is solved
+  await settled();
+  const far = (k) => Math.hypot(Math.max(0, Math.abs(place(k)[0]) - 0.5), place(k)[1], place(k)[2] - 0.5);
+  for (let k = 0; k < base.length / 3; ++k) {
+    const isPainted = protector.masked.has(k);
+    if (far(k) > radius * 1.001) assert.ok(!isPainted, `${place(k)} is painted`);
+    if (far(k) < radius * 0.9) assert.ok(isPainted, `${place(k)} is not painted`);
+  }
+  assert.ok(protector.masked.size > 20);
+  assert.deepEqual(asked.at(-2), protector.masks());
+  assert.deepEqual(protector.masks().map((mask) => mask.control_points), [[3, 5]]);
+
+  // Regions of other control points overlap; erasing takes away those of the selection only.
+  const before = protector.masked.size;
+  viewer.editor.select([7, 3]);
+  stroke(false, [0, 0, 0.5]);
+  await settled();
+  assert.deepEqual(protector.masks().map((mask) => mask.control_points.join()).sort(), ["3,5", "3,5,7"]);
+  viewer.editor.select([3]);
+  stroke(true, [-0.5, 0, 0.5], [0.5, 0, 0.5]);
+  await settled();
+  assert.deepEqual(protector.masks().map((mask) => mask.control_points.join()).sort(), ["5", "5,7"]);
+  assert.equal(protector.masked.size, before);
+  for (let k = 0; k < 4; ++k) protector.undo();
+  await settled();
+  assert.equal(protector.masked.size, 0);
+  assert.deepEqual(asked.at(-2), []);
+  for (let k = 0; k < 4; ++k) protector.redo();
+  await settled();
+  assert.equal(protector.canRedo, false);
+  assert.equal(protector.masked.size, before);
+
+  // A stroke that a second finger ends never was.
+  const kept = protector.masked;
+  protector.begin(camera.project([0, 0.9, 0.5]), false);
+  protector.cancel();
+  await settled();
+  assert.equal(protector.masked, kept);
+
+  conflict = { vertices: [4], controlPoints: [5] };
+  protector.undo();
+  await settled();
+  assert.match(protector.describe(), /1 vertex \(red\) cannot stay.*\(5\)/);
+  assert.notDeepEqual(protector.accepted, protector.masks());
+  conflict = undefined;
+  await protector.load({ masks: protector.masks(), conflicts: "relax" });
+  await settled();
+  assert.deepEqual(protector.accepted, protector.masks());
+  assert.equal(protector.masks().every((mask) => mask.control_points.length === 1), true);
 });
 
 test("an edge of a cage is split, and control points are merged", () => {

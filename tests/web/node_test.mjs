@@ -125,6 +125,45 @@ await flbc.readCage("cage.obj", readFileSync(join(meshes, "3d/limb_cage.obj")));
 await flbc.makeMesh({ vertices: 1000 });
 await flbc.solve();
 
+// Masks: exact zeros after each step, in agreement with the program. A conflict has its cure.
+const places = { model: await flbc.points(), cage: (await flbc.cage()).points };
+const xs = (points) => Array.from({ length: points.length / 3 }, (_, i) => points[3 * i]);
+const low = Math.min(...xs(places.cage)), size = Math.max(...xs(places.cage)) - low;
+const numbersWhere = (points, accepts) => xs(points).flatMap((x, i) => (accepts((x - low) / size) ? [i] : []));
+const controlPoints = numbersWhere(places.cage, (x) => x > 0.6), vertices = numbersWhere(places.model, (x) => x < 0.4);
+const expectObeyed = ({ starts, controlPoints: owners, values }) => {
+  for (const v of vertices) for (let k = starts[v]; k < starts[v + 1]; ++k) assert.ok(values[k] === 0 || !controlPoints.includes(owners[k]));
+};
+const masks = [{ control_points: controlPoints, region: { vertices } }];
+const { masks: taken, conflict: none } = await flbc.protect(masks);
+assert.deepEqual(taken, [{ controlPoints, vertices }]);
+assert.equal(none, undefined);
+for (let isDone = false; !isDone;) {
+  const { converged, weights } = await flbc.move({ refine: true });
+  expectObeyed(weights);
+  isDone = converged;
+}
+expectObeyed(await flbc.weights());
+put("limb.obj", limb);
+put("limb_cage.obj", await flbc.cageFile());
+put("limb.mesh", await flbc.meshFile());
+put("masks.json", JSON.stringify(masks));
+run("solve", "limb_cage.obj", "--domain", "limb.mesh", "--model", "limb.obj", "--locality", "masks.json", "-o", "masked.npy");
+const [resumed, cold] = [await flbc.weightFile(), readFileSync(join(work, "masked.npy"))].map(numbersIn);
+const squares = resumed.reduce((sum, value, k) => sum + (value - cold[k]) ** 2, 0);
+console.log(`masked weights: rms difference from a cold solve ${Math.sqrt(squares / resumed.length)}`);
+assert.ok(squares < 1e-3 * places.model.length / 3);
+await flbc.reduce({ influences: 8 });
+expectObeyed(await flbc.weights());
+const impossible = [{ control_points: [...Array(places.cage.length / 3).keys()], region: [0, 5] }];
+const { conflict } = await flbc.protect(impossible);
+assert.deepEqual(conflict.vertices, [0, 5]);
+expectObeyed(await flbc.weights());  // as before
+const relaxed = await flbc.protect({ masks: impossible, conflicts: "relax" });
+assert.equal(relaxed.conflict, undefined);
+assert.deepEqual(relaxed.freed, conflict.controlPoints);
+await assert.rejects(flbc.protect([{ control_points: [999], region: [0] }]), { name: "InputError", message: /^locality.json: .*control point 999/ });
+
 // Arrays instead of files.
 const cage = await flbc.cage();
 const mesh = { points: [0.1, 0.1, 0.1, 0.2, 0.1, 0.1, 0.1, 0.2, 0.1], triangles: [0, 1, 2] };

@@ -304,6 +304,107 @@ async function testElbow() {
   await app.close();
 }
 
+// A region is painted on one end of the limb; control points of the other end do not move it.
+async function testProtecting() {
+  const app = await new App().open(browser, url);
+  const { tab } = app;
+  const model = join(meshes, "3d/limb_model.obj");
+  await app.drop([model]);
+  await app.shown();
+  const settled = () => tab.waitForFunction(() => !globalThis.flbcApp.protector.isBusy, { timeout: 60000 });
+  const masks = () => tab.evaluate(() => globalThis.flbcApp.protector.masks());
+  const xs = (points) => Array.from({ length: points.length / 3 }, (_, i) => points[3 * i]);
+  const cage = xs(await tab.evaluate(() => [...window.flbc.viewer.editor.rest]));
+  const low = Math.min(...cage), size = Math.max(...cage) - low;
+  const chosen = cage.flatMap((x, i) => (x > low + 0.7 * size ? [i] : []));
+  await app.ask("select", chosen);
+  await app.unfold("protectSection");
+  await app.press("paint");
+  await settled();
+  // The vertex of the other end that is nearest to the eye.
+  const spot = await tab.evaluate((end) => {
+    const { camera, canvas, deformer, content } = window.flbc.viewer;
+    const box = canvas.getBoundingClientRect();
+    let best = { nearness: -Infinity };
+    for (let p = 0; p < deformer.points.length; p += 3) {
+      const place = [0, 1, 2].map((k) => deformer.points[p + k] + content.center[k]);
+      const seen = camera.project(place);
+      if (place[0] < end && seen.nearness > best.nearness) best = seen;
+    }
+    return { x: box.left + best.x, y: box.top + best.y };
+  }, low + 0.25 * size);
+  const paint = async (dx, dy) => {
+    await app.drag(spot, dx, dy);
+    const begin = performance.now();
+    await settled();
+    return performance.now() - begin;
+  };
+  const duration = await paint(15, 10);
+  const [mask, ...others] = await masks();
+  assert.deepEqual(others, []);
+  assert.deepEqual(mask.control_points, chosen);
+  const { vertices: region } = mask.region;
+  assert.ok(region.length > 5, `${region.length} vertices are painted`);
+  console.log(`${region.length} vertices of ${(await app.points()).length / 3} are protected after ${duration.toFixed(0)} ms`);
+  assert.match(await app.text("protected"), /does not move \d+ vert/);
+  await app.shot("protect_painted");
+
+  // Control points of the selection move everything else, and no vertex of the region by one bit.
+  await app.press("paint");
+  const rest = await app.points();
+  const places = await Promise.all(chosen.map((i) => app.ask("controlPoint", i)));
+  for (const [k, i] of chosen.entries()) await app.ask("move", i, places[k].map((x, c) => x + (c === 1 ? 0.3 * size : 0)));
+  const moved = await app.points();
+  for (const v of region) for (let c = 0; c < 3; ++c) assert.equal(moved[3 * v + c], rest[3 * v + c]);
+  assert.ok(largestDifference(moved, rest) > 0.2 * size);
+  await app.shot("protect_moved");
+  await app.press("resetAll");
+
+  // The program reads the saved file, and so does the page.
+  const saved = await app.saved("#saveLocality", "limb_model_locality.json");
+  const ownCage = await app.saved("[data-save=cage]", "limb_model_cage.obj");
+  execFileSync(program, ["solve", ownCage, "--model", model, "--locality", saved, "--vertices", "1500", "-q", "-o", join(work, "protected.npy")]);
+  await app.press("paint");
+  await tab.keyboard.down("Control");
+  await tab.keyboard.press("z");
+  await tab.keyboard.up("Control");
+  await settled();
+  assert.deepEqual(await masks(), []);
+  await (await tab.$("#localityFile")).uploadFile(saved);
+  await tab.waitForFunction(() => globalThis.flbcApp.protector.masked.size > 0);
+  await settled();
+  assert.deepEqual(await masks(), [mask]);
+
+  // What all control points must not move cannot stay: the page says where, and what to release.
+  await app.ask("select", cage.map((_, i) => i));
+  await paint(4, 0);
+  assert.match(await app.text("protected"), /\d+ vert.* cannot stay: .*Release the ringed control points/);
+  assert.ok((await tab.$$(".cure")).length >= 4 && (await tab.$$(".vertex")).length > 0);
+  await app.shot("protect_conflict");
+  await app.press("release");
+  await tab.waitForFunction(() => document.getElementById("release").hidden);
+  await settled();
+  assert.doesNotMatch(await app.text("protected"), /cannot/);
+  assert.ok((await masks()).length > 0);
+  await app.shot("protect_released");
+
+  // Another worker, which a new model that is refused starts, knows the region.
+  const bad = join(work, "bad.obj");
+  writeFileSync(bad, "v 0 0 zero\n");
+  await app.drop([bad]);
+  await tab.waitForSelector("#problem:not([hidden])");
+  const { accepted, starts } = await tab.evaluate(async () => {
+    const { prepared, flbc, protector } = globalThis.flbcApp;
+    await prepared;
+    const { starts, controlPoints, values } = await flbc.weights();
+    const isMoved = (v, i) => { for (let k = starts[v]; k < starts[v + 1]; ++k) if (controlPoints[k] === i && values[k] !== 0) return true; return false; };
+    return { starts: starts.length, accepted: protector.accepted.every(({ control_points: list, region }) =>
+      list.every((i) => region.vertices.every((v) => !isMoved(v, i)))) };
+  });
+  assert.ok(accepted && starts > 1);
+  await app.close();
+}
+
 // Icons with a black box behind them (g), of relative commands without a box (m), of strokes (s), of
 // drawing programs with groups (i), and with styles (x): a cage around what is seen, with its picture.
 async function testIcons() {
@@ -388,6 +489,7 @@ if (measured.length > 0) {
   await testModel("Figure, in 2D", join(meshes, "2d/figure_model.obj"), 2);
   await testModel("Limb", join(meshes, "3d/limb_model.obj"), 3);
   await testElbow();
+  await testProtecting();
   await testErrors();
   await testShapes();
   await testIcons();

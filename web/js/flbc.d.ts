@@ -32,6 +32,29 @@ export interface Solution {
   options?: SolveOptions;
 }
 
+/** The content of a locality file: docs/how-to/locality.md. Control points must not move vertices of the region. */
+export type Locality = LocalityMask[] | { masks: LocalityMask[]; conflicts?: "fail" | "relax" };
+export interface LocalityMask {
+  control_points: number[] | { vertices: number[] } | { box: [number[], number[]] };
+  region: number[] | { vertices: number[] } | { box: [number[], number[]] } | { group: string };
+}
+
+export interface Protection {
+  masks: { controlPoints: number[]; vertices: number[] }[];
+  /** Vertices on facets of masked control points, which still move them. */
+  onFacets: number;
+  /** Control points that "relax" removed from the masks. */
+  freed: number[];
+  /** Vertices that cannot obey, and control points to remove from the masks. Nothing has changed then. */
+  conflict?: { vertices: number[]; controlPoints: number[] };
+}
+
+export interface ModelFacts {
+  dim: 2 | 3; vertices: number;
+  /** Whether these are vertices of the interior of an outline, not of the file. */
+  isFilled: boolean;
+}
+
 export interface CageFacts {
   controlPoints: number; facets: number;
   /** Distance from the model, relative to its size. */
@@ -55,8 +78,8 @@ export class Flbc {
 
   /** .obj, .ply, .stl, .off, .glb, .gltf. @param files others that it names, such as .mtl */
   readModel(name: string, bytes: ArrayBuffer | Uint8Array,
-            files?: Record<string, ArrayBuffer | Uint8Array>): Promise<{ dim: 2 | 3; vertices: number }>;
-  setModel(points: Numbers, triangles: Indices): Promise<{ dim: 3; vertices: number }>;
+            files?: Record<string, ArrayBuffer | Uint8Array>): Promise<ModelFacts>;
+  setModel(points: Numbers, triangles: Indices): Promise<ModelFacts>;
 
   /** `offset` is relative to the size of the model. By default, all are chosen. */
   makeCage(options?: { controlPoints?: number; offset?: number; symmetry?: "auto" | "none" | "x" | "y" | "z" },
@@ -71,6 +94,8 @@ export class Flbc {
   setMesh(points: Numbers, cells: Indices): Promise<void>;
 
   solve(options?: SolveOptions, onProgress?: OnProgress): Promise<{ iterations: number; objective: number; converged: boolean }>;
+  /** Regions of the model that control points must not move, for the next solve() or move({ refine: true }). */
+  protect(locality: Locality | ArrayBuffer | Uint8Array): Promise<Protection>;
   /** What makeMesh() and solve() have computed. */
   solution(): Promise<Solution>;
   /** In place of both, for the same model and cage: in another worker, or after cancel(). */

@@ -100,6 +100,13 @@ export class Flbc {
     return this.call("readCage", { name });
   }
 
+  // \param locality  what a locality file has, or the bytes of one
+  async protect(locality) {
+    const isFile = locality instanceof ArrayBuffer || ArrayBuffer.isView(locality);
+    await this.addFile("locality.json", isFile ? locality : new TextEncoder().encode(JSON.stringify(locality)));
+    return this.call("protect");
+  }
+
   // Lets the engine compile what it will need, with a small model that is forgotten.
   warmUp(name, bytes) { return this.call("warmUp", { name, bytes }); }
   setModel(points, triangles) { return this.call("setModel", { points, triangles }); }

@@ -8,6 +8,7 @@ import { element, setTheme, tell } from "../../apps/view/page/panel.mjs";
 import { download } from "../../apps/view/page/saving.mjs";
 import { Flbc, unpacked } from "../js/flbc.mjs";
 import { cageToObj, mergePoints, splitEdge } from "./cage_edits.mjs";
+import { bindProtecting, Protector } from "./protecting.mjs";
 import { bindReshaping, Reshaper } from "./reshaping.mjs";
 import { readPicture, Sketch } from "./shapes.mjs";
 
@@ -95,6 +96,7 @@ class App {
     await this.flbc.solve({}, onProgress);
     onProgress("showing the model", 0);
     this.solution = await this.flbc.solution();
+    this.protector = null;  // of the view before
     this.prepare();
     await this.prepared;
     await this.display();
@@ -110,7 +112,8 @@ class App {
       const isDone = await this.work(model.name, async (onProgress) => {
         onProgress("reading the model", 0);
         await this.flbc.cancel();  // what is prepared
-        const { vertices } = await this.flbc.readModel(model.name, model.bytes, model.files);
+        const { vertices, isFilled } = await this.flbc.readModel(model.name, model.bytes, model.files);
+        model.isFilled = isFilled;
         if (vertices > 20000) element("remaining").textContent = `This model takes about ${Math.round(vertices / 7000)} s`;
         await this.flbc.makeCage({}, onProgress);
         Object.assign(this, { model, cage: await this.cageFile(), view: null });
@@ -208,7 +211,8 @@ class App {
 
   // Brings a new worker to where the last one was.
   prepare() {
-    this.prepared = this.renew().then(() => this.flbc.setSolution(this.solution));
+    const masks = this.protector?.accepted ?? [];
+    this.prepared = this.renew().then(() => this.flbc.setSolution(this.solution)).then(() => this.flbc.protect(masks));
     this.prepared.catch(() => {});
   }
 
@@ -266,8 +270,20 @@ class App {
     reshaper.onRefusal = tell;
     bindReshaping(reshaper);
     this.kept = reshaper.solved;
+    const protector = new Protector(this.view, {
+      protect: async (locality) => { await this.prepared; return this.flbc.protect(locality); },
+      refine: () => this.flbc.move({ refine: true }).catch((error) => ({ refused: error.message })),
+    });
+    this.protector = protector;
+    bindProtecting(protector);
+    element("saveLocality").hidden = this.model.isFilled;
+    element("paint").addEventListener("click", () => {
+      this.compare(false);
+      if (reshaper.isOn) reshaper.toggle();
+    });
     // While the visitor takes aim, a new worker sets up its solver.
     element("reshape").addEventListener("click", () => {
+      if (protector.isOn) protector.toggle();
       if (reshaper.isOn) this.flbc.move({ refine: true }).catch(() => {});
     });
     this.weights = { local: this.view.deformer.weights };
@@ -417,7 +433,8 @@ class App {
     if (event.type !== "drop" || !element("busy").hidden) return;
     const files = [...event.dataTransfer.files];
     if (files.length === 0) return;
-    if (this.view && element("app").hidden && /cage/i.test(files[0].name)) this.takeCage(files[0]);
+    if (this.view && element("app").hidden && /\.json$/i.test(files[0].name)) files[0].arrayBuffer().then((bytes) => this.protector.load(bytes));
+    else if (this.view && element("app").hidden && /cage/i.test(files[0].name)) this.takeCage(files[0]);
     else this.open(files);
   }
 }

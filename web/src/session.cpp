@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "files/load.h"
+#include "files/locality_file.h"
 #include "files/model_facets.h"
 #include "files/movable_model.h"
 #include "files/up_axis.h"
@@ -23,6 +24,7 @@
 #include "flbc/deform.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
+#include "flbc/mask_conflicts.h"
 #include "flbc/names.h"
 #include "flbc/rig.h"
 #include "flbc/sparsify.h"
@@ -46,6 +48,7 @@ using Json = nlohmann::ordered_json;
 using Report = std::function<void(const char* stage, double done)>;
 
 constexpr const char* kCageFile = "cage.obj";
+constexpr const char* kLocalityFile = "locality.json";
 
 // A cage with defects, and where they are.
 class DefectiveCage : public InputError {
@@ -188,7 +191,9 @@ class Work {
     if (!model_->model()->soup.polygons.empty()) surface_ = model_->surface();
   }
 
-  val facts() const { return from_json({{"dim", Dim}, {"vertices", points().cols()}}); }
+  val facts() const {
+    return from_json({{"dim", Dim}, {"vertices", points().cols()}, {"isFilled", file_ != name_}});
+  }
 
   val call(const std::string& name, const val& given, const Report& report) {
     const auto options = [&] { return to_json(given); };
@@ -213,6 +218,7 @@ class Work {
           given.hasOwnProperty("options") ? to_json(given["options"]) : Json::object());
     }
     if (name == "solve") return solve(options());
+    if (name == "protect") return protect();
     if (name == "reduce") return reduce(options(), report);
     if (name == "move") return move(options());
     if (name == "solution") return solution();
@@ -394,6 +400,31 @@ class Work {
                       {"converged", of.status == SolveStatus::kConverged}});
   }
 
+  // Takes the masks of a locality file for the next solve, unless vertices cannot obey.
+  val protect() {
+    auto binding = rig().options();
+    const auto locality = app::load_locality(kLocalityFile, cage_, points(), file_);
+    if (locality.reach.size() > 0) {
+      throw InputError(std::string(kLocalityFile) +
+                       ": the page has no reach; remove \"reach\" to use the masks");
+    }
+    binding.masks = locality.masks;
+    Index on_facets = 0;
+    end_at_facets(cage_, points(), binding.masks, &on_facets);
+    Json reply{{"masks", Json::array()}, {"freed", locality.freed}, {"onFacets", on_facets}};
+    for (const auto& [control_points, region] : binding.masks) {
+      reply["masks"].push_back({{"controlPoints", control_points}, {"vertices", region}});
+    }
+    try {
+      rig_->set_options(binding);
+      few_ = {};
+    } catch (const MaskConflict& conflict) {
+      reply["conflict"] = {{"vertices", conflict.points},
+                           {"controlPoints", conflict.control_points}};
+    }
+    return from_json(reply);
+  }
+
   // In double precision, so that another worker continues from the same numbers.
   val solution() {
     auto result = val::object();
@@ -490,6 +521,7 @@ class Work {
     skin.max_influences = options.value("influences", 4);
     skin.name = title();
     skin.edges = edges_;
+    if (rig_) skin.masks = rig_->masks().of_points;
     const auto up = app::up_of(app::UpAxis::kAuto, file_);
     skin.turn = app::turn_upright(app::up_axis(up, points()));
     skin.cage_edges = view::as_facets(shown_.edges);

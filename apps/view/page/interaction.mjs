@@ -47,6 +47,10 @@ export class Interaction {
     this.from = this.last = spot;
     this.hasMoved = false;
     this.adds = event.shiftKey || event.ctrlKey || event.metaKey;
+    if (event.button === 0 && !this.adds && view.brush?.begin(spot, event.altKey)) {
+      this.mode = "paint";
+      return;
+    }
     const hit = event.button === 0 ? this.pickAt(spot, event) : -1;
     if (hit >= 0 && event.altKey) return view.editor.setPivot(pointAt(view.editor.points, hit));
     this.mode = hit >= 0 ? this.grab(hit) : this.modeOfEmptySpot(event);
@@ -153,6 +157,8 @@ export class Interaction {
       if (this.area === "lasso") this.outline.push(spot);
       else this.outline = rectangle(this.from, spot);
       view.onOutline(this.outline);
+    } else if (this.mode === "paint") {
+      view.brush?.to(spot);
     } else if (this.mode === "orbit") {
       camera.orbit(dx, dy);
     } else if (this.mode === "pan") {
@@ -180,6 +186,7 @@ export class Interaction {
       return;
     }
     if (this.mode === "edit") view.editor.end();
+    if (this.mode === "paint") view.brush?.end();
     if (this.mode === "area") this.selectArea();
     const isClick = !this.hasMoved && event.button === 0;
     if (isClick && (this.mode === "orbit" || this.mode === "pan")) view.editor.select([]);
@@ -195,6 +202,7 @@ export class Interaction {
   // Escape, or a second finger: the drag never was.
   cancel() {
     if (this.drag) this.view.editor.cancel();
+    this.view.brush?.cancel();
     this.finish();
   }
 

@@ -94,8 +94,8 @@ export function makeCommands(viewer) {
   const area = (name) => () => viewer.set("area", viewer.area === name ? null : name);
   const help = element("keyHelp");
   return {
-    undo: () => { viewer.stopPlaying(); editor.undo(); },
-    redo: () => { viewer.stopPlaying(); editor.redo(); },
+    undo: () => { viewer.stopPlaying(); (viewer.brush ?? editor).undo(); },
+    redo: () => { viewer.stopPlaying(); (viewer.brush ?? editor).redo(); },
     move: tool("move"), rotate: tool("rotate"), scale: tool("scale"),
     axisX: axis("x"), axisY: axis("y"), axisZ: content.dim === 3 ? axis("z") : () => {},
     resetSelection: () => editor.reset(selected()),
@@ -231,8 +231,8 @@ function showState(viewer) {
   for (const [id, pressed] of Object.entries(isPressed)) {
     element(id).setAttribute("aria-pressed", String(pressed));
   }
-  element("undo").disabled = !editor.canUndo;
-  element("redo").disabled = !editor.canRedo;
+  element("undo").disabled = !(viewer.brush ?? editor).canUndo;
+  element("redo").disabled = !(viewer.brush ?? editor).canRedo;
   for (const id of ["resetSelection", "ring", "limb", "grow", "shrink"]) {
     element(id).disabled = editor.selection.size === 0;
   }

@@ -33,6 +33,7 @@ export class Viewer {
     this.coloring = "shaded";
     this.tool = "move";
     this.axis = null;
+    this.brush = null;   // paints on the model: begin, to, end, cancel, colors; and undo, as the editor
     this.area = null;    // what drags elsewhere select: "box", "lasso" or null
     this.typed = null;   // digits of a number for the tool, null: digits are other keys
     this.showsCage = true;
@@ -84,7 +85,7 @@ export class Viewer {
     const { editor, deformer, renderer } = this;
     deformer.move(this.reshaper?.holdsModel ? deformer.rest : editor.points);
     renderer.setModel(deformer);
-    const { values, legend } = colorValues(this.coloring, deformer, editor.selection);
+    const { values, legend } = this.brush?.colors() ?? colorValues(this.coloring, deformer, editor.selection);
     if (values) renderer.setValues(values);
     renderer.setCage(editor.points, editor.shares(), this.hovered);
     this.onLegend(legend);
@@ -98,7 +99,8 @@ export class Viewer {
     if (!this.isFramed) this.frame();
     this.update();
     this.onPivot(this.editor.pivot ? camera.project(this.editor.pivot) : null);
-    renderer.draw(camera, { ...kThemes[this.theme], coloring: this.coloring, dotSize: this.dotSize(), pointer: this.pointer,
+    const coloring = this.brush ? "region" : this.coloring;
+    renderer.draw(camera, { ...kThemes[this.theme], coloring, dotSize: this.dotSize(), pointer: this.pointer,
                             showsCage: this.showsCage, showsEdges: this.showsEdges });
   }
 

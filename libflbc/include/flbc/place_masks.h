@@ -29,11 +29,18 @@ template <int Dim>
 std::vector<Mask> end_at_facets(const Cage<Dim>& cage, const PointList<Dim>& points,
                                 const std::vector<Mask>& masks, Index* on_facets = nullptr);
 
+//! Removes a few control points from all masks so that all points can obey, outside as with
+//! OutsidePoints::kNearest.
+//! \param freed  output: these control points, ascending
+template <int Dim>
+std::vector<Mask> relax_masks(const Cage<Dim>& cage, const PointList<Dim>& points,
+                              std::vector<Mask> masks, std::vector<Index>& freed);
+
 //! Prepares masks. Vertices of the mesh that cannot obey are left out, because enforce_masks()
 //! makes weights of the points exactly 0.
 //! \param placement  of P points, in the mesh \param masks  of the P points
-//! \throws InputError if points cannot obey, naming their number, the first, and the control points
-//! to free; also as PointMasks
+//! \throws MaskConflict if points cannot obey, naming their number, the first, and the control points
+//! to free; InputError as PointMasks
 template <int Dim>
 PlacedMasks place_masks(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                         const Placement<Dim>& placement, const std::vector<Mask>& masks);

@@ -10,6 +10,7 @@
 #include "cage/facet_locator.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
+#include "flbc/mask_conflicts.h"
 #include "flbc/non_negative.h"
 #include "linear/dense.h"
 #include "polytope/mask_conflicts.h"
@@ -156,6 +157,26 @@ std::vector<Mask> end_at_facets(const Cage<Dim>& cage, const PointList<Dim>& poi
 }
 
 template <int Dim>
+std::vector<Mask> relax_masks(const Cage<Dim>& cage, const PointList<Dim>& points,
+                              std::vector<Mask> masks, std::vector<Index>& freed) {
+  freed.clear();
+  const auto places = place_points(cage, points, OutsidePoints::kNearest).points;
+  const PointMasks inside(end_at_facets(cage, places, masks), cage.size(),
+                          static_cast<Index>(places.cols()));
+  try {
+    refuse_mask_conflicts(cage.points, places, inside);
+  } catch (const MaskConflict& conflict) {
+    freed = conflict.control_points;
+  }
+  for (auto& [control_points, region] : masks) {
+    const auto is_free = [&](Index i) { return std::binary_search(freed.begin(), freed.end(), i); };
+    control_points.erase(std::remove_if(control_points.begin(), control_points.end(), is_free),
+                         control_points.end());
+  }
+  return masks;
+}
+
+template <int Dim>
 PlacedMasks place_masks(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                         const Placement<Dim>& placement, const std::vector<Mask>& masks) {
   if (masks.empty()) return {};
@@ -202,6 +223,7 @@ SparseWeights enforce_masks(const Cage<Dim>& cage, const Placement<Dim>& placeme
 }
 
 FLBC_INSTANTIATE_FUNCTION(end_at_facets)
+FLBC_INSTANTIATE_FUNCTION(relax_masks)
 FLBC_INSTANTIATE_FUNCTION(place_masks)
 FLBC_INSTANTIATE_FUNCTION(enforce_masks)
 

@@ -8,9 +8,10 @@
 #include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/parallel.h"
-#include "flbc/errors.h"
+#include "flbc/mask_conflicts.h"
 #include "polytope/nearest_point_in_hull.h"
 #include "polytope/scaling.h"
+#include "polytope/small_lu.h"
 #include "polytope/weight_projection.h"
 
 namespace flbc {
@@ -25,7 +26,8 @@ class Feasibility {
   Feasibility(const PointList<Dim>& control_points, const PointList<Dim>& points)
       : control_points_(control_points),
         points_(points),
-        tolerance_(kReproduced * scale_of<Dim>(control_points)) {}
+        size_(scale_of<Dim>(control_points)),
+        tolerance_(kReproduced * size_) {}
 
   bool holds(double distance) const { return distance <= tolerance_; }
 
@@ -33,6 +35,25 @@ class Feasibility {
   double distance(Index point, const std::vector<Index>& allowed) const {
     if (allowed.empty()) return std::numeric_limits<double>::infinity();
     return nearest(point, allowed).distance;
+  }
+
+  HullPoint<Dim> nearest(Index point, const std::vector<Index>& allowed) const {
+    return nearest_point_in_hull<Dim>(control_points_(Eigen::all, allowed), points_.col(point));
+  }
+
+  // Whether the control points of the nearest point to another point reproduce this one too.
+  bool holds(Index point, const std::vector<Index>& allowed, const HullPoint<Dim>& other) const {
+    if (other.size <= Dim) return false;
+    typename SmallLu<Dim + 1>::Square corners;
+    typename SmallLu<Dim + 1>::Column place;
+    place << points_.col(point), size_;
+    for (int k = 0; k <= Dim; ++k) {
+      corners.col(k) << control_points_.col(allowed[other.support[k]]), size_;
+    }
+    SmallLu<Dim + 1> factors;
+    factors.compute(corners);
+    const auto weights = factors.solve(place);
+    return weights.minCoeff() >= 0 && (corners * weights - place).norm() <= tolerance_;
   }
 
   // Adds the control point to the allowed ones that brings their hull nearest to the point. It lies
@@ -59,13 +80,9 @@ class Feasibility {
   }
 
  private:
-  HullPoint<Dim> nearest(Index point, const std::vector<Index>& allowed) const {
-    return nearest_point_in_hull<Dim>(control_points_(Eigen::all, allowed), points_.col(point));
-  }
-
   const PointList<Dim>& control_points_;
   const PointList<Dim>& points_;
-  double tolerance_;
+  double size_, tolerance_;
 };
 
 // Control points that are allowed everywhere then, ascending.
@@ -102,9 +119,23 @@ std::vector<Index> mask_conflicts(const PointList<Dim>& control_points,
   const Feasibility<Dim> feasibility(control_points, points);
   const auto& masked = masks.points();
   std::vector<char> obeys(masked.size());
-  parallel_for_chunks(static_cast<Index>(masked.size()), 64, [&](Index k) {
-    obeys[k] = feasibility.holds(feasibility.distance(masked[k], masks.allowed(masked[k])));
-  });
+  struct Last {
+    std::vector<Index> allowed;
+    HullPoint<Dim> nearest;
+  };
+  constexpr Index kChunk = 64;
+  const auto make_last = [] { return Last{}; };
+  parallel_for_chunks(static_cast<Index>(masked.size()), kChunk, make_last,
+                      [&](Index k, Last& last) {
+                        const Index point = masked[k];
+                        const bool is_same = k % kChunk != 0 && masks.same(masked[k - 1], point);
+                        if (!is_same) last.allowed = masks.allowed(point);
+                        if (!is_same) last.nearest.size = 0;
+                        obeys[k] = feasibility.holds(point, last.allowed, last.nearest);
+                        if (obeys[k] || last.allowed.empty()) return;
+                        last.nearest = feasibility.nearest(point, last.allowed);
+                        obeys[k] = feasibility.holds(last.nearest.distance);
+                      });
   std::vector<Index> conflicts;
   for (std::size_t k = 0; k < masked.size(); ++k) {
     if (!obeys[k]) conflicts.push_back(masked[k]);
@@ -120,15 +151,18 @@ void refuse_mask_conflicts(const PointList<Dim>& control_points, const PointList
   const Feasibility<Dim> feasibility(control_points, points);
   const auto allowed = masks.allowed(conflicts.front());
   const auto cure = find_cure(feasibility, masks, conflicts);
-  throw InputError(
+  throw MaskConflict(
       std::to_string(conflicts.size()) + " of " + std::to_string(masks.points().size()) +
-      " masked vertices cannot follow the control points that may move them; the first is vertex " +
-      std::to_string(conflicts.front()) + " at " + format_point(points.col(conflicts.front())) +
-      (allowed.empty() ? ", for which all are masked, although its weights must sum to 1"
-                       : ", " + format_number(feasibility.distance(conflicts.front(), allowed)) +
-                             " outside their convex hull") +
-      "; remove control point" + (cure.size() == 1 ? " " : "s ") + list(cure) +
-      " from the masks, or make the regions smaller");
+          " masked vertices cannot follow the control points that may move them; the first is "
+          "vertex " +
+          std::to_string(conflicts.front()) + " at " + format_point(points.col(conflicts.front())) +
+          (allowed.empty()
+               ? ", for which all are masked, although its weights must sum to 1"
+               : ", " + format_number(feasibility.distance(conflicts.front(), allowed)) +
+                     " outside their convex hull") +
+          "; remove control point" + (cure.size() == 1 ? " " : "s ") + list(cure) +
+          " from the masks, or make the regions smaller",
+      conflicts, cure);
 }
 
 template <int Dim>

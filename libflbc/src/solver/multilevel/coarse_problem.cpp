@@ -107,13 +107,26 @@ std::optional<CoarseProblem<Dim>> make_coarse(const LbcProblem<Dim>& problem, Di
   return made;
 }
 
+// Means over the parts of each cell.
+WeightFunctions on_coarse_cells(const WeightFunctions& phi, Index num_cells) {
+  const auto parts = phi.cols() / num_cells;
+  Eigen::MatrixXd means = Eigen::MatrixXd::Zero(phi.rows(), num_cells);
+  for (Eigen::Index s = 0; s < phi.cols(); ++s) {
+    means.col(s / parts) += phi.col(s) / static_cast<double>(parts);
+  }
+  return means;
+}
+
 }  // namespace
 
 template <int Dim>
 std::optional<CoarseProblem<Dim>> coarse_problem(const LbcProblem<Dim>& problem,
                                                  const plan::Settings& settings) {
-  if (!plan::inherits(settings.method) || problem.phi.is_given()) return {};
-  return make_coarse(problem, settings.phi);
+  if (!plan::inherits(settings.method)) return {};
+  if (!problem.phi.is_given()) return make_coarse(problem, settings.phi);
+  auto coarse = make_coarse(problem, DistanceScheme::kConstant);
+  if (coarse) coarse->problem.phi = on_coarse_cells(problem.phi, coarse->problem.mesh.num_cells());
+  return coarse;
 }
 
 template <int Dim>

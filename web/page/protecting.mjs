@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Regions of the model that control points must not move, painted by a brush. Weights are solved for
+// the latest stroke, one at a time.
+import { element, tell } from "../../apps/view/page/panel.mjs";
+import { download } from "../../apps/view/page/saving.mjs";
+import { add, length, pointAt } from "../../apps/view/page/vectors.mjs";
+
+const kMostRegions = 50;     // that can be undone
+const kMostConflicts = 300;  // that are drawn
+const kOrigin = [0, 0, 0];
+
+// Where points appear: pixels from the upper left corner, and depth.
+function seenPlaces(points, camera, center) {
+  const m = camera.matrix(center);
+  const places = new Float64Array(points.length);
+  for (let p = 0; p < points.length; p += 3) {
+    const row = (r) => m[r] * points[p] + m[4 + r] * points[p + 1] + m[8 + r] * points[p + 2] + m[12 + r];
+    const w = row(3);
+    places[p] = (1 + row(0) / w) * camera.width / 2;
+    places[p + 1] = (1 - row(1) / w) * camera.height / 2;
+    places[p + 2] = row(2) / w;
+  }
+  return places;
+}
+
+// Lists of control points as text, which serve as keys.
+function listed(key) {
+  return key ? key.split(",").map(Number) : [];
+}
+
+function united(key, others) {
+  return [...new Set([...listed(key), ...others])].sort((a, b) => a - b).join();
+}
+
+export class Protector {
+  // \param ask  protect(locality) and refine() of the worker
+  constructor(viewer, ask) {
+    this.viewer = viewer;
+    this.ask = ask;
+    this.masked = new Map();  // by vertex: the control points that must not move it, as text
+    this.sent = null;         // the last of these that were sent
+    this.accepted = [];       // the masks that the weights obey
+    this.done = [];
+    this.undone = [];
+    this.radius = 30;         // pixels
+    this.isOn = this.erases = this.isBusy = false;
+    this.stroke = null;
+    this.reply = {};
+    this.tell = () => {};
+  }
+
+  get canUndo() { return this.done.length > 0; }
+  get canRedo() { return this.undone.length > 0; }
+
+  // Once it is on, a new worker sets up its solver while the visitor takes aim.
+  toggle() {
+    this.isOn = !this.isOn;
+    this.viewer.brush = this.isOn ? this : null;
+    this.solve();
+  }
+
+  // As in a locality file.
+  masks() {
+    const regions = new Map();
+    for (const [vertex, key] of this.masked) {
+      if (!regions.has(key)) regions.set(key, []);
+      regions.get(key).push(vertex);
+    }
+    return [...regions].map(([key, vertices]) => ({ control_points: listed(key), region: { vertices } }));
+  }
+
+  // ------------------------------------------------------------------------------------- strokes
+
+  // \return whether the pointer is on the model
+  begin(spot, erases) {
+    const { deformer, camera, content, editor: { selection } } = this.viewer;
+    this.seen = seenPlaces(deformer.points, camera, content.center);
+    if (!this.placeAt(spot)) return false;
+    if (selection.size === 0) {
+      this.tell("First select the control points that must not move the region");
+      return true;
+    }
+    this.stroke = { spot, before: this.masked, selection, erases: erases || this.erases, after: new Map() };
+    this.masked = new Map(this.masked);
+    this.to(spot);
+    return true;
+  }
+
+  to(spot) {
+    if (!this.stroke) return;
+    const { x, y } = this.stroke.spot;
+    const steps = Math.max(1, Math.ceil(2 * Math.hypot(spot.x - x, spot.y - y) / this.radius));
+    for (let k = 1; k <= steps; ++k) this.dab({ x: x + k / steps * (spot.x - x), y: y + k / steps * (spot.y - y) });
+    this.stroke.spot = spot;
+    this.viewer.changed();
+  }
+
+  end() {
+    const { stroke } = this;
+    this.stroke = null;
+    if (stroke) this.keep(stroke.before);
+  }
+
+  cancel() {
+    if (!this.stroke) return;
+    this.masked = this.stroke.before;
+    this.stroke = this.sent = null;
+    this.solve();
+  }
+
+  // The front of the model under the pointer, seen from its center; null where there is none.
+  placeAt({ x, y }) {
+    const { deformer: { points }, content: { surface: { triangles, sources } } } = this.viewer;
+    const { seen } = this;
+    const start = (corner) => 3 * (sources ? sources[corner] : corner);
+    let place = null, depth = Infinity;
+    for (let t = 0; t < triangles.length; t += 3) {
+      const a = start(triangles[t]), b = start(triangles[t + 1]), c = start(triangles[t + 2]);
+      const ax = seen[a] - x, ay = seen[a + 1] - y, bx = seen[b] - x, by = seen[b + 1] - y, cx = seen[c] - x, cy = seen[c + 1] - y;
+      const u = bx * cy - by * cx, v = cx * ay - cy * ax, w = ax * by - ay * bx, sum = u + v + w;
+      if (sum === 0 || u * sum < 0 || v * sum < 0 || w * sum < 0) continue;
+      const mean = (values, k) => (u * values[a + k] + v * values[b + k] + w * values[c + k]) / sum;
+      if (mean(seen, 2) >= depth) continue;
+      depth = mean(seen, 2);
+      place = [mean(points, 0), mean(points, 1), mean(points, 2)];
+    }
+    return place;
+  }
+
+  // Paints the vertices around the place under the pointer.
+  dab(spot) {
+    const { deformer: { points }, camera, content } = this.viewer;
+    const place = this.placeAt(spot);
+    if (!place) return;
+    const reach = length(camera.step(add(place, content.center), this.radius, 0));
+    for (let p = 0; p < points.length; p += 3) {
+      if (Math.hypot(points[p] - place[0], points[p + 1] - place[1], points[p + 2] - place[2]) <= reach) this.paint(p / 3);
+    }
+  }
+
+  paint(vertex) {
+    const { selection, erases, after } = this.stroke;
+    const key = this.masked.get(vertex) ?? "";
+    if (!after.has(key)) after.set(key, erases ? listed(key).filter((i) => !selection.has(i)).join() : united(key, selection));
+    if (after.get(key)) this.masked.set(vertex, after.get(key));
+    else this.masked.delete(vertex);
+  }
+
+  // ------------------------------------------------------------------------------ undo, and files
+
+  keep(before) {
+    this.done.push(before);
+    if (this.done.length > kMostRegions) this.done.shift();
+    this.undone = [];
+    this.solve();
+  }
+
+  undo() { this.swap(this.done, this.undone); }
+  redo() { this.swap(this.undone, this.done); }
+
+  swap(from, to) {
+    this.cancel();
+    if (from.length === 0) return;
+    to.push(this.masked);
+    this.masked = from.pop();
+    this.solve();
+  }
+
+  // Takes the masks of a file. \param locality  its bytes, or its content
+  async load(locality) {
+    try {
+      const { masks } = await this.ask.protect(locality);
+      const before = this.masked;
+      this.masked = new Map();
+      for (const { controlPoints, vertices } of masks) {
+        for (const vertex of controlPoints.length > 0 ? vertices : []) {
+          this.masked.set(vertex, united(this.masked.get(vertex), controlPoints));
+        }
+      }
+      this.keep(before);
+    } catch (error) {
+      this.tell(error.message);
+    }
+  }
+
+  save() {
+    const name = `${this.viewer.content.title}_locality.json`;
+    download(name, new Blob([JSON.stringify(this.masks())]));
+    this.tell(`Saved ${name}`);
+  }
+
+  // ------------------------------------------------------------------------------ weights, drawing
+
+  async solve() {
+    const isBusy = this.isBusy;
+    this.isBusy = true;
+    this.viewer.changed();
+    if (isBusy) return;
+    while (!this.stroke && this.sent !== this.masked) {
+      const masked = this.sent = this.masked;
+      const masks = this.masks();
+      try {
+        this.reply = await this.ask.protect(masks);
+        if (this.reply.conflict) continue;
+        this.accepted = masks;
+        let reply = await this.ask.refine();
+        while (this.viewer.reshaper.take(reply) && !reply.converged && this.masked === masked) reply = await this.ask.refine();
+      } catch (error) {
+        if (error.name !== "Cancelled") this.tell(error.message);
+      }
+    }
+    this.isBusy = false;
+    this.viewer.changed();
+  }
+
+  // Whether the selection must not move vertices with a key.
+  get isChosen() {
+    const known = new Map(), { selection } = this.viewer.editor;
+    return (key) => known.get(key) ?? known.set(key, listed(key).some((i) => selection.has(i))).get(key);
+  }
+
+  // In place of the coloring of the view.
+  colors() {
+    const { isChosen } = this;
+    const values = new Float32Array(this.viewer.deformer.base.length / 3);
+    for (const [vertex, key] of this.masked) values[vertex] = isChosen(key) ? 0.6 : 0.2;
+    return { values, legend: null };
+  }
+
+  // The brush, vertices in conflict, and rings around the control points that would carry them.
+  drawOver() {
+    const { viewer: { camera, editor, deformer, content, pointer: [x, y] }, stroke, reply: { conflict } } = this;
+    const circle = (kind, radius, place) => `<circle class="${kind}" cx="${place.x}" cy="${place.y}" r="${radius}"/>`;
+    const circles = (kind, radius, points, list, origin) =>
+      (list ?? []).map((k) => circle(kind, radius, camera.project(add(pointAt(points, k), origin)))).join("");
+    const spot = stroke?.spot ?? { x: (1 + x) * camera.width / 2, y: (1 - y) * camera.height / 2 };
+    element("marks").innerHTML = !this.isOn ? "" : circle("brush", this.radius, spot)
+      + circles("vertex", 2.5, deformer.points, conflict?.vertices.slice(0, kMostConflicts), content.center)
+      + circles("cure", 11, editor.points, conflict?.controlPoints, kOrigin);
+  }
+
+  // What the panel says.
+  describe() {
+    const { isChosen, masked, isBusy, reply: { conflict, onFacets }, viewer: { editor } } = this;
+    const vertices = (count) => `${count.toLocaleString("en")} ${count === 1 ? "vertex" : "vertices"}`;
+    if (conflict) {
+      return `${vertices(conflict.vertices.length)} (red) cannot stay: too few control points are left to carry them. `
+        + `Release the ringed control points (${conflict.controlPoints.join(", ")}), or erase a part of the region.`;
+    }
+    const state = isBusy ? "; solving…" : onFacets > 0 ? `; ${onFacets} on the cage still move` : "";
+    if (editor.selection.size === 0) return `${vertices(masked.size)} protected; select control points to paint${state}`;
+    return `The selection does not move ${vertices([...masked.values()].filter(isChosen).length)}${state}`;
+  }
+}
+
+// Connects the part of the panel for regions.
+export function bindProtecting(protector) {
+  const { viewer } = protector;
+  const { onPivot, onState } = viewer;
+  const onClick = (id, action) => element(id).addEventListener("click", action);
+  protector.tell = tell;
+  element("outline").insertAdjacentHTML("afterend", '<svg id="marks"></svg>');
+  viewer.onPivot = (spot) => { onPivot(spot); protector.drawOver(); };
+  viewer.onState = () => {
+    onState();
+    element("paint").setAttribute("aria-pressed", String(protector.isOn));
+    element("erase").setAttribute("aria-pressed", String(protector.erases));
+    element("release").hidden = !protector.reply.conflict;
+    element("protected").textContent = protector.describe();
+  };
+  onClick("paint", () => protector.toggle());
+  onClick("erase", () => { protector.erases = !protector.erases; viewer.changed(); });
+  onClick("release", () => protector.load({ masks: protector.masks(), conflicts: "relax" }));
+  onClick("saveLocality", () => protector.save());
+  onClick("loadLocality", () => element("localityFile").click());
+  element("brush").addEventListener("input", ({ target }) => { protector.radius = Number(target.value); });
+  element("localityFile").addEventListener("change", async ({ target }) => {
+    if (target.files.length > 0) protector.load(await target.files[0].arrayBuffer());
+    target.value = "";
+  });
+  viewer.onState();
+}
