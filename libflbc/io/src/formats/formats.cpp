@@ -29,6 +29,7 @@ constexpr Format kFormats[] = {
     {"glb", {read_gltf, write_glb, Attributes::kCorners}},
     {"gltf", {read_gltf, nullptr, Attributes::kCorners}},
     {"vrm", {read_gltf, nullptr, Attributes::kCorners}},  // .glb of persons
+    {"svg", {read_svg}},
     {"vtu", {}, kVtu<2>, kVtu<3>},
     {"mesh", {}, {}, {read_medit, write_medit, true}},
     {"node", {}, {}, kTetGen},
@@ -96,9 +97,7 @@ std::string conversion_hint(const std::string& path) {
   constexpr std::pair<std::string_view, const char*> kOthers[] = {
       {" fbx blend dae 3ds abc usd usda usdc usdz x3d wrl max ",
        "convert it to .obj or .ply first, for example in Blender"},
-      {" dxf svg ",
-       "import it into Blender, convert the curves to meshes, and export .obj; a drawing can "
-       "also be saved as .png with a transparent background"},
+      {" dxf ", "save the drawing as .svg first, for example in Inkscape"},
       {" spz splat ksplat sog ",
        "export it as an uncompressed .ply first, for example in SuperSplat"},
       {" gz bz2 xz zst zip 7z ", "unpack it first"}};

@@ -72,6 +72,7 @@ std::string likely_format(const std::string& content) {
   if (is_binary_stl(content)) return "stl";
   if (text.find('\0') != std::string_view::npos) return "binary";
   if (text.find("<VTKFile") != std::string_view::npos) return "vtu";
+  if (text.find("<svg") != std::string_view::npos) return "svg";
   const auto line = first_line(text);
   if (is_off_header(line)) return "off";
   if (begins_with(line, "solid")) return "stl";
@@ -313,7 +314,7 @@ void write_model(const std::string& path, const Model& model) {
   if (!format.model.write) {
     throw OptionError(path + (format.extension == "om"
                                   ? ": this format is written by OpenMesh (flbc::openmesh)"
-                                  : ": this format is only read; write .glb"));
+                                  : ": this format is only read; write .glb or .obj"));
   }
   write_file(path, [&](std::ostream& out) { format.model.write(out, model); });
 }

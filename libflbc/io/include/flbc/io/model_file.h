@@ -23,8 +23,9 @@ PolygonSoup read_polygons(const std::string& path);
 class ModelFile {
  public:
   //! Reads .obj, .off (also COFF, NOFF, STOFF headers), .ply, .stl, .om (OpenMesh, up to version
-  //! 2.2), .glb, .vrm, or .gltf (2.0, uncompressed). Coincident corners of .stl files and vertices
-  //! of glTF are merged into one vertex; vertices are numbered by first occurrence.
+  //! 2.2), .glb, .vrm, .gltf (2.0, uncompressed), or the outline of a drawing in .svg, by librsvg,
+  //! which is loaded at run time. Coincident corners of .stl files and vertices of glTF are merged
+  //! into one vertex; vertices are numbered by first occurrence.
   //! \throws IoError; InputError naming file and line, byte or element; OptionError for another
   //! extension
   explicit ModelFile(const std::string& path);
