@@ -104,7 +104,7 @@ if(TARGET flbc_app)
   set(depends ${needs_core} ${needs_meshers} ${needs_openmesh})
   list(JOIN depends ", " depends)
   flbc_package(program flbc "local barycentric coordinates of cages in 2D and 3D" "${depends}")
-  set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS libnglib-6.2)
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libnglib-6.2, librsvg2-2")
 endif()
 
 if(TARGET flbc_python)
@@ -116,7 +116,7 @@ if(TARGET flbc_python)
   flbc_package(python python3-flbc "local barycentric coordinates of cages: Python module"
     "${depends}")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-scipy)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-scipy, librsvg2-2")
 endif()
 
 # Directories where dpkg-shlibdeps finds the libraries of the new packages.

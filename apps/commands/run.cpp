@@ -206,7 +206,8 @@ int run_model(const CLI::App& command, RunArguments& arguments) {
         "--auto-cage makes the cage; give MODEL only, and the number of control points by "
         "--control-points");
   }
-  const bool is_picture = io::extension_of(settings.cage) == "png";
+  const auto extension = io::extension_of(settings.cage);
+  const bool is_picture = extension == "png" || extension == "svg";
   const bool is_splats = io::is_splat_file(settings.cage);
   const std::string file = std::exchange(settings.cage, kCage);
   (is_picture ? arguments.picture : settings.model) = file;
@@ -256,8 +257,8 @@ int run_command(const CLI::App& command, RunArguments& arguments) {
 void add_shapes(CLI::App& command, RunArguments& a) {
   command
       .add_option("CAGE", a.settings.cage,
-                  "closed polylines (2D) or surface (3D); with --auto-cage a model, or a .png with "
-                  "transparent pixels")
+                  "closed polylines or a drawing (2D), or surface (3D); with --auto-cage a model, "
+                  "a drawing, or a .png with transparent pixels")
       ->required();
   command.add_option(
       "MODEL", a.settings.model,

@@ -36,10 +36,12 @@ Shape<Dim> load_shape(const std::string& path) {
     throw OptionError(path + ": unknown file format; a model must end in " +
                       io::extensions_of({io::Content::kModel}) + io::conversion_hint(path));
   }
-  // The numbers of a .gltf file are elsewhere, so it moves as .glb.
-  const bool is_text = io::extension_of(path) == "gltf";
-  Shape<Dim> shape{file.stem().string(), is_text ? ".glb" : file.extension().string()};
-  shape.file = std::make_unique<MovableModel<Dim>>(MovedFile{path, is_text ? "a.glb" : path});
+  // The numbers of a .gltf file are elsewhere, and curves have none for their points.
+  const auto given = io::extension_of(path);
+  const std::string moved = given == "gltf" ? ".glb" : given == "svg" ? ".obj" : "";
+  Shape<Dim> shape{file.stem().string(), moved.empty() ? file.extension().string() : moved};
+  shape.file =
+      std::make_unique<MovableModel<Dim>>(MovedFile{path, moved.empty() ? path : "a" + moved});
   shape.points = shape.file->points();
   if (shape.points.cols() == 0) throw InputError(path + ": the model has no vertices");
   shape.edges = shape.file->edges();

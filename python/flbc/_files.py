@@ -39,7 +39,7 @@ def read_cage(path: Path) -> Cage:
     Parameters
     ----------
     path : str or path
-        .obj, .off, .ply, or .stl.
+        .obj, .off, .ply, .stl, or the outline of a drawing in .svg.
 
     Raises
     ------

@@ -66,6 +66,27 @@ TEST_F(CageCommand, SilhouettesOfPictures) {
   expect("cage " + file("no.png", "text") + " -o none.obj", 2, "no.png: ");
 }
 
+// A ring, in a cage around it, and as a cage itself.
+TEST_F(CageCommand, DrawingsAreOutlines) {
+  const auto drawing = file(
+      "ring.svg",
+      R"svg(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"><g transform="scale(2)">)svg"
+      R"svg(<circle cx="25" cy="25" r="15" fill="none" stroke="red" stroke-width="10"/></g></svg>)svg");
+  if (run("info " + drawing).errors.find("needs librsvg") != std::string::npos) {
+    GTEST_SKIP() << "librsvg is missing";
+  }
+  expect("convert " + drawing + " -q -o outline.obj", 0, "");
+  const auto own = check(drawing, drawing);
+  const double area = std::acos(-1.0) * (40 * 40 - 20 * 20);
+  EXPECT_NEAR(own["cage"]["measure"], area, 0.01 * area);
+  expect("cage " + drawing + " -q -o cage.obj", 0, "");
+  EXPECT_TRUE(check("cage.obj", "outline.obj")["fine"]);
+  expect("run " + drawing + " --vertices 300 -q -o own", 0, "");
+  expect("run " + drawing + " --auto-cage --vertices 300 -q -o around", 0, "");
+  expect("run cage.obj " + drawing + " --vertices 300 -q -o within", 0, "");
+  EXPECT_TRUE(std::filesystem::exists("within/model.html"));
+}
+
 TEST_F(CageCommand, RefusesNoiseAsSilhouette) {
   draw::write_png("noise.png", 1500, 1500, [](int x, int y) { return (x + y) % 2 == 0 ? 255 : 0; });
   expect("cage noise.png -o none.obj", 2,

@@ -118,7 +118,7 @@ TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
                  "convert it to .obj or .ply first, for example in Blender");
   expect_refused(file("model.obj.gz", "") + to("b.ply"), 1, "unpack it first");
   expect_refused(file("splats.spz", "") + to("b.ply"), 1, "uncompressed .ply");
-  expect_refused(file("part.dxf", "") + to("b.ply"), 1, "import it into Blender");
+  expect_refused(file("part.dxf", "") + to("b.ply"), 1, "save the drawing as .svg first");
   expect_refused(model + to("b.fbx"), 1, "usually read glTF");
   expect_refused(model + to("b.vtu"), 2, "vertex 2 at (0, 1, 1) is not in the plane z = 0");
   expect_refused(model + to("b.ply") + " --transpose", 1, "a.obj is a mesh");

@@ -72,7 +72,20 @@ class App extends Page {
   }
 }
 
+// From opening the page to its start screen, in seconds, the median of five times.
+async function startTime() {
+  const times = [];
+  for (let k = 0; k < 5; ++k) {
+    const app = await new App().open(browser, url);
+    const paint = await app.tab.waitForFunction(() => performance.getEntriesByName("first-contentful-paint")[0]?.startTime);
+    times.push(await paint.jsonValue() / 1000);
+    await app.tab.close();
+  }
+  return times.sort((a, b) => a - b)[2];
+}
+
 async function measure() {
+  console.log(`start screen: ${(await startTime()).toFixed(2)} s`);
   for (const file of measured) {
     const app = new App();
     app.warmUp = 3000;
@@ -304,6 +317,45 @@ async function testElbow() {
   await app.close();
 }
 
+// Of a picture of the page: the share of its box that is to be seen, width by height, and the number of
+// parts less that of holes, of which corners of pixels know (Gray 1971).
+function shapeOfPicture(tab) {
+  return tab.evaluate(async () => {
+    const image = new Image();
+    image.src = window.flbc.viewer.content.surface.pictures[0];
+    await image.decode();
+    const { width, height } = image;
+    const canvas = Object.assign(document.createElement("canvas"), { width, height });
+    const context = canvas.getContext("2d");
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, width, height);
+    const at = (x, y) => (x >= 0 && y >= 0 && x < width && y < height && data[4 * (x + width * y) + 3] > 16 ? 1 : 0);
+    let [count, quarters] = [0, 0];
+    for (let y = -1; y < height; ++y) {
+      for (let x = -1; x < width; ++x) {
+        const corners = [at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)];
+        const sum = corners.reduce((a, b) => a + b);
+        count += corners[0];
+        quarters += sum === 1 ? 1 : sum === 3 ? -1 : sum === 2 && corners[0] === corners[2] ? -2 : 0;
+      }
+    }
+    return { share: count / (width * height), aspect: width / height, parts: quarters / 4 };
+  });
+}
+
+// The same of the outline that the program takes from a drawing.
+function shapeInProgram(file) {
+  const outline = join(work, "outline.obj");
+  execFileSync(program, ["convert", file, "-q", "-o", outline]);
+  const places = vertices(outline, 2);
+  const loops = readFileSync(outline, "utf8").split("\n").filter((line) => line.startsWith("l "))
+    .map((line) => line.split(/\s+/).slice(1).map((i) => places.slice(2 * i - 2, 2 * i)));
+  const areas = loops.map((loop) => loop.slice(1).reduce((sum, [x, y], k) => sum + (loop[k][0] * y - loop[k][1] * x) / 2, 0));
+  const [width, height] = [0, 1].map((c) => { const all = places.filter((_, k) => k % 2 === c); return Math.max(...all) - Math.min(...all); });
+  return { share: areas.reduce((a, b) => a + b) / (width * height), aspect: width / height,
+           parts: areas.reduce((sum, area) => sum + Math.sign(area), 0) };
+}
+
 // A region is painted on one end of the limb; control points of the other end do not move it.
 async function testProtecting() {
   const app = await new App().open(browser, url);
@@ -425,6 +477,10 @@ async function testIcons() {
     assert.equal(seen.pictures, 1, name);
     assert.ok(Math.max(...seen.extents) > 1000, `${name} does not fill its picture`);
     if (name.startsWith("g_")) assert.ok(seen.vertices < 7000, `${name}: the box behind it is a part`);
+    const [painted, traced] = [await shapeOfPicture(app.tab), shapeInProgram(join(folder, name))];
+    const both = `${name}: ${JSON.stringify([painted, traced])}`;
+    for (const key of ["share", "aspect"]) assert.ok(Math.abs(traced[key] / painted[key] - 1) < 0.01, both);
+    assert.equal(traced.parts, painted.parts, both);
   }
   await app.close();
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -45,16 +46,16 @@ struct Ray {
   }
 };
 
-// The inward normal, and directions at 30 degrees from it.
+// The inward normal, and six directions at 30 degrees from it. Square roots are the same on all
+// systems, sines are not.
 std::vector<Vector<3>> directions_around(const Vector<3>& inward) {
-  constexpr int kAround = 6;
-  const double angle = std::acos(-1.0) / 6;
+  const double high = std::sqrt(0.75);
+  const std::pair<double, double> around[] = {{1, 0},  {0.5, high},   {-0.5, high},
+                                              {-1, 0}, {-0.5, -high}, {0.5, -high}};
   const Vector<3> side = inward.unitOrthogonal(), other = inward.cross(side);
   std::vector<Vector<3>> directions{inward};
-  for (int k = 0; k < kAround; ++k) {
-    const double turn = 2 * k * std::acos(-1.0) / kAround;
-    directions.push_back(std::cos(angle) * inward +
-                         std::sin(angle) * (std::cos(turn) * side + std::sin(turn) * other));
+  for (const auto& [along, across] : around) {
+    directions.push_back(high * inward + 0.5 * (along * side + across * other));
   }
   return directions;
 }

@@ -27,6 +27,7 @@ constexpr Format kFormats[] = {
     {"glb", {read_gltf, write_glb, Attributes::kCorners}},
     {"gltf", {read_gltf, nullptr, Attributes::kCorners}},
     {"vrm", {read_gltf, nullptr, Attributes::kCorners}},  // .glb of persons
+    {"svg", {read_svg}},
     {"vtu", {}, kVtu<2>, kVtu<3>},
     {"mesh", {}, {}, {read_medit, write_medit}},
     {"msh", {}, {}, {read_gmsh, write_gmsh}},
@@ -91,9 +92,7 @@ std::string conversion_hint(const std::string& path) {
   constexpr std::pair<std::string_view, const char*> kOthers[] = {
       {" fbx blend dae 3ds abc usd usda usdc usdz x3d wrl max ",
        "convert it to .obj or .ply first, for example in Blender"},
-      {" dxf svg ",
-       "import it into Blender, convert the curves to meshes, and export .obj; a drawing can "
-       "also be saved as .png with a transparent background"},
+      {" dxf ", "save the drawing as .svg first, for example in Inkscape"},
       {" om ", "read it with OpenMesh and save it as .ply: OpenMesh::IO::write_mesh()"},
       {" node ele ", "convert it to .mesh first: tetgen -g writes it, and meshio converts it"},
       {" dmat ",

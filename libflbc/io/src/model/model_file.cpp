@@ -72,6 +72,7 @@ std::string likely_format(const std::string& content) {
   if (is_binary_stl(content)) return "stl";
   if (text.find('\0') != std::string_view::npos) return "binary";
   if (text.find("<VTKFile") != std::string_view::npos) return "vtu";
+  if (text.find("<svg") != std::string_view::npos) return "svg";
   const auto line = first_line(text);
   if (is_off_header(line)) return "off";
   if (begins_with(line, "solid")) return "stl";
@@ -305,7 +306,7 @@ std::vector<std::string> losses(const Model& model, const std::string& path) {
 void write_model(const std::string& path, const Model& model) {
   const auto& format = format_of(path, Content::kModel, "write a model as");
   if (!format.model.write) {
-    throw OptionError(path + ": this format is only read; write .glb");
+    throw OptionError(path + ": this format is only read; write .glb or .obj");
   }
   write_file(path, [&](std::ostream& out) { format.model.write(out, model); });
 }

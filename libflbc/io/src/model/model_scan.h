@@ -96,6 +96,7 @@ void read_off(const std::string& path, Extent extent, ModelScan& scan);
 void read_ply(const std::string& path, Extent extent, ModelScan& scan);
 void read_stl(const std::string& path, Extent extent, ModelScan& scan);
 void read_gltf(const std::string& path, Extent extent, ModelScan& scan);
+void read_svg(const std::string& path, Extent extent, ModelScan& scan);
 
 //! Reads these materials from a .mtl file. \return false if it cannot be read
 bool read_mtl(const std::string& path, std::vector<Material>& materials);
