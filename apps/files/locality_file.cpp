@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "files/load.h"
@@ -15,6 +16,16 @@ namespace flbc::app {
 namespace {
 
 using LocalityJson = nlohmann::json;
+
+// A misspelled key would mean another mask.
+void require_keys(const LocalityJson& object, const std::set<std::string>& known) {
+  for (const auto& entry : object.items()) {
+    if (known.count(entry.key()) > 0) continue;
+    std::string names;
+    for (const auto& name : known) names += (names.empty() ? "" : ", ") + name;
+    throw InputError("unknown key \"" + entry.key() + "\"; choose from " + names);
+  }
+}
 
 // The vertices of the faces, lines, and points that follow "g NAME" in a .obj file.
 std::vector<Index> vertices_of_group(const std::string& model, const std::string& name) {
@@ -70,6 +81,8 @@ template <int Dim>
 std::vector<Index> indices_of(const LocalityJson& chosen, const PointList<Dim>& points,
                               const std::string& model) {
   if (chosen.is_array()) return chosen.get<std::vector<Index>>();
+  require_keys(chosen, {"vertices", "box", "group"});
+  if (chosen.size() > 1) throw InputError("give one choice for each mask, not several");
   if (chosen.contains("vertices")) return chosen["vertices"].get<std::vector<Index>>();
   if (chosen.contains("box")) return points_in_box<Dim>(chosen["box"], points);
   if (chosen.contains("group") && !model.empty()) {
@@ -97,6 +110,7 @@ std::vector<flbc::Mask> load_locality(const std::string& path, const Cage<Dim>& 
   try {
     for (const auto& mask : LocalityJson::parse(io::read_file(path))) {
       entry = "entry " + std::to_string(masks.size()) + ": ";
+      if (mask.is_object()) require_keys(mask, {"control_points", "region"});
       masks.push_back({indices_of<Dim>(mask.at("control_points"), cage.points, ""),
                        indices_of<Dim>(mask.at("region"), points, model)});
       if (masks.back().control_points.empty() || masks.back().points.empty()) {

@@ -93,6 +93,13 @@ TEST_F(LocalityCommand, DefectiveFilesAreRefused) {
   refused("[{\"control_points\": [0], \"region\": {\"box\": [[0], [1]]}}]",
           "a box needs corners of 3");
   refused("[{\"control_points\": [], \"region\": [0]}]", "no control points or no vertices");
+  refused(
+      "[{\"control_points\": [0], \"region\": [0]}, {\"control_points\": [0], \"regoin\": [0]}]",
+      "entry 1: unknown key \"regoin\"; choose from control_points, region");
+  refused("[{\"control_points\": [0], \"region\": {\"vertexes\": [0]}}]",
+          "unknown key \"vertexes\"; choose from box, group, vertices");
+  refused("[{\"control_points\": [0], \"region\": {\"vertices\": [0], \"group\": \"arm\"}}]",
+          "give one choice");
   expect("solve 3d/limb_cage.obj -o w.npy --method gradient --locality bad.json", 1,
          "--locality: the method gradient does not use it");
 }
