@@ -79,7 +79,7 @@ void add_convert_command(CLI::App& app, int&) {
       "for graphics cards: single precision, at most 8 influences per vertex (flbc sparsify -k "
       "8).\n"
       "Models: .obj, .off, .ply, .stl, .om, .glb; .gltf is only read. Meshes: 2D .obj, .off,\n"
-      ".vtu; 3D .mesh, .node, .ele, .msh, .vtu. The program reports attributes that the new "
+      ".vtu; 3D .mesh, .msh, .vtu. The program reports attributes that the new "
       "format\n"
       "does not support. A .ply or .stl result is a text file if the input is.");
   command->add_option("IN", a.input, "file to convert")->required();

@@ -276,8 +276,8 @@ void add_export_command(CLI::App& app, int&) {
   command
       ->add_option(
           "MODEL", a.model,
-          "model (.obj .off .ply .stl .om .glb .gltf), or domain mesh (.vtu; 3D: .mesh .node .ele "
-          ".msh) whose boundary is exported")
+          "model (.obj .off .ply .stl .om .glb .gltf), or domain mesh (.vtu; 3D: .mesh .msh) "
+          "whose boundary is exported")
       ->required();
   command->add_option("--weights", a.weights, describe_weight_file())->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();

@@ -109,7 +109,6 @@ void require_formats_of(const MovedFile& file) {
 std::vector<std::string> files_of_model(const std::string& path) {
   const auto extension = io::extension_of(path);
   const auto stem = path.substr(0, path.size() - extension.size());
-  if (extension == "node" || extension == "ele") return {path, stem + "node", stem + "ele"};
   if (extension == "mesh") return {path, stem + "sol"};
   return {path};
 }

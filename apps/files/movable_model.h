@@ -41,7 +41,7 @@ void require_formats_of(const MovedFile& file);
 //! Whether Gaussian splats become moved splats, which takes the Jacobians of the poses.
 bool moves_splats(const MovedFile& file);
 
-//! The file with those that lie beside it in some formats: .node and .ele, .mesh and .sol.
+//! The file with those that lie beside it in some formats: .mesh and .sol.
 std::vector<std::string> files_of_model(const std::string& path);
 
 //! A model or a mesh of the interior. Models are rewritten in place if the result has the same

@@ -157,7 +157,7 @@ def read_mesh(path: Path, dim: Optional[int] = None) -> DomainMesh:
     Parameters
     ----------
     path : str or path
-        2D: .obj, .off, .vtu. 3D: MEDIT .mesh, TetGen .node or .ele, Gmsh .msh, .vtu.
+        2D: .obj, .off, .vtu. 3D: MEDIT .mesh, Gmsh .msh, .vtu.
     dim : int, optional
         For .vtu; default: by its cells.
 
@@ -201,7 +201,7 @@ def read_weights(path: Path) -> Weights:
     Parameters
     ----------
     path : str or path
-        .npy, .dmat, .csv, .lbw (dense), or .mtx (sparse).
+        .npy, .dmat, .csv (dense), or .mtx (sparse).
 
     Returns
     -------

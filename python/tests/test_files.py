@@ -30,12 +30,17 @@ def test_meshes_in_2d(tmp_path, flat, ending):
     assert np.array_equal(same.cells, flat.mesh.cells)
 
 
-@pytest.mark.parametrize("ending", ["mesh", "node", "ele", "msh", "vtu"])
+@pytest.mark.parametrize("ending", ["mesh", "msh", "vtu"])
 def test_meshes_in_3d(tmp_path, solid, ending):
     flbc.write_mesh(tmp_path / f"mesh.{ending}", solid.mesh)
     same = flbc.read_mesh(tmp_path / f"mesh.{ending}")
     assert np.array_equal(same.points, solid.mesh.points)
     assert np.array_equal(same.cells, solid.mesh.cells)
+
+
+def test_formats_that_hold_other_data_are_named(tmp_path, flat):
+    with pytest.raises(flbc.OptionError, match="the format is for other data.*[.]vtu"):
+        flbc.write_mesh(tmp_path / "m.mesh", flat.mesh)
 
 
 def test_fields(tmp_path, flat):

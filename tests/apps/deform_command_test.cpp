@@ -310,10 +310,7 @@ TEST_F(DeformCommand, FilesThatDoNotFitAndWrongUsage) {
   refused(file("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 4//1\n") + weights +
               " --pose " + cage + output,
           2, "bad.obj:5: the index 4 is out of range; vertices are numbered 1 to 3");
-  // The .ele file would come to lie over the one that is read.
-  const auto node = file("mesh.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
-  const auto ele = file("mesh.ele", "1 4 0\n0 0 1 2 3\n");
-  refused(node + weights + " --pose " + cage + " -o " + ele, 1, "would replace this input file");
+  refused("mesh.node" + weights + " --pose " + cage + output, 1, "tetgen -g");
 }
 
 }  // namespace

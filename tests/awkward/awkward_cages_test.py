@@ -109,7 +109,7 @@ def judged(flbc, folder, name, dim, expected, cage):
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     files = {"folder": folder, "cage": folder / f"{name}.obj", "weights": folder / "weights.npy",
-             "domain": folder / ("domain.obj" if dim == 2 else "domain.node"),
+             "domain": folder / ("domain.obj" if dim == 2 else "domain.mesh"),
              "report": folder / "report.json"}
     write_obj(files["cage"], cage, dim)
     check = Command(flbc, "check", files["cage"])
@@ -117,8 +117,6 @@ def judged(flbc, folder, name, dim, expected, cage):
     solve = Command(flbc, "solve", files["cage"], "--vertices", 300, "--mesh-timeout",
                     MESH_SECONDS, "--max-iterations", 100, "--quiet", "-o", files["weights"],
                     "--save-domain", files["domain"], "--report", files["report"])
-    # The cells of a TetGen .node file are in another file, which is not needed here.
-    files["domain"].with_suffix(".ele").unlink(missing_ok=True)
     faults += [f"solve {fault}" for fault in solve_faults(solve, dim, cage, expected, files)]
     if check.status == 2 and solve.status != 2:
         faults.append(f"check refuses what solve takes: {check.message.strip()}")

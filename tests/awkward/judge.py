@@ -28,12 +28,13 @@ def read_npy(path):
 
 
 def read_points(path, dim):
-    """Vertices of an .obj or a .node file."""
+    """Vertices of an .obj or a .mesh file."""
     lines = [line.split() for line in path.read_text().splitlines()]
     if path.suffix == ".obj":
         return [[float(x) for x in words[1:1 + dim]] for words in lines if words and words[0] == "v"]
-    lines = [words for words in lines if words and not words[0].startswith("#")]
-    return [[float(x) for x in words[1:1 + dim]] for words in lines[1:1 + int(lines[0][0])]]
+    begin = lines.index(["Vertices"]) + 1
+    count = int(lines[begin][0])
+    return [[float(x) for x in words[:dim]] for words in lines[begin + 1:begin + 1 + count]]
 
 
 def faults(rows, places, points):

@@ -73,9 +73,6 @@ const char* const kGmsh4 =
     "$Nodes\n2 4 1 4\n3 1 0 3\n1\n2\n4\n0 0 0\n1 0 0\n0 0 1\n3 1 0 1\n3\n0 1 0\n$EndNodes\n"
     "$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n";
 
-const char* const kNodes = "4 3 1 1\n1 0 0 0 7 1\n2 1 0 0 7 1 # corner\n3 0 1 0 7 1\n4 0 0 1 7 1\n";
-const char* const kElements = "1 4 0\n1 1 2 3 4\n";
-
 const char* const kVtuOfOthers =
     "<?xml version='1.0'?><!-- a --><VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid>"
     "<Piece NumberOfPoints=\"4\" NumberOfCells=\"2\"><PointData Scalars='a'>"
@@ -98,9 +95,7 @@ std::vector<Reader> mesh_readers() {
           {"vtu", "input.vtu", read_mesh<3>, {file_of(mesh, "a.vtu", fields), kVtuOfOthers}},
           {"medit", "input.mesh", read_mesh<3>, {file_of(mesh, "a.mesh"), kMeditOfOthers}},
           {"sol", "input.sol", read_mesh_beside, {kSolution}, {{"input.mesh", kMeditOfOthers}}},
-          {"gmsh", "input.msh", read_mesh<3>, {file_of(mesh, "a.msh"), kGmsh4, kGmshOfOthers}},
-          {"node", "input.node", read_mesh<3>, {kNodes}, {{"input.ele", kElements}}},
-          {"ele", "input.ele", read_mesh<3>, {kElements}, {{"input.node", kNodes}}}};
+          {"gmsh", "input.msh", read_mesh<3>, {file_of(mesh, "a.msh"), kGmsh4, kGmshOfOthers}}};
 }
 
 }  // namespace flbc::fuzz

@@ -63,7 +63,6 @@ std::vector<Reader> weight_readers() {
        {file_of_weights("a.npy"),
         npy("{'descr': '<f4', 'fortran_order': True, 'shape': (3L, 2), }", std::string(24, '\0'))}},
       {"csv", "input.csv", read_weights, {file_of_weights("a.csv")}},
-      {"lbw", "input.lbw", read_weights, {file_of_weights("a.lbw")}},
       {"keyframes", "input.txt", read_keyframes, {kKeyframes}}};
 }
 

@@ -2,7 +2,7 @@
 // Whether a .glb file is valid, and moves its model as flbc deform does:
 //   node check.mjs SKIN.glb --model MODEL [--pose TIME MOVED_MODEL]... [--joints N] [--slots N]
 //                  [--tolerance T] [--texture]
-// Models are .obj or .node; between two poses their mean is expected.
+// Models are .obj or .mesh; between two poses their mean is expected.
 import { readFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import validator from 'gltf-validator';

@@ -106,7 +106,7 @@ cage=$meshes/3d/limb_cage.obj
 pose=$meshes/3d/limb_cage_pose.obj
 model=$meshes/3d/limb_model.obj
 "$flbc" solve "$cage" --method harmonic --vertices 1500 -q -o limb.npy --model "$model" \
-  --save-domain limb.node
+  --save-domain limb.mesh
 check_model limb "$model" "$cage" "$pose" 54
 
 export_skin limb "$model" "$cage" still.glb -k 4
@@ -126,10 +126,10 @@ for case in "16 6e-5" "8 1.5e-2"; do
 done
 
 # ---- 3D: the boundary of a mesh, where most vertices have few influences -------------------------
-"$flbc" solve "$cage" --method harmonic --domain limb.node -q -o domain3.npy
-prepare domain3 limb.node "$cage" "$pose" 4
-export_skin domain3 limb.node "$cage" domain3.glb -k 4 --pose "$cage" "$pose" --fps 1
-check domain3.glb --model limb.node --pose 0 limb.node --pose 1 domain3.4.posed.node
+"$flbc" solve "$cage" --method harmonic --domain limb.mesh -q -o domain3.npy
+prepare domain3 limb.mesh "$cage" "$pose" 4
+export_skin domain3 limb.mesh "$cage" domain3.glb -k 4 --pose "$cage" "$pose" --fps 1
+check domain3.glb --model limb.mesh --pose 0 limb.mesh --pose 1 domain3.4.posed.mesh
 
 # ---- 3D: quadrilaterals with colors and a seam --------------------------------------------------
 cube 1.5 0 >cube.obj

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vertices of .obj and .node files, as arrays of three numbers.
+// Vertices of .obj and .mesh files, as arrays of three numbers.
 import { readFileSync } from 'node:fs';
 
 const wordsOf = (line) => line.trim().split(/\s+/);
@@ -9,15 +9,15 @@ function pointsOfObj(text) {
   return lines.map((line) => wordsOf(line).slice(1, 4).map(Number));
 }
 
-function pointsOfNode(text) {
-  const lines = text.split('\n').filter((line) => line && line[0] !== '#');
-  const [[count], ...rows] = lines.map(wordsOf);
-  return rows.slice(0, Number(count)).map((row) => row.slice(1, 4).map(Number));
+function pointsOfMesh(text) {
+  const lines = text.split('\n');
+  const [count, ...rows] = lines.slice(lines.indexOf('Vertices') + 1);
+  return rows.slice(0, Number(count)).map((row) => wordsOf(row).slice(0, 3).map(Number));
 }
 
 export function readPoints(path) {
   const text = readFileSync(path, 'utf8');
-  const points = path.endsWith('.node') ? pointsOfNode(text) : pointsOfObj(text);
+  const points = path.endsWith('.mesh') ? pointsOfMesh(text) : pointsOfObj(text);
   if (points.length === 0) throw new Error(`${path}: no vertices`);
   return points.map(([x, y, z = 0]) => [x, y, z]);
 }

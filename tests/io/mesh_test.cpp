@@ -14,12 +14,11 @@ using flbc::testing::bit_equal;
 using flbc::testing::expect_error;
 using flbc::testing::expect_reference_tetrahedron;
 using flbc::testing::FormatTest;
-using Names = std::vector<std::string>;
 
 template <int Dim>
 std::vector<std::string> readable_extensions() {
   if constexpr (Dim == 2) return {"obj", "off", "vtu", "OBJ"};
-  return {"mesh", "node", "ele", "msh", "vtu", "MSH"};
+  return {"mesh", "msh", "vtu", "MSH"};
 }
 
 class MeshFile : public FormatTest {
@@ -300,62 +299,6 @@ TEST_F(MeshFile, MalformedMedit) {
        {head + points + "Tetrahedra\n1\n1 2 3 3 1\n", ": ", "cell 0 of the domain mesh"},
        {head + points + "Hexahedra\n1\n1 2 3 4 1 2 3 4 0\n", ":10: ", "Hexahedra"},
        {head + points + "Tetrahedra\n1\n1 2 3 4 1\n7 7\n", ":12: ", "expected a keyword"}});
-}
-
-TEST_F(MeshFile, TetgenVariants) {
-  make("zero.node",
-       "# made by hand\n4 3 1 1\n0 0 0 0 5 1\n1 1 0 0 5 1\n\n2 0 1 0 5 1\n3 0 0 1 5 1\n");
-  make("zero.ele", "1 4 1\n0 0 1 2 3 17 # end\n");
-  make("one.node", "4 3 0 0\r\n1 0 0 0\r\n2 1 0 0\r\n3 0 1 0\r\n4 0 0 1");
-  make("one.ele", "1 4 0\r\n1 1 2 3 4");
-  for (const char* name : {"zero.node", "zero.ele", "one.node", "one.ele"}) {
-    expect_reference_tetrahedron(path(name));
-  }
-}
-
-TEST_F(MeshFile, TetgenWritesBothFilesOrNone) {
-  const DomainMesh<3> mesh = flbc::testing::samples<3>().front().mesh;
-  write_domain(path("a.node"), mesh);
-  write_domain(path("b.ele"), mesh);
-  EXPECT_EQ(names(), (Names{"a.ele", "a.node", "b.ele", "b.node"}));
-  EXPECT_EQ(content("a.ele"), content("b.ele"));
-  EXPECT_EQ(content("a.node"), content("b.node"));
-
-  std::filesystem::create_directory(path("c.ele"));
-  expect_error<IoError>([&] { write_domain(path("c.node"), mesh); },
-                        {path("c.ele"), "Is a directory"});
-  std::filesystem::create_directory(path("d.node"));
-  expect_error<IoError>([&] { write_domain(path("d.ele"), mesh); },
-                        {path("d.node"), "Is a directory"});
-  EXPECT_EQ(names(), (Names{"a.ele", "a.node", "b.ele", "b.node", "c.ele", "d.node"}));
-}
-
-TEST_F(MeshFile, MalformedTetgenNodes) {
-  make("d.ele", "1 4 0\n0 0 1 2 3\n");
-  expect_malformed(
-      "d.node",
-      {{"", ":1: ", "the file ends before the number of nodes"},
-       {std::string("\0\0\x01\xff garbage", 12), ":1: ", "expected an integer, found \"????\""},
-       {"4 2 0 0\n0 0 0\n1 1 0\n2 0 1\n3 1 1     \n", ":1: ", "2 coordinates, not 3"},
-       {"2000000000 3 0 0\n0 0 0 0\n", ":1: ", "too short"},
-       {"4 3 0 0\n0 0 0 0       \n1 1 0 0         \n", ":3: ", "after 2 of 4 nodes"},
-       {"2 3 0 0\n5 0 0 0\n6 1 0 0\n", ":2: ", "expected node 0, found 5"},
-       {"2 3 0 0\n1 0 0 0\n1 1 0 0\n", ":3: ", "expected node 2, found 1"},
-       {"2 3 0 0\n0 0 0 0\n1 1 0\n", ":3: ", "expected a number, found the end of the line"},
-       {"1 3 0 0\n0 0 0 0\n1 1 0 0\n", ":3: ", "expected the end of the file"}});
-}
-
-TEST_F(MeshFile, MalformedTetgenElements) {
-  make("d.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
-  expect_malformed(
-      "d.ele", {{"", ":1: ", "the file ends before the number of tetrahedra"},
-                {"1 10 0\n0 0 1 2 3 4 5 6 7 8 9\n", ":1: ", "have 10 nodes"},
-                {"1000000000 4 0\n0 0 1 2 3\n", ":1: ", "too short"},
-                {"2 4 0\n0 0 1 2 3 # long enough\n", ":2: ", "after 1 of 2 tetrahedra"},
-                {"1 4 0\n1 0 1 2 3\n", ":2: ", "expected tetrahedron 0, found 1"},
-                {"1 4 0\n0 0 1 2 4\n", ":2: ", "nodes are numbered 0 to 3"},
-                {"1 4 0\n0 0 1 2\n   ", ":2: ", "expected an integer, found the end of the line"},
-                {"1 4 0\n0 0 1 2 3\n1 0 1 2 3\n", ":3: ", "expected the end of the file"}});
 }
 
 const char* const kFormat2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";  // 3 lines

@@ -123,7 +123,6 @@ TEST_F(WeightsFile, LbwHasEightWeightsPerVertexTheLargestFirst) {
   EXPECT_EQ(number(std::uint16_t{}, 18), 299U);
   EXPECT_EQ(number(float{}, 16 + 2 * 16), 0.75F);
   EXPECT_EQ(number(float{}, 16 + 2 * 16 + 8), 0.0F);
-  EXPECT_EQ(read_weights(path("w.lbw")).dense(), weights);
 
   weights(7, 1) = 0.1;
   expect_error<InputError>([&] { write_weights(path("w.lbw"), weights); },
@@ -131,23 +130,7 @@ TEST_F(WeightsFile, LbwHasEightWeightsPerVertexTheLargestFirst) {
   expect_error<InputError>(
       [&] { write_weights(path("w.lbw"), WeightMatrix(WeightMatrix::Identity(65537, 1))); },
       {"65536 control points"});
-  const auto refuse = [&](const std::string& bytes, const std::string& words) {
-    make("damaged.lbw", bytes);
-    expect_error<InputError>([&] { read_weights(path("damaged.lbw")).dense(); },
-                             {"damaged.lbw", words});
-  };
-  const auto changed = [&](std::size_t at, const std::string& bytes) {
-    auto copy = written;
-    return copy.replace(at, bytes.size(), bytes);
-  };
-  refuse(written.substr(0, 15), "not an LBW file");
-  refuse(written.substr(0, written.size() - 1), "vertices take 112");
-  refuse(changed(3, "2"), "not an LBW file");
-  refuse(changed(12, "\4"), "8 weights per vertex");
-  refuse(changed(4, "\3"), "3 vertices take");
-  refuse(changed(8, std::string("\xff\xff\xff\xff")), "65536 control points");
-  refuse(changed(17, "\7"), "point 0");                            // a control point out of range
-  refuse(changed(48, std::string("\0\0\xc0\x7f", 4)), "point 0");  // NaN
+  expect_error<OptionError>([&] { read_weights(path("w.lbw")); }, {"w.lbw", "only written"});
 }
 
 TEST_F(WeightsFile, NegativeZeroHasNoEntryInMtx) {

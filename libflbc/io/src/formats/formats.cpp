@@ -18,7 +18,6 @@ namespace {
 constexpr MeshFormat<2> kTriangles{read_triangles, write_triangles};
 template <int Dim>
 constexpr MeshFormat<Dim> kVtu{read_vtu<Dim>, write_vtu<Dim>, true};
-constexpr MeshFormat<3> kTetGen{read_tetgen, write_tetgen};
 
 constexpr Format kFormats[] = {
     {"obj", {read_obj, write_obj, Attributes::kCorners}, kTriangles},
@@ -31,14 +30,12 @@ constexpr Format kFormats[] = {
     {"vrm", {read_gltf, nullptr, Attributes::kCorners}},  // .glb of persons
     {"vtu", {}, kVtu<2>, kVtu<3>},
     {"mesh", {}, {}, {read_medit, write_medit, true}},
-    {"node", {}, {}, kTetGen},
-    {"ele", {}, {}, kTetGen},
     {"msh", {}, {}, {read_gmsh, write_gmsh}},
     {"mtx", {}, {}, {}, {read_mtx, write_mtx}},
     {"dmat", {}, {}, {}, {read_dmat, write_dmat}},
     {"npy", {}, {}, {}, {read_npy, write_npy}},
     {"csv", {}, {}, {}, {read_csv, write_csv}},
-    {"lbw", {}, {}, {}, {read_lbw, write_lbw}},
+    {"lbw", {}, {}, {}, {nullptr, write_lbw}},  // only written
 };
 
 bool has(const Format& format, Content content) {
@@ -50,7 +47,7 @@ bool has(const Format& format, Content content) {
     case Content::kMesh3D:
       return format.mesh_3d.read;
     case Content::kWeights:
-      return format.weights.read;
+      return format.weights.write;
     case Content::kColors:
       return format.model.attributes != Attributes::kNone;
     case Content::kFields:
@@ -101,6 +98,7 @@ std::string conversion_hint(const std::string& path) {
        "also be saved as .png with a transparent background"},
       {" spz splat ksplat sog ",
        "export it as an uncompressed .ply first, for example in SuperSplat"},
+      {" node ele ", "write a .mesh file instead (tetgen -g)"},
       {" gz bz2 xz zst zip 7z ", "unpack it first"}};
   const auto extension = " " + extension_of(path) + " ";
   for (const auto& [extensions, way_out] : kOthers) {
@@ -114,7 +112,8 @@ std::string conversion_hint(const std::string& path) {
 const Format& format_of(const std::string& path, Content content, const char* action) {
   if (holds(path, {content})) return *find(path);
   throw OptionError("cannot " + std::string(action) + " \"" + path +
-                    "\": unknown file format; the file must end in " + extensions_of({content}) +
+                    (find(path) ? "\": the format is for other data" : "\": unknown file format") +
+                    "; the file must end in " + extensions_of({content}) +
                     (std::string(action).find("read") == 0 ? conversion_hint(path) : ""));
 }
 

@@ -19,8 +19,6 @@ DomainMesh<3> read_medit(const std::string& path, std::vector<VertexField>* fiel
 DomainMesh<3> read_gmsh(const std::string& path, std::vector<VertexField>* fields);
 template <int Dim>
 DomainMesh<Dim> read_vtu(const std::string& path, std::vector<VertexField>* fields);
-//! \param path  the .node or the .ele file; the other one is in the same directory
-DomainMesh<3> read_tetgen(const std::string& path, std::vector<VertexField>* fields);
 
 //! \param fields  empty if the format has none
 void write_triangles(const std::string& path, const DomainMesh<2>& mesh,
@@ -29,8 +27,6 @@ void write_medit(const std::string& path, const DomainMesh<3>& mesh,
                  const std::vector<VertexField>& fields);
 void write_gmsh(const std::string& path, const DomainMesh<3>& mesh,
                 const std::vector<VertexField>& fields);
-void write_tetgen(const std::string& path, const DomainMesh<3>& mesh,
-                  const std::vector<VertexField>& fields);
 template <int Dim>
 void write_vtu(const std::string& path, const DomainMesh<Dim>& mesh,
                const std::vector<VertexField>& fields);

@@ -19,7 +19,6 @@ class TextReader;
 #endif
 
 //! Parse a file's content; `path` is for messages.
-SparseWeights read_lbw(const std::string& path, std::string content);
 SparseWeights read_mtx(const std::string& path, std::string content);
 SparseWeights read_dmat(const std::string& path, std::string content);
 SparseWeights read_npy(const std::string& path, std::string content);

@@ -29,6 +29,9 @@ void check_finite(const SparseWeights& weights) {
 
 SparseWeights read_weights(const std::string& path) {
   const auto& format = format_of(path, Content::kWeights, "read weights as").weights;
+  if (!format.read) {
+    throw OptionError(path + ": this format is only written; use the weights that it was made of");
+  }
   return format.read(path, read_file(path));
 }
 

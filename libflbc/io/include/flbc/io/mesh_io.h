@@ -18,9 +18,8 @@ struct VertexField {
 };
 
 //! Reads a domain mesh; the format follows from the extension. 2D: .obj, .off (triangles in the
-//! plane z = 0), .vtu. 3D: MEDIT .mesh (text), TetGen .node / .ele (either name; first index 0 or
-//! 1), Gmsh .msh (2.2 and 4.1 text), .vtu (ascii). Orientation is made positive and the mesh
-//! validated (normalize_and_validate).
+//! plane z = 0), .vtu. 3D: MEDIT .mesh (text), Gmsh .msh (2.2 and 4.1 text), .vtu (ascii).
+//! Orientation is made positive and the mesh validated (normalize_and_validate).
 //! \throws IoError; InputError naming file and line or element; OptionError for another extension
 template <int Dim>
 DomainMesh<Dim> read_domain(const std::string& path);
@@ -38,9 +37,8 @@ template <int Dim>
 PolygonSoup to_polygons(const DomainMesh<Dim>& mesh);
 
 //! Writes a domain mesh; the format follows from the extension. 2D: .obj, .off, .vtu. 3D: .mesh,
-//! .node or .ele (both files are written), .msh (2.2), .vtu. Coordinates have 17 digits. Fields are
-//! written to .vtu, or for .mesh to a .sol file next to it. Without fields, an existing .sol file
-//! is unchanged.
+//! .msh (2.2), .vtu. Coordinates have 17 digits. Fields are written to .vtu, or for .mesh to a .sol
+//! file next to it. Without fields, an existing .sol file is unchanged.
 //! \throws IoError; InputError if a number is not finite, a field does not have one value per
 //! vertex, or its name is empty, not unique, or contains control characters; OptionError for
 //! another extension, or for fields that would be lost
