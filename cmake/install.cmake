@@ -80,4 +80,22 @@ configure_file(cmake/flbc.pc.in flbc.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/flbc.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
   COMPONENT core_dev)
 
+# A component's own libraries, in the order of static linking, and other packages of flbc that it
+# needs. Which meshers a program links decides FLBC_LINKS_... in linked_meshers.h.
+function(flbc_install_pc component package libraries)
+  if(NOT TARGET flbc_${component})
+    return()
+  endif()
+  string(TOUPPER ${component} upper)
+  list(JOIN ARGN " " required)
+  configure_file(cmake/flbc-component.pc.in flbc-${component}.pc @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/flbc-${component}.pc
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT ${package}_dev)
+endfunction()
+flbc_install_pc(cgal meshers "-lflbc_cgal -lmpfr -lgmp")
+flbc_install_pc(caging meshers "-lflbc_caging" flbc-cgal)
+flbc_install_pc(tetgen meshers "-lflbc_tetgen -ltet")
+flbc_install_pc(netgen meshers "-lflbc_netgen")
+flbc_install_pc(openmesh openmesh "-lflbc_openmesh -lflbc_gltf -lOpenMeshCore")
+
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT core_dev)

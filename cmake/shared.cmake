@@ -17,6 +17,10 @@ set(shared_inside
   cage/close_points cage/oriented_cage cage/point_in_cage linear/dense
   meshing/cgal/exact_predicates meshing/isolated_process
   meshing/meshing_common meshing/surface_subdivision meshing/vertex_count_search)
+# Internal headers of the file formats that skins and programs use.
+set(shared_inside_io
+  model/following_normals model/gltf_document model/gltf_edit model/gltf_writer model/surface
+  weights/npy_header)
 
 # What matches an expression in headers, as mangled names: length, word. Comments do not count.
 function(flbc_names_in headers expression result)
@@ -64,9 +68,13 @@ foreach(name IN LISTS shared_inside)
   list(APPEND core ${PROJECT_SOURCE_DIR}/libflbc/src/${name}.h)
 endforeach()
 file(GLOB io libflbc/io/include/flbc/io/*.h)
+foreach(name IN LISTS shared_inside_io)
+  list(APPEND io ${PROJECT_SOURCE_DIR}/libflbc/io/src/${name}.h)
+endforeach()
 file(GLOB openmesh openmesh_bindings/include/flbc/openmesh/*.h)
 flbc_list_exports(4flbc "${core}")
 flbc_list_exports(4flbc2io "${io}")
+flbc_list_exports(4flbc4gltf "${io}")
 flbc_list_exports(4flbc8openmesh "${openmesh}")
 flbc_list_exports(4flbc8openmesh8internal "${openmesh}")  # what templates in headers call
 file(CONFIGURE OUTPUT exports.map CONTENT "{\n  global:\n@exports@  local: *;\n};\n" @ONLY)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "files/load.h"
@@ -17,6 +18,16 @@ namespace flbc::app {
 namespace {
 
 using LocalityJson = nlohmann::json;
+
+// A misspelled key would mean another mask.
+void require_keys(const LocalityJson& object, const std::set<std::string>& known) {
+  for (const auto& entry : object.items()) {
+    if (known.count(entry.key()) > 0) continue;
+    std::string names;
+    for (const auto& name : known) names += (names.empty() ? "" : ", ") + name;
+    throw InputError("unknown key \"" + entry.key() + "\"; choose from " + names);
+  }
+}
 
 // The vertices of the faces, lines, and points that follow "g NAME" in a .obj file.
 std::vector<Index> vertices_of_group(const std::string& model, const std::string& name) {
@@ -81,6 +92,8 @@ template <int Dim>
 std::vector<Index> indices_of(const LocalityJson& chosen, const PointList<Dim>& points,
                               const std::string& model) {
   if (chosen.is_array()) return chosen.get<std::vector<Index>>();
+  require_keys(chosen, {"vertices", "box", "group", "attribute"});
+  if (chosen.size() > 1) throw InputError("give one choice for each mask, not several");
   if (chosen.contains("vertices")) return chosen["vertices"].get<std::vector<Index>>();
   if (chosen.contains("box")) return points_in_box<Dim>(chosen["box"], points);
   if (chosen.contains("group") && !model.empty()) {
@@ -148,12 +161,14 @@ Locality load_locality(const std::string& path, const Cage<Dim>& cage, const Poi
   std::string entry;  // that is read
   try {
     const auto json = LocalityJson::parse(io::read_file(path));
+    if (json.is_object()) require_keys(json, {"masks", "conflicts", "reach"});
     locality.reach = reach_in<Dim>(json, cage.points);
     const auto list = json.is_array()          ? json
                       : json.contains("reach") ? json.value("masks", LocalityJson::array())
                                                : json.at("masks");
     for (const auto& mask : list) {
       entry = "entry " + std::to_string(masks.size()) + ": ";
+      if (mask.is_object()) require_keys(mask, {"control_points", "region"});
       masks.push_back({indices_of<Dim>(mask.at("control_points"), cage.points, ""),
                        indices_of<Dim>(mask.at("region"), points, model)});
       if (masks.back().control_points.empty() || masks.back().points.empty()) {

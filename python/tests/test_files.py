@@ -38,6 +38,11 @@ def test_meshes_in_3d(tmp_path, solid, ending):
     assert np.array_equal(same.cells, solid.mesh.cells)
 
 
+def test_formats_that_hold_other_data_are_named(tmp_path, flat):
+    with pytest.raises(flbc.OptionError, match="the format is for other data.*[.]vtu"):
+        flbc.write_mesh(tmp_path / "m.mesh", flat.mesh)
+
+
 def test_fields(tmp_path, flat):
     path = tmp_path / "mesh.vtu"
     flbc.write_mesh(path, flat.mesh, {"first": flat.weights[:, 0]})

@@ -149,9 +149,16 @@ TEST_F(LocalityCommand, DefectiveFilesAreRefused) {
   refused("[{\"control_points\": [0], \"region\": {\"box\": [[0], [1]]}}]",
           "a box needs corners of 3");
   refused("[{\"control_points\": [], \"region\": [0]}]", "no control points or no vertices");
+  refused(
+      "[{\"control_points\": [0], \"region\": [0]}, {\"control_points\": [0], \"regoin\": [0]}]",
+      "entry 1: unknown key \"regoin\"; choose from control_points, region");
+  refused("[{\"control_points\": [0], \"region\": {\"vertexes\": [0]}}]",
+          "unknown key \"vertexes\"; choose from attribute, box, group, vertices");
+  refused("[{\"control_points\": [0], \"region\": {\"vertices\": [0], \"group\": \"arm\"}}]",
+          "give one choice");
   refused("{\"masks\": [], \"conflicts\": \"no\"}",
           "invalid value \"no\"; choose from fail, relax");
-  refused("{\"mask\": []}", "bad.json: not a list of masks");
+  refused("{\"mask\": []}", "unknown key \"mask\"; choose from conflicts, masks, reach");
   refused("{\"reach\": [{\"control_points\": [0], \"factor\": 17}]}", "from 1/16 to 16");
   refused("{\"reach\": [{\"control_points\": [99], \"factor\": 2}]}", "no control point 99");
   expect("solve 3d/limb_cage.obj -o w.npy --method gradient --locality bad.json", 1,

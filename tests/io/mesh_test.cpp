@@ -14,7 +14,6 @@ using flbc::testing::bit_equal;
 using flbc::testing::expect_error;
 using flbc::testing::expect_reference_tetrahedron;
 using flbc::testing::FormatTest;
-using Names = std::vector<std::string>;
 
 template <int Dim>
 std::vector<std::string> readable_extensions() {

@@ -363,23 +363,28 @@ TYPED_TEST(Bind, VerticesOutsideFollowAnAffineMapIfTheyAreExtended) {
 }
 
 TYPED_TEST(Bind, FilesKeepABinding) {
-  this->options_.persistent = true;
   this->options_.outside = openmesh::OutsidePoints::kNearest;
   put_outside<TypeParam::kDim>(this->model_, this->sample_.cage, 3, 0);
-  const auto rest = this->points();
-  openmesh::bind(this->model_, this->sample_.cage, this->sample_.mesh, this->options_);
-  std::stringstream file;
-  ASSERT_TRUE(OpenMesh::IO::write_mesh(this->model_, file, ".om"));
-  typename TypeParam::Mesh loaded;
-  OpenMesh::IO::Options options(OpenMesh::IO::Options::Binary);
-  ASSERT_TRUE(OpenMesh::IO::read_mesh(loaded, file, ".om", options));
-  const auto pose = this->random_pose(3);
-  openmesh::deform(this->model_, pose);
-  openmesh::deform(loaded, pose);
-  EXPECT_EQ(openmesh::points_of<TypeParam::kDim>(loaded), this->points());
-  openmesh::restore_rest(loaded);
-  EXPECT_EQ(openmesh::points_of<TypeParam::kDim>(loaded), rest);
-  EXPECT_NO_THROW(openmesh::sparsify(loaded, 4));
+  for (const bool is_decided_later : {false, true}) {
+    auto model = this->model_;
+    this->options_.persistent = !is_decided_later;
+    openmesh::bind(model, this->sample_.cage, this->sample_.mesh, this->options_);
+    if (is_decided_later) openmesh::set_persistent(model);
+    std::stringstream file;
+    ASSERT_TRUE(OpenMesh::IO::write_mesh(model, file, ".om"));
+    typename TypeParam::Mesh loaded;
+    OpenMesh::IO::Options options(OpenMesh::IO::Options::Binary);
+    ASSERT_TRUE(OpenMesh::IO::read_mesh(loaded, file, ".om", options));
+    const auto pose = this->random_pose(3);
+    openmesh::deform(model, pose);
+    openmesh::deform(loaded, pose);
+    EXPECT_EQ(openmesh::points_of<TypeParam::kDim>(loaded),
+              openmesh::points_of<TypeParam::kDim>(model));
+    openmesh::restore_rest(loaded);
+    EXPECT_EQ(openmesh::points_of<TypeParam::kDim>(loaded), this->points());
+    EXPECT_NO_THROW(openmesh::sparsify(loaded, 4));
+  }
+  EXPECT_THROW(openmesh::set_persistent(this->model_), InputError);
 }
 
 TYPED_TEST(Bind, NormalsFollowOnRequest) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/first_equals.h"
 #include "base/union_find.h"
 #include "caging/surface_tools.h"
 
@@ -51,7 +52,7 @@ std::vector<Simplex<Dim>> collect_simplices(const PointList<Dim>& points,
 template <int Dim>
 PointList<Dim> collect_representatives(const PointList<Dim>& points, const FacetList<Dim>& facets) {
   UnionFind parts(static_cast<Index>(points.cols()));
-  const auto first = first_in_place<Dim>(points);
+  const auto first = first_equals<Dim>(points);
   for (Index v = 0; v < points.cols(); ++v) parts.unite(v, first[v]);
   for (Index f = 0; f < facets.cols(); ++f) {
     for (int k = 1; k < Dim; ++k) parts.unite(facets(0, f), facets(k, f));

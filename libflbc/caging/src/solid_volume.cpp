@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/first_equals.h"
 #include "caging/surface_tools.h"
 
 namespace flbc {
@@ -173,7 +174,7 @@ Cage<3> filled(const Cage<3>& model, double spacing) {
 }
 
 bool is_closed(const Cage<3>& model) {
-  const auto place = first_in_place<3>(model.points);
+  const auto place = first_equals<3>(model.points);
   std::vector<std::pair<Index, Index>> edges;
   edges.reserve(static_cast<std::size_t>(model.facets.size()));
   for (const auto& facet : model.facets.colwise()) {

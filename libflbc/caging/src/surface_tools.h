@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -31,24 +30,6 @@ Cage<Dim> compact(const PointList<Dim>& points, const std::vector<FacetCorners<D
     for (int k = 0; k < Dim; ++k) cage.facets(k, f) = number[facets[f](k)];
   }
   return cage;
-}
-
-//! Per point the first one in the same place.
-template <int Dim>
-std::vector<Index> first_in_place(const PointList<Dim>& points) {
-  std::vector<Index> order(static_cast<std::size_t>(points.cols())), first(order.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
-    for (int k = 0; k < Dim; ++k) {
-      if (points(k, a) != points(k, b)) return points(k, a) < points(k, b);
-    }
-    return a < b;
-  });
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const bool is_new = k == 0 || points.col(order[k]) != points.col(order[k - 1]);
-    first[order[k]] = is_new ? order[k] : first[order[k - 1]];
-  }
-  return first;
 }
 
 //! Normal of a facet, with length equal to its measure (3D: twice that). It points to the right of

@@ -47,9 +47,9 @@ struct MeshCheck {
   double influence_ratio = 0;              //!< mean influences / those of harmonic coordinates
 };
 
-//! Measures of weights. Points with a non-finite weight count in `non_finite` only.
+//! Measures of weights at points. Points with a non-finite weight count in `non_finite` only.
 template <int Dim>
-struct WeightCheck {
+struct PointCheck {
   Quality quality{};         //!< as returned by measure_quality()
   Index points = 0;          //!< P
   Index control_points = 0;  //!< n
@@ -69,8 +69,12 @@ struct WeightCheck {
   Index points_on_cage = 0;        //!< including those at control points
   Extreme<Dim>
       linearity;  //!< largest deviation there from the barycentric coordinates in the facet
+};
 
-  std::optional<MeshCheck<Dim>> mesh;  //!< only for weights at the vertices of a mesh
+//! Measures of weights.
+template <int Dim>
+struct WeightCheck : PointCheck<Dim> {
+  std::optional<MeshCheck<Dim>> mesh{};  //!< only for weights at the vertices of a mesh
 };
 
 //! Measures weights at any points. Points without weights are only counted. Points outside that

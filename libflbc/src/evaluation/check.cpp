@@ -149,13 +149,13 @@ constexpr double kRounding = 1e-12;     // tolerance for negative weights
 // Counts and extremes of weights; parts are summed in the order of points.
 template <int Dim>
 struct WeightExtremes {
-  WeightCheck<Dim> check;  // check to which these extremes belong
+  PointCheck<Dim> check;  // check to which these extremes belong
   std::int64_t influences = 0, finite_points = 0;
 
   WeightExtremes& operator+=(const WeightExtremes& other) {
     influences += other.influences;
     finite_points += other.finite_points;
-    const WeightCheck<Dim>& next = other.check;
+    const PointCheck<Dim>& next = other.check;
     check.non_finite += next.non_finite;
     check.without_weights += next.without_weights;
     check.negative += next.negative;
@@ -173,7 +173,7 @@ struct WeightExtremes {
 template <int Dim>
 void add_point(WeightExtremes<Dim>& extremes, const Cage<Dim>& cage, double size, Index p,
                const Vector<Dim>& place, const WeightMatrix& weights, bool may_be_still) {
-  WeightCheck<Dim>& check = extremes.check;
+  PointCheck<Dim>& check = extremes.check;
   const auto column = weights.col(p);
   if (!column.allFinite()) {
     for (Index i = 0; i < column.size(); ++i) {
@@ -212,7 +212,7 @@ struct KnownWeights {
 };
 
 template <int Dim>
-void measure_known_weights(WeightCheck<Dim>& check, const PointList<Dim>& points,
+void measure_known_weights(PointCheck<Dim>& check, const PointList<Dim>& points,
                            const WeightMatrix& weights,
                            const std::vector<KnownWeights<Dim>>& known) {
   std::vector<bool> is_found(weights.rows(), false);
@@ -287,7 +287,7 @@ WeightCheck<Dim> check_at_points(const Cage<Dim>& cage, const PointList<Dim>& po
         return part;
       });
 
-  WeightCheck<Dim> check = extremes.check;
+  WeightCheck<Dim> check{extremes.check};
   check.points = num_points;
   check.control_points = cage.size();
   check.quality.min_weight = check.min_weight.value;

@@ -113,7 +113,8 @@ std::string conversion_hint(const std::string& path) {
 const Format& format_of(const std::string& path, Content content, const char* action) {
   if (holds(path, {content})) return *find(path);
   throw OptionError("cannot " + std::string(action) + " \"" + path +
-                    "\": unknown file format; the file must end in " + extensions_of({content}) +
+                    (find(path) ? "\": the format is for other data" : "\": unknown file format") +
+                    "; the file must end in " + extensions_of({content}) +
                     (std::string(action).find("read") == 0 ? conversion_hint(path) : ""));
 }
 

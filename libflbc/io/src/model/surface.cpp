@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include <Eigen/Geometry>
 
+#include "base/first_equals.h"
 #include "flbc/errors.h"
 #include "flbc/io/cut_polygon.h"
 #include "model/srgb.h"
@@ -55,25 +55,6 @@ struct Corner {
 };
 using Corners = std::vector<Corner>;  // three per triangle
 
-// For every column, the first equal one. Programs write equal values many times; equal values do
-// not make a seam.
-template <int Dim>
-std::vector<Index> first_equals(const PointList<Dim>& columns) {
-  const auto is_less = [&](Index a, Index b) {
-    return std::lexicographical_compare(columns.col(a).begin(), columns.col(a).end(),
-                                        columns.col(b).begin(), columns.col(b).end());
-  };
-  std::vector<Index> order(columns.cols());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), is_less);
-  std::vector<Index> first(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const bool is_new = k == 0 || is_less(order[k - 1], order[k]);
-    first[order[k]] = is_new ? order[k] : first[order[k - 1]];
-  }
-  return first;
-}
-
 // Normalized; zero if there is none.
 PointList<3> unit(const PointList<3>& normals) {
   PointList<3> result = normals;
@@ -81,7 +62,7 @@ PointList<3> unit(const PointList<3>& normals) {
   return result;
 }
 
-// The attributes of all corners, without repeated values.
+// The attributes of all corners. Programs write equal values many times, which make no seam.
 class CornerTable {
  public:
   CornerTable(const io::SurfaceAttributes& attributes, const PointList<3>& normals)

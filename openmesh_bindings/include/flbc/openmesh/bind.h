@@ -279,6 +279,25 @@ Index bind_new_vertices(Model& model, const std::string& weights = kWeights) {
   return count;
 }
 
+//! Has .om files store all that bind() has attached, or not.
+//! \throws InputError if the model was not bound
+template <class Model>
+void set_persistent(Model& model, const std::string& weights = kWeights, bool yes = true) {
+  if (internal::find_property<Influences>(model, weights)) {
+    internal::get_property<Influences>(model, weights).set_persistent(yes);
+  } else {
+    weights_property(model, weights);
+  }
+  for (const auto& name :
+       {weights, internal::name_of_offset(weights), internal::name_of_rest(weights)}) {
+    if (!internal::find_property<Wide<double>>(model, name)) continue;
+    internal::get_property<Wide<double>>(model, name).set_persistent(yes);
+  }
+  OpenMesh::MPropHandleT<Wide<double>> cage;
+  if (!model.get_property_handle(cage, internal::name_of_cage(weights))) return;
+  model.mproperty(cage).set_persistent(yes);
+}
+
 //! Restores the vertex positions at the time of bind(). Vertices that were added since stay where
 //! they are, unless bind_new_vertices() has bound them.
 //! \throws InputError if the model was not bound
