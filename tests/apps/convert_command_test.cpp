@@ -129,7 +129,6 @@ TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
   expect_refused(file("a.vtu", "") + to("b.mesh"), 1, "a.vtu: .vtu files are only written");
   expect_refused(file("a.node", "") + to("b.mesh"), 1, "convert it to .mesh first");
   expect_refused(file("a.dmat", "") + to("b.npy"), 1, "write .csv from libigl");
-  expect_refused(file("a.om", "") + to("b.ply"), 1, "save it as .ply");
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ constexpr Format kFormats[] = {
     {"off", {read_off, write_off, Attributes::kVertices}, kTriangles},
     {"ply", {read_ply, write_ply, Attributes::kVertices}},
     {"stl", {read_stl, write_stl}},
+    {"om", {read_om, nullptr, Attributes::kVertices}},  // OpenMesh writes it
     {"glb", {read_gltf, write_glb, Attributes::kCorners}},
     {"gltf", {read_gltf, nullptr, Attributes::kCorners}},
     {"vrm", {read_gltf, nullptr, Attributes::kCorners}},  // .glb of persons
@@ -93,7 +94,6 @@ std::string conversion_hint(const std::string& path) {
       {" fbx blend dae 3ds abc usd usda usdc usdz x3d wrl max ",
        "convert it to .obj or .ply first, for example in Blender"},
       {" dxf ", "save the drawing as .svg first, for example in Inkscape"},
-      {" om ", "read it with OpenMesh and save it as .ply: OpenMesh::IO::write_mesh()"},
       {" node ele ", "convert it to .mesh first: tetgen -g writes it, and meshio converts it"},
       {" dmat ",
        "write .csv from libigl: out << W.format(Eigen::IOFormat(Eigen::FullPrecision, "

@@ -306,7 +306,7 @@ std::vector<std::string> losses(const Model& model, const std::string& path) {
 void write_model(const std::string& path, const Model& model) {
   const auto& format = format_of(path, Content::kModel, "write a model as");
   if (!format.model.write) {
-    throw OptionError(path + ": this format is only read; write .glb or .obj");
+    throw OptionError(path + ": this format is only read; write .glb, .ply, or .obj");
   }
   write_file(path, [&](std::ostream& out) { format.model.write(out, model); });
 }
