@@ -30,6 +30,21 @@ TEST_IN_2D_AND_3D(SolverTest, CoordinatesHaveTheirProperties) {
   }
 }
 
+// Errors of the iteration do not make every control point an influence of every vertex.
+TEST_IN_2D_AND_3D(SolverTest, WeightsFarBelowTheToleranceAreZero) {
+  const auto sample = make_sample<Dim>(Shape::kRing, Dim == 2 ? 16 : 6, 0.2);
+  const double tolerance = 1e-4;
+  SolverOptions options;
+  options.tolerance = tolerance;
+  const auto weights = solve(sample.cage, sample.mesh, options).weights.dense();
+  expect_coordinates(sample.cage, sample.mesh, weights);
+  options.tolerance = 1e-10;
+  const auto exact = solve(sample.cage, sample.mesh, options).weights.dense();
+  EXPECT_LT(mean_squared_difference(sample.mesh, weights, exact), tolerance);
+  const auto tiny = (weights.array() > 0 && weights.array() < 1e-3 * std::sqrt(tolerance)).count();
+  EXPECT_LT(tiny, weights.size() / 1000);
+}
+
 // Meshes that no reader has checked are checked wherever they come in: their numbers, and how cells
 // meet (DomainMeshTest.NamesDefects).
 TEST_IN_2D_AND_3D(SolverTest, RefusesMeshesThatAreNotValid) {

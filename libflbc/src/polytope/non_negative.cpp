@@ -49,10 +49,11 @@ template <int Dim>
 class ColumnProjection {
  public:
   ColumnProjection(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                   const PointMasks& masks)
+                   const PointMasks& masks, double negligible)
       : control_points_(control_points),
         points_(points),
         masks_(masks),
+        negligible_(negligible),
         projection_(control_points),
         works_(omp_get_max_threads()),
         infinite_(static_cast<Index>(points.cols())),
@@ -62,6 +63,7 @@ class ColumnProjection {
     if (!column.allFinite()) return lower_to(infinite_, point);
     // Only the first failure is reported, so later columns can be skipped.
     if (outside_.load(std::memory_order_relaxed) < point) return;
+    if (negligible_ > 0 && project_on_large(point, column)) return;
     if (masks_.at(point)) return project_masked(point, column);
     auto& work = works_[omp_get_thread_num()];
     if (!work) work.emplace(projection_);
@@ -92,6 +94,19 @@ class ColumnProjection {
     return control_points_(Eigen::all, masks_.allowed(point));
   }
 
+  // \return false if the control points with large weights cannot carry the point
+  bool project_on_large(Index point, Eigen::VectorXd& column) const {
+    std::vector<Index> large;
+    for (Index i = 0; i < static_cast<Index>(column.size()); ++i) {
+      if (column[i] < negligible_ || (masks_.at(point) && masks_.forbids(point, i))) continue;
+      large.push_back(i);
+    }
+    Eigen::VectorXd few;
+    if (large.empty() || !projection_.project(points_.col(point), large, column, few)) return false;
+    column = few;
+    return true;
+  }
+
   void project_masked(Index point, Eigen::VectorXd& column) {
     if (!project_on<Dim>(control_points_, masks_.allowed(point), points_.col(point), column)) {
       lower_to(outside_, point);
@@ -107,6 +122,7 @@ class ColumnProjection {
   const PointList<Dim>& control_points_;
   const PointList<Dim>& points_;
   const PointMasks& masks_;
+  double negligible_;
   const WeightProjection<Dim> projection_;
   std::vector<std::optional<typename WeightProjection<Dim>::Workspace>> works_;  // by thread
   std::atomic<Index> infinite_, outside_;
@@ -126,11 +142,11 @@ template <int Dim>
 SparseWeights project_columns(const PointList<Dim>& control_points, const PointList<Dim>& points,
                               const std::vector<Index>& columns,
                               const std::function<Eigen::VectorXd(Index)>& weights_of,
-                              const PointMasks& masks) {
+                              const PointMasks& masks, double negligible) {
   check_input(control_points, points, columns);
   std::vector<char> is_projected(static_cast<std::size_t>(points.cols()), 0);
   for (const Index p : columns) is_projected[p] = 1;
-  ColumnProjection<Dim> project(control_points, points, masks);
+  ColumnProjection<Dim> project(control_points, points, masks, negligible);
   LoopProgress progress(static_cast<Index>(columns.size()));
   auto result = SparseWeights::of(static_cast<Index>(control_points.cols()),
                                   static_cast<Index>(points.cols()), [&](Index p) {

@@ -14,10 +14,11 @@ namespace flbc {
 //! \param columns  points to project
 //! \param weights_of  returns the n weights of a point; called by several threads
 //! \param masks  of the points, feasible; masked weights become exactly 0
+//! \param negligible  smaller weights become exactly 0 where the others can carry the point
 template <int Dim>
 SparseWeights project_columns(const PointList<Dim>& control_points, const PointList<Dim>& points,
                               const std::vector<Index>& columns,
                               const std::function<Eigen::VectorXd(Index)>& weights_of,
-                              const PointMasks& masks = {});
+                              const PointMasks& masks = {}, double negligible = 0);
 
 }  // namespace flbc

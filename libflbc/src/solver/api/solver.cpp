@@ -77,15 +77,23 @@ int num_threads(const LbcProblem<Dim>& problem, const plan::Settings& settings) 
   return threads_for(settings.threads, problem.num_control_points(), problem.mesh.num_vertices());
 }
 
+// \param negligible  smaller weights become 0
 template <int Dim>
-SparseWeights made_non_negative(const LbcProblem<Dim>& problem, const Weights& weights) {
+SparseWeights made_non_negative(const LbcProblem<Dim>& problem, const Weights& weights,
+                                double negligible) {
   return project_columns<Dim>(
       problem.cage.points, problem.mesh.points, problem.boundary.interior_vertices(),
       [&](Index v) -> Eigen::VectorXd {
         if (weights.is_sparse()) return weights.sparse.at(v);
         return weights.dense.col(v);
       },
-      problem.masks);
+      problem.masks, negligible);
+}
+
+// The criteria of the published methods say little about the error.
+double negligible_weight(const plan::Settings& settings) {
+  return settings.method == Method::kWeights ? plan::kNegligible * std::sqrt(*settings.tolerance)
+                                             : 0;
 }
 
 template <int Dim>
@@ -126,7 +134,7 @@ Solution finish(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run, Weigh
   Solution solution;
   if (settings.non_negative != NonNegative::kOff) {
     const StageScope scope(reporter.stage(Stage::kNonNegative));
-    solution.weights = made_non_negative(problem, weights);
+    solution.weights = made_non_negative(problem, weights, negligible_weight(settings));
   } else {
     solution.weights = std::move(weights).to_sparse();
   }

@@ -140,10 +140,9 @@ template <class Scalar, int Dim>
 void CompactSplitting<Scalar, Dim>::start_from_harmonic(int steps) {
   this->set_weights([&](Index) -> Eigen::VectorXd { return Eigen::VectorXd::Zero(n_); });
   std::fill_n(rows_.residual.data(), rows_.residual.size(), Scalar(0));
-  const double numbers = static_cast<double>(data_.vertices.size()) * n_ * sigma() * sigma();
   for (int step = 0; step < steps; ++step) {
     solve(kernel_.harmonic_residual, parameters_.relaxation);
-    if (pass_rows(kernel_.correct) <= plan::kHarmonicChange * numbers) break;
+    pass_rows(kernel_.correct);
   }
   begin_from_weights();
 }
