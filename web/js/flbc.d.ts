@@ -102,9 +102,9 @@ export class Flbc {
   setSolution(solution: Solution): Promise<void>;
   /** Fewer influences per vertex in all that follows. */
   reduce(options: { influences: number }, onProgress?: OnProgress): Promise<{ influences: number }>;
-  /** Another shape of the rest cage; the model stays. Ends after 0.25 s, if need be before it has
-   *  converged; { refine: true } resumes. */
-  move(request: { points: number[] } | { refine: true }):
+  /** Another shape of the rest cage; the model stays. Ends after 0.25 s, or `seconds`, if need be
+   *  before it has converged; { refine: true } resumes. */
+  move(request: ({ points: number[] } | { refine: true }) & { seconds?: number }):
     Promise<{ converged: boolean; iterations: number; residual: number; rest: Float64Array; weights: Weights } | { refused: string }>;
 
   /** The vertices of the model at rest. */

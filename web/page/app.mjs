@@ -272,7 +272,8 @@ class App {
     this.kept = reshaper.solved;
     const protector = new Protector(this.view, {
       protect: async (locality) => { await this.prepared; return this.flbc.protect(locality); },
-      refine: () => this.flbc.move({ refine: true }).catch((error) => ({ refused: error.message })),
+      // Another start takes longer than its iterations.
+      refine: () => this.flbc.move({ refine: true, seconds: 1 }).catch((error) => ({ refused: error.message })),
     });
     this.protector = protector;
     bindProtecting(protector);

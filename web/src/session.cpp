@@ -444,12 +444,12 @@ class Work {
 
   val move(const Json& request) {
     // Long enough to converge after most moves, short enough to be interrupted.
-    constexpr Budget kBudget{0, 0.25};
+    const Budget budget{0, request.value("seconds", 0.25)};
     try {
       if (request.value("refine", false)) {
-        rig().solve(kBudget);
+        rig().solve(budget);
       } else {
-        rig().reshape(points_in(request["points"]), kBudget);
+        rig().reshape(points_in(request["points"]), budget);
       }
     } catch (const Error& error) {
       return from_json({{"refused", error.what()}});
