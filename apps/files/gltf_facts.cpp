@@ -3,32 +3,18 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cstdint>
-#include <cstring>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
-#include <stdexcept>
-#include <vector>
 
-#include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
+#include "model/gltf_document.h"
 #include "model/gltf_json.h"
 
 namespace flbc::app {
 namespace {
 
-using GltfJson = nlohmann::json;
-
-// The text of the JSON: the whole file, or the first chunk of a binary one.
-std::string json_of(const std::string& bytes) {
-  constexpr std::size_t kBegin = 20;
-  if (bytes.compare(0, 4, "glTF") != 0) return bytes;
-  std::uint32_t size = 0;
-  if (bytes.size() >= kBegin) std::memcpy(&size, bytes.data() + 12, sizeof size);
-  return bytes.size() < kBegin ? "" : bytes.substr(kBegin, size);
-}
+using io::GltfJson;
 
 struct Counts {
   std::size_t vertices = 0, triangles = 0, joints = 0, influences = 0;
@@ -54,27 +40,18 @@ void count_triangles(const GltfJson& gltf, const GltfJson& primitive,
   counts.influences = std::max(counts.influences, kSize * sets);
 }
 
-Counts count(const GltfJson& gltf) {
-  const GltfJson none = GltfJson::array();
-  const auto all = [&](const GltfJson& parent, const char* name) {
-    return parent.contains(name) ? parent.at(name) : none;
-  };
+Counts count(GltfJson& gltf) {
   Counts counts;
-  std::set<std::size_t> positions, joints;  // skins may share theirs
-  for (const auto& mesh : all(gltf, "meshes")) {
+  std::set<std::size_t> positions;
+  for (const auto& mesh : gltf.value("meshes", GltfJson::array())) {
     for (const auto& primitive : mesh.at("primitives")) {
       count_triangles(gltf, primitive, positions, counts);
     }
   }
-  for (const auto& skin : all(gltf, "skins")) {
-    for (const auto& joint : skin.at("joints")) joints.insert(io::whole(joint));
-  }
-  counts.joints = joints.size();
-  for (const auto& animation : all(gltf, "animations")) {
-    for (const auto& sampler : animation.at("samplers")) {
-      const auto& times = gltf.at("accessors").at(io::whole(sampler.at("input")));
-      counts.seconds = std::max(counts.seconds, times.at("max").at(0).get<double>());
-    }
+  counts.joints = io::numbers_at(gltf, {"skins/*/joints/*"}).size();  // skins may share theirs
+  for (const auto times : io::numbers_at(gltf, {"animations/*/samplers/*/input"})) {
+    const auto& last = gltf.at("accessors").at(times).at("max").at(0);
+    counts.seconds = std::max(counts.seconds, last.get<double>());
   }
   return counts;
 }
@@ -82,10 +59,9 @@ Counts count(const GltfJson& gltf) {
 }  // namespace
 
 std::string describe_gltf(const std::string& path) {
-  const auto bytes = io::read_file(path);
-  try {
-    const auto gltf = GltfJson::parse(json_of(bytes));
-    const auto counts = count(gltf);
+  return io::refusing_damage(path, [&] {
+    io::GltfDocument document(path, io::read_file(path));
+    const auto counts = count(document.json);
     Eigen::AlignedBox3d box;
     const io::ModelFile file(path);
     for (const auto& point : file.model().soup.points) box.extend(point);
@@ -102,11 +78,7 @@ std::string describe_gltf(const std::string& path) {
     for (const auto& note : file.model().notes) text << "  " << note << '\n';
     if (counts.seconds > 0) text << "  animation of " << counts.seconds << " s\n";
     return text.str();
-  } catch (const GltfJson::exception&) {
-    throw InputError(path + ": not a glTF file, or damaged");
-  } catch (const std::out_of_range&) {
-    throw InputError(path + ": not a glTF file, or damaged");
-  }
+  });
 }
 
 }  // namespace flbc::app

@@ -9,14 +9,14 @@ layout and real or integer type; results are float64 in C order.
 >>> weights = solution.at(vertices)
 >>> moved = flbc.deform(weights, moved_control_points)
 
-=================== =============================================================
-Shapes              `Cage`, `DomainMesh`, `mesh`, `make_cage`, `repair`, `check`
+=================== ======================================================================
+Shapes              `Cage`, `DomainMesh`, `mesh`, `make_cage`, `repair`, `check`, `border`
 Coordinates         `solve`, `Solver`, `Solution`, `mean_value`, `bind`
 Weights             `deform`, `sparsify`, `compose`, `transfer`, `measure`
 Files               `read_cage`, `read_model`, `read_mesh`, `read_weights`, and
                     `write_...` for each; `export` (glTF, USD), `view` (a page)
 Exceptions          `Error` and its subclasses; the warning `NotConverged`
-=================== =============================================================
+=================== ======================================================================
 """
 import os as _os
 
@@ -46,6 +46,7 @@ from ._models import (
     Page,
     Repaired,
     bind,
+    border,
     check,
     export,
     make_cage,
@@ -60,8 +61,8 @@ __version__: str = _core.version
 __all__ = [
     "Binding", "Cage", "Certificate", "Defect", "DomainMesh", "Error", "InputError", "IoError",
     "Model", "NotConverged", "OptionError", "Page", "Progress", "Repaired", "Solution", "Solver",
-    "SolverError", "SolverOptions", "bind", "check", "compose", "deform", "export",
-    "make_cage", "mean_value", "measure", "mesh", "read_cage", "read_mesh", "read_model",
+    "SolverError", "SolverOptions", "bind", "border", "check", "compose", "deform",
+    "export", "make_cage", "mean_value", "measure", "mesh", "read_cage", "read_mesh", "read_model",
     "read_weights", "repair", "solve", "sparsify", "transfer", "view", "write_cage", "write_mesh", "write_model", "write_weights",
 ]
 

@@ -51,6 +51,9 @@ def check_cage(
 def outside(
     points: _Floats, facets: _Ints, places: _Floats
 ) -> Tuple[List[int], List[float]]: ...
+def border(
+    points: _Floats, facets: _Ints, places: _Floats, polygons: _Polygons
+) -> List[int]: ...
 def misplacement(
     points: _Floats, facets: _Ints, places: _Floats, weights: _Weights
 ) -> float: ...

@@ -12,6 +12,7 @@ from . import _core
 from ._errors import InputError, OptionError
 from ._shapes import (
     Cage,
+    as_array,
     as_cage,
     as_mesh,
     as_points,
@@ -126,6 +127,35 @@ def repair(cage: CageLike) -> Repaired:
     cage = as_cage(cage)
     arrays, changes, numbers = _core.repair(cage.points, cage.facets)
     return Repaired(Cage(*arrays), changes, np.array(numbers, np.int32))
+
+
+def border(vertices: ArrayLike, faces: Faces, cage: CageLike) -> NDArray[np.int32]:
+    """Control points that must stay at rest where a model passes through its cage.
+
+    Otherwise vertices inside tear away from those outside, which ``bind(outside="keep")`` leaves
+    where they are.
+
+    Parameters
+    ----------
+    vertices : array_like, shape (P, d)
+    faces : array_like of int
+        Of the model, or of the cells of a volume mesh.
+    cage : Cage, or what `Cage` accepts
+
+    Returns
+    -------
+    ndarray of int
+        Ascending; empty if no edge passes through the cage.
+
+    Raises
+    ------
+    InputError
+        If the cage is defective.
+    """
+    cage = as_cage(cage)
+    points = as_points(vertices, "vertices", cage.dim)
+    polygons = as_polygons(faces, "faces", len(points))
+    return np.array(_core.border(cage.points, cage.facets, points, polygons), np.int32)
 
 
 def make_cage(
@@ -347,7 +377,10 @@ class Page:
 def _model(
     vertices: Any, faces: Any, weights: Any, cage: Cage, poses: Any
 ) -> Tuple[Floats, Any, Any, Any]:
-    points = as_points(vertices, "vertices", cage.dim)
+    places = as_array(vertices, "vertices")
+    if cage.dim == 2 and places.ndim == 2 and not places[:, 2:].any():
+        places = places[:, :2]  # as files have them, with z = 0
+    points = as_points(places, "vertices", cage.dim)
     polygons = as_polygons(faces, "faces", len(points))
     given = as_weights(weights, "weights", len(points), len(cage))
     error = _core.misplacement(cage.points, cage.facets, points, given)

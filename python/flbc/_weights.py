@@ -9,6 +9,7 @@ import numpy as np
 from . import _core
 from ._errors import InputError
 from ._shapes import (
+    Cage,
     DomainMesh,
     as_array,
     as_cage,
@@ -72,6 +73,12 @@ def dense_of(found: Any) -> Floats:
     return dense
 
 
+def cage_after(weights: Any, cage: CageLike) -> Cage:
+    if isinstance(weights, Cage):
+        raise InputError("the first argument is weights, and the second is the cage")
+    return as_cage(cage)
+
+
 def sparsify(
     weights: Weights,
     cage: CageLike,
@@ -116,7 +123,7 @@ def sparsify(
         If `k` or `threshold` is out of range.
     """
     check_scalars(k=(k, "an integer"), threshold=(threshold, "a number"))
-    cage = as_cage(cage)
+    cage = cage_after(weights, cage)
     places = as_points(points, "points", cage.dim)
     given = as_weights(weights, "weights", len(places), len(cage))
     polygons = None if faces is None else as_polygons(faces, "faces", len(places))
@@ -222,7 +229,7 @@ def transfer(
         If points are farther away than the limit.
     """
     check_scalars(limit=(limit, "a number"))
-    cage = as_cage(cage)
+    cage = cage_after(weights, cage)
     places = as_points(points, "points", cage.dim)
     given = as_weights(weights, "weights", len(places), len(cage))
     corners = corners_of(places, faces)
@@ -285,7 +292,7 @@ def measure(
     InputError
         If the cage is defective, or the shapes of weights and points do not match.
     """
-    cage = as_cage(cage)
+    cage = cage_after(weights, cage)
     cells = points.cells if isinstance(points, DomainMesh) else None
     places = as_points(
         points.points if isinstance(points, DomainMesh) else points, "points", cage.dim

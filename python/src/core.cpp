@@ -6,6 +6,7 @@
 #include <string>
 
 #include "arrays.h"
+#include "flbc/border.h"
 #include "flbc/cage_facts.h"
 #include "flbc/check.h"
 #include "flbc/compose.h"
@@ -118,6 +119,24 @@ py::tuple outside(const Doubles& points, const Indices& facets, const Doubles& p
       distances.push_back(point.distance());
     }
     return py::make_tuple(which, distances);
+  });
+}
+
+// Control points that must stay at rest, so that points inside join still ones outside.
+std::vector<Index> border(const Doubles& points, const Indices& facets, const Doubles& places,
+                          const Polygons& polygons) {
+  return by_dimension(points, [&](auto dim) {
+    constexpr int kDim = decltype(dim)::value;
+    const auto cage = cage_of<kDim>(points, facets);
+    const auto all = points_of<kDim>(places);
+    const auto lists = lists_of(polygons);
+    return without_gil([&] {
+      validate(cage);
+      std::vector<bool> is_still(static_cast<std::size_t>(all.cols()), false);
+      for (const Index p : points_outside(cage, all)) is_still[p] = true;
+      return control_points_at(cage,
+                               find_crossings(cage, all, is_still, edges_of_polygons(all, lists)));
+    });
   });
 }
 
@@ -339,6 +358,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("triangles", &triangles);
   module.def("check_cage", &check_cage);
   module.def("outside", &outside);
+  module.def("border", &border);
   module.def("misplacement", &misplacement);
   module.def("make_cage", &make_cage);
   module.def("repair", &repair);

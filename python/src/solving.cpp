@@ -301,7 +301,11 @@ void bind_solving(py::module_& module) {
             if (!progress.objective) throw Error("objective() works only during the callback");
             return progress.objective();
           },
-          "Computes the objective of the current weights, in about the time of two iterations.");
+          "Computes the objective of the current weights, in about the time of two iterations.")
+      .def("__repr__", [](const Progress& progress) {
+        return "<flbc.Progress: iteration " + std::to_string(progress.iteration) + ", " +
+               std::to_string(progress.relative_primal_residual) + " of the threshold>";
+      });
 
   py::class_<AnySolver>(module, "Solver")
       .def(py::init<const Doubles&, const Indices&, const Doubles&, const Indices&,

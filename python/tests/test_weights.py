@@ -157,6 +157,33 @@ def test_bind_keeps_vertices_outside_at_an_offset(square):
     assert np.allclose(binding.deform(square.points + [0, 3]), np.add(points, [0, 3]))
 
 
+def test_border_names_control_points_to_hold(square):
+    points = np.array([[0.5, 0.4], [0.5, 0.6], [1.25, 0.5]])
+    held = flbc.border(points, [[0, 1, 2]], square)
+    assert held.tolist() == np.flatnonzero(square.points[:, 0] == 1).tolist()
+    assert flbc.border(points[:2], [[0, 1]], square).tolist() == []
+    # Whatever the others do, the model does not tear at the edge of the cage.
+    points[:, 0] = [0.999, 0.999, 1.001]
+    binding = flbc.bind(points, None, square, mesh_vertices=2000, outside="keep", max_influences=0)
+    pose = square.points + np.where(np.isin(np.arange(len(square)), held), 0, 0.3)[:, None]
+    assert abs(binding.deform(pose) - points).max() < 0.01
+
+
+def test_weights_come_before_the_cage(model):
+    cage, vertices, _, weights = model
+    for function in (flbc.measure, flbc.sparsify):
+        with pytest.raises(flbc.InputError, match="the first argument is weights"):
+            function(cage, vertices, weights)
+
+
+def test_pages_take_planar_vertices_with_z(square):
+    points = np.array([[0.2, 0.2, 0], [0.8, 0.2, 0], [0.5, 0.7, 0]])
+    weights = flbc.bind(points[:, :2], [[0, 1, 2]], square, mesh_vertices=200).weights
+    assert flbc.view(points, [[0, 1, 2]], weights, square).html
+    with pytest.raises(flbc.InputError, match="vertices has shape"):
+        flbc.view(points + 1, [[0, 1, 2]], weights, square)
+
+
 @pytest.mark.parametrize("max_influences", [0, 4])
 def test_bind_leaves_vertices_outside_where_they_are(square, max_influences):
     points = np.array([[0.5, 0.5], [1.25, 0.5]])
@@ -212,8 +239,12 @@ def test_messages_name_options_of_python(square, flat):
 def test_bindings_take_control_points_of_their_dimension(limb, solid):
     cage, vertices, faces = limb
     seen = []
-    binding = flbc.bind(vertices, faces, cage, domain=solid.mesh,
-                        callback=lambda progress: seen.append(progress.iteration))
+    words = []
+    binding = flbc.bind(
+        vertices, faces, cage, domain=solid.mesh,
+        callback=lambda p: (seen.append(p.iteration), words.append(repr(p)))[0],
+    )
     assert seen and seen == sorted(seen)
+    assert f"iteration {seen[-1]}" in words[-1]
     with pytest.raises(flbc.InputError, match=rf"control_points.*\({len(cage)}, 2\).*, 3\)"):
         binding.deform(cage.points[:, :2])

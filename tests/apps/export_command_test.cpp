@@ -80,8 +80,9 @@ TEST_F(ExportCommand, InfoTellsWhatIsInASkin) {
     "buffers": [{"byteLength": 9, "uri": "data:;base64,AAAAAQABAQEA"}]})");
   const auto moved = expect("info moved.gltf").output;
   expect_piece(moved, "from (9, -2, 0) to (10, 0, 1)");
-  for (const std::string& damaged : {slurp("s.glb").substr(0, 500), std::string("glTF"),
-                                     std::string(R"({"meshes": 3})"), std::string()}) {
+  expect("info " + file("u.glb", slurp("s.glb").substr(0, 500)), 2,
+         "the file ends within the chunk");
+  for (const std::string damaged : {"glTF", R"({"meshes": 3})", ""}) {
     expect("info " + file("u.glb", damaged), 2, "not a glTF file, or damaged");
   }
 }
@@ -317,11 +318,16 @@ TEST_F(ExportCommand, DocumentsKeepWhatTheyHave) {
   }
   EXPECT_EQ(skin.json["asset"], original.json["asset"]);
   for (std::size_t k = 0; k < original.json["nodes"].size(); ++k) {
-    auto node = skin.json["nodes"][k];
+    auto node = skin.json["nodes"][k], expected = original.json["nodes"][k];
     node.erase("skin");
     if (k == 1) node["mesh"] = 0;  // it has a copy
-    EXPECT_EQ(node, original.json["nodes"][k]);
+    for (const char* name : {"translation", "rotation", "scale", "children"}) {
+      if (k < 2) expected.erase(name);  // skins are where their joints are
+    }
+    EXPECT_EQ(node, expected);
   }
+  const auto roots = skin.json["scenes"][0]["nodes"].get<std::set<std::size_t>>();
+  EXPECT_EQ(roots.count(0) + roots.count(1) + roots.count(2), 3U);
   EXPECT_EQ(skin.json["scenes"][0]["name"], "stage");
   EXPECT_EQ(skin.json["animations"][0]["channels"].size(), 1U);
   for (const std::size_t mesh : {0U, 1U}) {
@@ -379,6 +385,71 @@ TEST_F(ExportCommand, PosesOfOldSkinsStay) {
     EXPECT_LT((normals.col(v).cast<double>() - turn * Vector<3>::UnitX()).norm(), 1e-6);
     EXPECT_LT((tangents.col(v).head<3>().cast<double>() - turn * Vector<3>::UnitY()).norm(), 1e-6);
   }
+}
+
+// What the file had not used before stays; of the rest nothing is unused.
+TEST_F(ExportCommand, WhatOnlyTheOldSkinNeededGoes) {
+  auto original = twins();
+  auto& json = original.json;
+  json["meshes"][0]["primitives"].erase(1);
+  json["nodes"][0] = {{"name", "body"}, {"mesh", 0}, {"skin", 0}};
+  json["nodes"][1] = {{"name", "lamp"}, {"mesh", 1}, {"camera", 0}, {"scale", {0.1, 0.1, 0.1}}};
+  json["nodes"][2] = {{"name", "bone"}, {"scale", {0.2, 0.2, 0.2}}, {"children", {1}}};
+  json["meshes"].push_back(json["meshes"][0]);
+  auto& attributes = original.primitive(0)["attributes"];
+  const auto distinct = [&](int rows, int columns) {
+    static double next = 1000;
+    Eigen::MatrixXd numbers(rows, columns);
+    for (double& number : numbers.reshaped()) number = next += 0.125;
+    return original.add<float>(numbers);
+  };
+  const auto unused = distinct(4, 4);
+  attributes["JOINTS_0"] = original.add<std::uint8_t>(Eigen::MatrixXd::Zero(4, 4));
+  attributes["WEIGHTS_0"] = distinct(4, 4);
+  const auto binds =
+      original.add<float>(Eigen::MatrixXd(Eigen::Matrix4d::Identity().reshaped(16, 1)));
+  json["skins"] = {{{"joints", {2}}, {"inverseBindMatrices", binds}}};
+  const auto moves = distinct(3, 2);
+  json["animations"][0]["samplers"].push_back({{"input", 6}, {"output", moves}});
+  json["animations"][0]["channels"][1] = {{"sampler", 1},
+                                          {"target", {{"node", 2}, {"path", "translation"}}}};
+  json["animations"][0]["channels"][0]["target"]["node"] = 3;
+  json["nodes"].push_back({{"name", "sun"}, {"extras", {{"bufferView", 2}}}});
+  json["scenes"][0]["nodes"].push_back(3);
+  const GlbChunks before(original.glb());
+  ASSERT_EQ(before.unused()[0], std::set<std::size_t>{unused});
+  const auto model = file("m.glb", original.glb());
+  const auto points = points_in<3>(model);
+  expect_export(
+      model + " --weights " + linear_weights(points) + " --cage " + tetrahedron() + " -o s.glb", 0,
+      "8 vertices");
+  EXPECT_LT(distance(points_in<3>("s.glb"), points), 1e-6);
+  const GlbChunks after(slurp("s.glb"));
+  const auto left = after.unused();
+  ASSERT_EQ(left[0].size(), 1U);
+  EXPECT_TRUE(left[1].empty());
+  EXPECT_EQ(after.accessor(*left[0].begin()), before.accessor(unused));
+  for (const auto number : {attributes["WEIGHTS_0"].get<std::size_t>(), moves}) {
+    EXPECT_EQ(after.binary.find(before.accessor(number)), std::string::npos) << number;
+  }
+  // The rest has its bytes, under other numbers.
+  const auto& old_attributes = before.json["meshes"][0]["primitives"][0]["attributes"];
+  for (const std::size_t mesh : {0U, 1U}) {
+    const auto& primitive = after.json["meshes"][mesh]["primitives"][0];
+    for (const char* name : {"TEXCOORD_0", "TEXCOORD_1"}) {
+      EXPECT_EQ(after.accessor(primitive["attributes"][name]),
+                before.accessor(old_attributes[name]));
+    }
+    EXPECT_EQ(after.accessor(primitive["indices"]), before.accessor(5));
+  }
+  EXPECT_EQ(after.view(after.json["images"][0]["bufferView"]), "\x89PNG\r\n\x1a\nodd");
+  const auto& animation = after.json["animations"][0];
+  ASSERT_EQ(animation["samplers"].size(), 1U);
+  EXPECT_EQ(after.accessor(animation["samplers"][0]["output"]), before.accessor(7));
+  EXPECT_EQ(after.json["nodes"][3], before.json["nodes"][3]);
+  // The camera needs its place.
+  EXPECT_EQ(after.json["nodes"][1]["scale"], before.json["nodes"][1]["scale"]);
+  EXPECT_EQ(after.json["nodes"][2], before.json["nodes"][2]);
 }
 
 TEST_F(ExportCommand, RoundedWeights) {

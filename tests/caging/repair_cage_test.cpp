@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Defective cages become sound, and say what was done to them.
 #include "flbc/repair_cage.h"
+
+#include <Eigen/QR>
+
 #include "flbc/cage_facts.h"
 #include "flbc/meshing.h"
 #include "support/enclosure_judge.h"
@@ -235,6 +238,97 @@ TEST_IN_2D_AND_3D(RepairCageTest, RotatedPartsAreUnited) {
   const auto repaired = repair(cage);
   EXPECT_FALSE(repaired.is_wrapped);
   EXPECT_NEAR(measure_cage(repaired.cage).measure, measure_of_union<Dim>(boxes), 1e-9);
+}
+
+// Plates that cross each other, in any direction: rounded crossings are close to each other.
+TEST_IN_2D_AND_3D(RepairCageTest, CrossingPlatesAreUnited) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> number;
+  Boxes<Dim> boxes;
+  for (int axis = 0; axis < Dim; ++axis) {
+    for (const double place : {-0.4, 0.3}) {
+      Vector<Dim> half = Vector<Dim>::Ones();
+      half(axis) = 0.02;
+      const Vector<Dim> center = place * Vector<Dim>::Unit(axis);
+      boxes.emplace_back(center - half, center + half);
+    }
+  }
+  for (int round = 0; round < 4; ++round) {
+    auto cage = cage_of<Dim>(boxes);
+    Eigen::Matrix<double, Dim, Dim> turn;
+    for (double& x : turn.reshaped()) x = number(random);
+    turn = turn.householderQr().householderQ();
+    cage.points = turn * cage.points;
+    const auto repaired = repair(cage);
+    EXPECT_FALSE(repaired.is_wrapped);
+    EXPECT_NEAR(measure_cage(repaired.cage).measure, measure_of_union<Dim>(boxes), 1e-5);
+  }
+}
+
+// Plates that lean all ways: what is inside one of them is inside the union.
+TEST(RepairCage3Test, LeaningPlatesAreUnited) {
+  std::mt19937 random(2);
+  std::normal_distribution<double> number;
+  for (int round = 0; round < 4; ++round) {
+    std::vector<Eigen::Matrix3d> turns;
+    const Eigen::AlignedBox3d plate(Vector<3>(-0.01, -0.7, -1), Vector<3>(0.01, 0.7, 1));
+    Cage<3> all{PointList<3>(3, 0), FacetList<3>(3, 0)};
+    for (int k = 0; k < 4; ++k) {
+      const Eigen::Quaterniond turn(number(random), number(random), number(random), number(random));
+      turns.push_back(turn.normalized().toRotationMatrix());
+      auto one = box_cage<3>(plate.min(), plate.max());
+      one.points = turns.back() * one.points;
+      all = join(all, one);
+    }
+    const auto repaired = repair(all);
+    EXPECT_FALSE(repaired.is_wrapped);
+    expect_inside(repaired.cage, [&](const Vector<3>& point) {
+      return std::any_of(turns.begin(), turns.end(), [&](const Eigen::Matrix3d& turn) {
+        return plate.contains(Vector<3>(turn.transpose() * point));
+      });
+    });
+  }
+}
+
+// A wall without thickness encloses nothing, even if it reaches out of the cage.
+TEST_IN_2D_AND_3D(RepairCageTest, SheetsThatPassThroughGo) {
+  Cage<Dim> sheet{PointList<Dim>(Dim, 1 << (Dim - 1)), FacetList<Dim>(Dim, Dim - 1)};
+  for (Index v = 0; v < sheet.size(); ++v) {
+    const double far = v % 2 == 0 ? -1.7 : 1.6;
+    sheet.points(0, v) = 0.1 * far;
+    sheet.points(1, v) = far;
+    if (Dim == 3) sheet.points(Dim - 1, v) = v < 2 ? -0.3 : 1.4;
+  }
+  for (int f = 0; f < Dim - 1; ++f) {
+    for (int k = 0; k < Dim; ++k) sheet.facets(k, f) = f + k;
+  }
+  auto across = sheet;
+  across.points.row(0).swap(across.points.row(1));
+  const auto repaired = repair(join(join(box_cage<Dim>(1), sheet), across));
+  EXPECT_FALSE(repaired.is_wrapped);
+  EXPECT_TRUE(says(repaired.changes, "belongs to a flap"));
+  expect_box(repaired.cage);
+}
+
+// The walls of an open channel touch its rims, whose holes are closed all the same.
+TEST(RepairCage3Test, OpenChannelsWithWallsAreClosed) {
+  const auto quad = [](const Vector<3>& corner, const Vector<3>& u, const Vector<3>& v) {
+    Cage<3> both{PointList<3>(3, 4), FacetList<3>(3, 2)};
+    both.points << corner, corner + u, corner + u + v, corner + v;
+    both.facets << 0, 0, 1, 2, 2, 3;
+    return both;
+  };
+  const Vector<3> x = Vector<3>::UnitX(), y = Vector<3>::UnitY(), z = Vector<3>::UnitZ();
+  const Vector<3> origin = Vector<3>::Zero();
+  Cage<3> all = quad(origin, x, 3 * z);
+  for (const auto& other :
+       {quad(2 * y, x, 3 * z), quad(origin, 2 * y, 3 * z), quad(x, 2 * y, 3 * z),
+        quad(0.5 * x, 2 * y, 3 * z), quad(y, x, 3 * z)}) {
+    all = join(all, other);
+  }
+  const auto repaired = repair(all);
+  EXPECT_FALSE(repaired.is_wrapped);
+  EXPECT_NEAR(measure_cage(repaired.cage).measure, 6, 1e-9);
 }
 
 // Parts touch only within the tolerance, or miss each other by little more.

@@ -375,6 +375,96 @@ TEST_F(GltfDocumentTest, TangentsAndMorphTargetsTurnAlong) {
   }
 }
 
+// Moved vertices do not fit into whole numbers, which nothing needs then.
+TEST_F(GltfDocumentTest, WhatIsReplacedGoes) {
+  auto original = painted();
+  const auto old = original.primitive(0)["attributes"]["POSITION"].get<std::size_t>();
+  const auto whole = original.add<std::uint8_t>(Points(3 * corners()));
+  original.primitive(0)["attributes"]["POSITION"] = whole;
+  original.json["extensionsUsed"].push_back("KHR_mesh_quantization");
+  const GlbChunks before(original.glb());
+  ASSERT_EQ(before.unused()[0], std::set<std::size_t>{old});
+  const auto file = read(original);
+  const PointList<3> wanted = 1.1 * io::to_points<3>(file.model().soup, "");
+  for (const bool is_known : {true, false}) {
+    if (!is_known) original.json["extensionsUsed"].push_back("VENDOR_knows_accessors");
+    const auto after = moved(read(original), wanted);
+    EXPECT_EQ(after.unused()[0].size(), is_known ? 1U : 2U);
+    EXPECT_EQ(after.unused()[1].size(), 0U);
+    EXPECT_EQ(after.accessor(old), before.accessor(old));
+    const auto& attributes = after.json["meshes"][0]["primitives"][0]["attributes"];
+    for (const char* name : {"TEXCOORD_0", "TEXCOORD_1", "COLOR_0"}) {
+      const auto& numbers = before.json["meshes"][0]["primitives"][0]["attributes"];
+      EXPECT_EQ(after.accessor(attributes[name]), before.accessor(numbers[name])) << name;
+    }
+    EXPECT_LT((io::to_points<3>(ModelFile(path("moved.glb")).model().soup, "") - wanted).norm(),
+              1e-5);
+  }
+}
+
+// Meshes that share their numbers in any way, and numbers that nothing uses.
+TEST_F(GltfDocumentTest, RandomDocumentsKeepWhatDoesNotMove) {
+  std::mt19937 random(11);
+  const auto draw = [&](std::size_t count) {
+    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
+  };
+  const auto unused = [](const GlbChunks& file) {
+    std::multiset<std::string> content;
+    for (const auto number : file.unused()[0]) content.insert(file.accessor(number));
+    return content;
+  };
+  for (int round = 0; round < 30; ++round) {
+    NewGlb file(R"({"scene":0,"scenes":[{"nodes":[0,1,2,3]}],"nodes":[],"meshes":[]})");
+    std::vector<std::size_t> positions, places, faces;
+    for (int k = 0; k < 4; ++k) {
+      const Points points = (k + 1) * corners();
+      positions.push_back(k % 2 == 0 ? file.add<float>(points) : file.add<std::uint8_t>(points));
+      places.push_back(file.add<float>(Points(Points::Random(2, 4))));
+      faces.push_back(file.add<std::uint16_t>(kFaces));
+    }
+    file.json["images"].push_back({{"bufferView", file.add_view("\x89PNG\r\n\x1a\nodd")}});
+    for (int mesh = 0; mesh < 3; ++mesh) {
+      auto primitives = Json::array();
+      for (std::size_t p = 0; p <= draw(3); ++p) {
+        primitives.push_back({{"indices", faces[draw(4)]}});
+        primitives.back()["attributes"] = {{"POSITION", positions[draw(4)]},
+                                           {"TEXCOORD_0", places[draw(4)]}};
+      }
+      file.json["meshes"].push_back({{"primitives", primitives}});
+    }
+    for (int node = 0; node < 4; ++node) {
+      file.json["nodes"].push_back({{"mesh", draw(3)}, {"translation", {10 * node, 0, 0}}});
+    }
+    const GlbChunks before(file.glb());
+    const auto model = read(file);
+    PointList<3> wanted = io::to_points<3>(model.model().soup, "");
+    for (int moves = 0; moves < 3; ++moves) {
+      wanted(2, static_cast<Eigen::Index>(draw(static_cast<std::size_t>(wanted.cols())))) += 0.25;
+    }
+    const auto after = moved(model, wanted);
+    EXPECT_EQ(unused(after), unused(before));
+    EXPECT_TRUE(after.unused()[1].empty());
+    EXPECT_EQ(after.view(after.json["images"][0]["bufferView"]), "\x89PNG\r\n\x1a\nodd");
+    for (std::size_t node = 0; node < 4; ++node) {
+      const auto primitives = [node](const GlbChunks& chunks) {
+        return chunks
+            .json["meshes"][chunks.json["nodes"][node]["mesh"].get<std::size_t>()]["primitives"];
+      };
+      const auto old_ones = primitives(before), new_ones = primitives(after);
+      ASSERT_EQ(old_ones.size(), new_ones.size());
+      for (std::size_t p = 0; p < old_ones.size(); ++p) {
+        const auto content = [p](const GlbChunks& chunks, const Json& all) {
+          return chunks.accessor(all[p]["indices"]) +
+                 chunks.accessor(all[p]["attributes"]["TEXCOORD_0"]);
+        };
+        EXPECT_EQ(content(after, new_ones), content(before, old_ones));
+      }
+    }
+    const auto again = io::to_points<3>(ModelFile(path("moved.glb")).model().soup, "");
+    EXPECT_LT((again - wanted).cwiseAbs().maxCoeff(), 1e-6 * 40);
+  }
+}
+
 TEST_F(GltfDocumentTest, NodesThatShareAMeshGetTheirOwn) {
   auto file = tetrahedron();
   file.json["nodes"].push_back({{"mesh", 0}, {"translation", {5, 0, 0}}});

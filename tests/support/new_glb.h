@@ -3,9 +3,12 @@
 //! Writes .glb files for tests, with no more than a JSON library and the specification of glTF 2.0.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -103,6 +106,33 @@ struct GlbChunks {
     Eigen::MatrixXf columns(rows, static_cast<Eigen::Index>(content.size() / sizeof(float)) / rows);
     std::memcpy(columns.data(), content.data(), content.size());
     return columns;
+  }
+
+  //! Numbers of accessors and of buffer views to which nothing refers.
+  std::array<std::set<std::size_t>, 2> unused() const {
+    std::array<std::set<std::size_t>, 2> left;
+    const char* const lists[] = {"accessors", "bufferViews"};
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (std::size_t n = 0; n < json[lists[k]].size(); ++n) left[k].insert(n);
+    }
+    // Other numbers have other names, at least in the documents of tests.
+    const std::set<std::string> to_accessors{
+        "POSITION", "NORMAL",    "TANGENT",  "TEXCOORD_0",         "TEXCOORD_1",
+        "COLOR_0",  "_VERTEX",   "JOINTS_0", "WEIGHTS_0",          "JOINTS_1",
+        "input",    "WEIGHTS_1", "output",   "inverseBindMatrices"};
+    const std::function<void(const NewGlb::Json&)> visit = [&](const NewGlb::Json& owner) {
+      for (const auto& [name, value] : owner.items()) {
+        if (value.is_structured()) {
+          visit(value);
+        } else if (name == "bufferView") {
+          left[1].erase(value.get<std::size_t>());
+        } else if (to_accessors.count(name) > 0 || (name == "indices" && value.is_number())) {
+          left[0].erase(value.get<std::size_t>());
+        }
+      }
+    };
+    visit(json);
+    return left;
   }
 
   NewGlb::Json json;

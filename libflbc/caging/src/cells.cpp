@@ -240,6 +240,7 @@ void number_parts(CageDraft<Dim>& draft) {
   }
   for (std::size_t f = 0; f < draft.facets.size(); ++f) {
     draft.facets[f].part = parts.find(static_cast<Index>(f));
+    draft.facets[f].is_double = false;
   }
 }
 

@@ -13,32 +13,36 @@ namespace {
 
 constexpr std::size_t kLongestLoop = 64;
 
+using Start = std::pair<Index, Index>;  // patch and control point
+
 // The open edges, reversed, so loops have the orientation of new triangles.
-std::map<Index, std::vector<Index>> open_edges(const CageDraft<3>& draft) {
-  std::map<Index, std::vector<Index>> next;
-  const auto ridges = collect_ridges(draft);
-  for (const auto& facet : draft.facets) {
+// \param patches  per facet: edges of different ones are in different loops
+std::map<Start, std::vector<Index>> open_edges(const CageDraft<3>& draft, const RidgeMap<3>& ridges,
+                                               const std::vector<Index>& patches) {
+  std::map<Start, std::vector<Index>> next;
+  for (std::size_t f = 0; f < draft.facets.size(); ++f) {
+    const auto& corners = draft.facets[f].corners;
     for (int k = 0; k < 3; ++k) {
-      if (ridges.at(ridge_of<3>(facet.corners, k)).size() != 1) continue;
-      next[facet.corners((k + 2) % 3)].push_back(facet.corners((k + 1) % 3));
+      if (ridges.at(ridge_of<3>(corners, k)).size() != 1) continue;
+      next[{patches[f], corners((k + 2) % 3)}].push_back(corners((k + 1) % 3));
     }
   }
   return next;
 }
 
 // Loops that visit each control point once; other loops are left open.
-std::vector<std::vector<Index>> open_loops(const CageDraft<3>& draft) {
-  auto next = open_edges(draft);
+std::vector<std::vector<Index>> open_loops(const std::map<Start, std::vector<Index>>& next) {
   std::vector<std::vector<Index>> loops;
   for (const auto& [start, ends] : next) {
+    const auto& [patch, first] = start;
     std::vector<Index> loop;
-    Index at = start;
+    Index at = first;
     bool is_simple = true;
-    while (is_simple && (loop.empty() || at != start)) {
+    while (is_simple && (loop.empty() || at != first)) {
       loop.push_back(at);
-      const auto found = next.find(at);
+      const auto found = next.find({patch, at});
       is_simple = found != next.end() && found->second.size() == 1 && loop.size() <= next.size() &&
-                  at >= start;
+                  at >= first;
       if (is_simple) at = found->second.front();
     }
     if (is_simple) loops.push_back(loop);
@@ -101,14 +105,21 @@ class LeastArea {
 }  // namespace
 
 void close_holes(CageDraft<3>& draft) {
-  for (const auto& loop : open_loops(draft)) {
-    if (loop.size() < 3 || loop.size() > kLongestLoop) continue;
-    const LeastArea filling(draft.points, loop);
-    for (const auto& corners : filling.triangles()) {
-      draft.facets.push_back({corners, -1});
+  // Patches that touch have loops through the same control points.
+  for (const bool by_patch : {false, true}) {
+    const auto ridges = collect_ridges(draft);
+    const auto patches =
+        by_patch ? collect_patches(draft, ridges) : std::vector<Index>(draft.facets.size(), 0);
+    for (const auto& loop : open_loops(open_edges(draft, ridges, patches))) {
+      if (loop.size() < 3 || loop.size() > kLongestLoop) continue;
+      const LeastArea filling(draft.points, loop);
+      for (const auto& corners : filling.triangles()) {
+        draft.facets.push_back({corners, -1});
+      }
+      draft.changes.push_back("the hole around control points " + describe_list(loop) +
+                              " is closed by " + std::to_string(loop.size() - 2) +
+                              " new triangles");
     }
-    draft.changes.push_back("the hole around control points " + describe_list(loop) +
-                            " is closed by " + std::to_string(loop.size() - 2) + " new triangles");
   }
 }
 

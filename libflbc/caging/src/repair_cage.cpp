@@ -64,7 +64,9 @@ RepairedCage<Dim> finish(CageDraft<Dim>& draft) {
     draft.changes.push_back(describe_control_point<Dim>(draft.points, v) +
                             " belongs to no facet and is removed");
   }
-  repaired.changes = std::move(draft.changes);
+  auto& changes = draft.changes;  // one for several pieces of a facet
+  changes.erase(std::unique(changes.begin(), changes.end()), changes.end());
+  repaired.changes = std::move(changes);
   return repaired;
 }
 
@@ -111,28 +113,6 @@ void clean(CageDraft<Dim>& draft) {
   drop_degenerate_facets(draft);
 }
 
-// The union of all parts, without walls inside. \return none if an open part remains, or if
-// rounding of crossings leaves a defect
-template <int Dim>
-std::optional<RepairedCage<Dim>> unite(CageDraft<Dim> draft, double& measure) {
-  number_parts(draft);
-  // Overlaps first, because their facets need not be exactly in one plane. The pieces are no facets
-  // of the original, so what happens to them is not reported.
-  for (const bool only_overlaps : {true, false}) {
-    only_overlaps ? cut_where_facets_overlap(draft) : cut_at_crossings(draft);
-    auto changes = draft.changes;
-    clean(draft);
-    draft.changes = std::move(changes);
-  }
-  if (!keep_boundary(draft)) return {};
-  split_touching_corners(draft);
-  auto united = finish(draft);
-  const auto& cage = united.cage;
-  if (cage.size() > 0) measure = signed_measure<Dim>(cage, cage.points.col(0));
-  if (!first_defect(cage).empty()) return {};
-  return united;
-}
-
 // Without an open border.
 template <int Dim>
 bool is_closed(const CageDraft<Dim>& draft) {
@@ -142,17 +122,54 @@ bool is_closed(const CageDraft<Dim>& draft) {
   });
 }
 
+// Sheets that closing has doubled enclose nothing. What is outside of other parts hangs on them.
+template <int Dim>
+void drop_sheets(CageDraft<Dim>& draft) {
+  auto changes = draft.changes;
+  drop_repeated_facets(draft);
+  draft.changes = std::move(changes);
+  drop_flaps(draft, true);
+}
+
+// The union of all parts, without walls inside. \return none if an open part remains, or if
+// rounding of crossings leaves a defect
+template <int Dim>
+std::optional<RepairedCage<Dim>> unite(const CageDraft<Dim>& parts, double& measure) {
+  const bool are_closed = is_closed(parts);
+  // Facets may cross where close points have been merged, so the second attempt merges none.
+  for (const double tolerance : {kMergeTolerance, 0.0}) {
+    auto draft = parts;
+    draft.tolerance = tolerance;
+    number_parts(draft);
+    // Overlaps first, because their facets need not be exactly in one plane. The pieces are no
+    // facets of the original, so what happens to them is not reported.
+    for (const bool only_overlaps : {true, false}) {
+      only_overlaps ? cut_where_facets_overlap(draft) : cut_at_crossings(draft);
+      auto changes = draft.changes;
+      clean(draft);
+      draft.changes = std::move(changes);
+    }
+    if (are_closed) drop_sheets(draft);
+    if (!keep_boundary(draft) || draft.facets.empty()) continue;
+    split_touching_corners(draft);
+    auto united = finish(draft);
+    measure = signed_measure<Dim>(united.cage, united.cage.points.col(0));
+    if (first_defect(united.cage).empty()) return united;
+  }
+  return {};
+}
+
 // Leaves the changes to the caller. \return without the figures
 template <int Dim>
 RepairedCage<Dim> repaired_without_figures(const Cage<Dim>& cage, double& measure) {
   auto draft = draft_of(cage);
   clean(draft);
   drop_repeated_facets(draft);
-  drop_flaps(draft);
+  drop_flaps(draft, false);
   const bool was_closed = is_closed(draft);
   orient_alike(draft);
   close_holes(draft);
-  auto before = draft;
+  const auto before = draft;
   auto repaired = finish(draft);
   const auto left = first_defect(repaired.cage);
   if (left.empty()) {
@@ -160,7 +177,7 @@ RepairedCage<Dim> repaired_without_figures(const Cage<Dim>& cage, double& measur
     return repaired;
   }
   if (repaired.cage.facets.cols() == 0) throw InputError(left.front().message);
-  auto united = unite(std::move(before), measure);
+  auto united = unite(before, measure);
   if (!was_closed) measure = 0;
   if (united) return std::move(*united);
   if constexpr (Dim == 3) {

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "base/instantiate.h"
 #include "base/messages.h"
@@ -38,7 +39,7 @@ bool has_repeated_corner(const FacetCorners<Dim>& corners) {
 
 template <int Dim>
 double tolerance_of(const CageDraft<Dim>& draft) {
-  return kMergeTolerance * bounding_box_diagonal<Dim>(draft.points);
+  return draft.tolerance * bounding_box_diagonal<Dim>(draft.points);
 }
 
 template <int Dim>
@@ -108,27 +109,17 @@ class PointsOnEdges {
   BoxTree<Dim> tree_;
 };
 
-// Parts of the draft connected by ridges with two facets.
-template <int Dim>
-std::vector<Index> collect_patches(const CageDraft<Dim>& draft, const RidgeMap<Dim>& ridges) {
-  UnionFind patches(static_cast<Index>(draft.facets.size()));
-  for (const auto& [ridge, facets] : ridges) {
-    if (facets.size() == 2) patches.unite(facets[0], facets[1]);
-  }
-  std::vector<Index> patch_of_facet(draft.facets.size());
-  for (Index f = 0; f < static_cast<Index>(patch_of_facet.size()); ++f) {
-    patch_of_facet[f] = patches.find(f);
-  }
-  return patch_of_facet;
-}
-
 // The smallest patch that has an open border and meets two other patches elsewhere; -1: none.
 template <int Dim>
-Index find_flap(const std::vector<Index>& patch_of_facet, const RidgeMap<Dim>& ridges) {
+Index find_flap(const CageDraft<Dim>& draft, const std::vector<Index>& patch_of_facet,
+                const RidgeMap<Dim>& ridges, bool only_double) {
   const std::size_t count = patch_of_facet.size();
-  std::vector<bool> is_open(count, false), is_crowded(count, false);
+  std::vector<bool> is_open(count, false), is_crowded(count, false), stays(count, false);
   std::vector<Index> size(count, 0);
-  for (const Index patch : patch_of_facet) ++size[patch];
+  for (std::size_t f = 0; f < count; ++f) {
+    ++size[patch_of_facet[f]];
+    if (only_double && !draft.facets[f].is_double) stays[patch_of_facet[f]] = true;
+  }
   for (const auto& [ridge, facets] : ridges) {
     for (const Index f : facets) {
       if (facets.size() == 1) is_open[patch_of_facet[f]] = true;
@@ -137,7 +128,7 @@ Index find_flap(const std::vector<Index>& patch_of_facet, const RidgeMap<Dim>& r
   }
   Index flap = -1;
   for (Index patch = 0; patch < static_cast<Index>(count); ++patch) {
-    if (!is_open[patch] || !is_crowded[patch]) continue;
+    if (!is_open[patch] || !is_crowded[patch] || stays[patch]) continue;
     if (flap < 0 || size[patch] < size[flap]) flap = patch;
   }
   return flap;
@@ -219,15 +210,16 @@ void drop_degenerate_facets(CageDraft<Dim>& draft) {
 
 template <int Dim>
 void drop_repeated_facets(CageDraft<Dim>& draft) {
-  std::map<std::array<Index, Dim>, Index> first_with;
+  std::map<std::pair<Index, std::array<Index, Dim>>, Index> first_with;
   std::vector<bool> is_dropped(draft.facets.size(), false);
   for (std::size_t f = 0; f < draft.facets.size(); ++f) {
     std::array<Index, Dim> corners;
     for (int k = 0; k < Dim; ++k) corners[k] = draft.facets[f].corners(k);
     std::sort(corners.begin(), corners.end());
-    const auto [entry, is_new] = first_with.emplace(corners, static_cast<Index>(f));
+    const auto [entry, is_new] =
+        first_with.emplace(std::pair(draft.facets[f].part, corners), static_cast<Index>(f));
     if (is_new) continue;
-    is_dropped[f] = true;
+    is_dropped[f] = draft.facets[entry->second].is_double = true;
     draft.changes.push_back(name_of_facet<Dim>(draft.facets[f].number) + " is the same as " +
                             name_of_facet<Dim>(draft.facets[entry->second].number) +
                             " and is removed");
@@ -236,11 +228,11 @@ void drop_repeated_facets(CageDraft<Dim>& draft) {
 }
 
 template <int Dim>
-void drop_flaps(CageDraft<Dim>& draft) {
+void drop_flaps(CageDraft<Dim>& draft, bool only_double) {
   for (;;) {
     const auto ridges = collect_ridges(draft);
     const auto patch_of_facet = collect_patches(draft, ridges);
-    const Index flap = find_flap<Dim>(patch_of_facet, ridges);
+    const Index flap = find_flap(draft, patch_of_facet, ridges, only_double);
     if (flap < 0) return;
     std::vector<bool> is_dropped(draft.facets.size(), false);
     for (std::size_t f = 0; f < draft.facets.size(); ++f) {

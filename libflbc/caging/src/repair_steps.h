@@ -10,21 +10,23 @@
 
 namespace flbc {
 
+//! Lengths up to this fraction of cage size count as zero.
+constexpr double kMergeTolerance = 1e-6;
+
 template <int Dim>
 struct CageDraft {
   struct Facet {
     FacetCorners<Dim> corners;
-    Index number;    //!< original index; -1: new
-    Index part = 0;  //!< see number_parts()
+    Index number;            //!< original index; -1: new
+    Index part = 0;          //!< see number_parts()
+    bool is_double = false;  //!< whether it stands for several of its part
   };
   PointList<Dim> points;           //!< original points, then new ones
   std::vector<Facet> facets;       //!< remaining facets
   std::vector<Index> merged_into;  //!< per control point: the control point it was merged into
   std::vector<std::string> changes{};
+  double tolerance = kMergeTolerance;
 };
-
-//! Lengths up to this fraction of cage size count as zero.
-constexpr double kMergeTolerance = 1e-6;
 
 //! "triangle 3".
 template <int Dim>
@@ -49,14 +51,14 @@ void split_at_points(CageDraft<Dim>& draft);
 template <int Dim>
 void drop_degenerate_facets(CageDraft<Dim>& draft);
 
-//! Keeps only the first of facets with the same corners.
+//! Keeps only the first of the facets of a part with the same corners.
 template <int Dim>
 void drop_repeated_facets(CageDraft<Dim>& draft);
 
 //! Where more than two facets meet, removes facets of parts with an open border, smallest part
-//! first.
+//! first. \param only_double  others stay
 template <int Dim>
-void drop_flaps(CageDraft<Dim>& draft);
+void drop_flaps(CageDraft<Dim>& draft, bool only_double);
 
 //! Orients neighboring triangles consistently, like the majority of their shell. No effect in 2D.
 void orient_alike(CageDraft<2>& draft);

@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "base/union_find.h"
 #include "caging/repair_steps.h"
 
 namespace flbc {
@@ -37,6 +38,20 @@ RidgeMap<Dim> collect_ridges(const CageDraft<Dim>& draft) {
     }
   }
   return ridges;
+}
+
+//! Per facet: its patch. Ridges with two facets connect the facets of a patch.
+template <int Dim>
+std::vector<Index> collect_patches(const CageDraft<Dim>& draft, const RidgeMap<Dim>& ridges) {
+  UnionFind patches(static_cast<Index>(draft.facets.size()));
+  for (const auto& [ridge, facets] : ridges) {
+    if (facets.size() == 2) patches.unite(facets[0], facets[1]);
+  }
+  std::vector<Index> patch_of_facet(draft.facets.size());
+  for (Index f = 0; f < static_cast<Index>(patch_of_facet.size()); ++f) {
+    patch_of_facet[f] = patches.find(f);
+  }
+  return patch_of_facet;
 }
 
 }  // namespace flbc

@@ -294,7 +294,7 @@ void cut_where_facets_overlap(CageDraft<2>&) {
 }
 
 void cut_where_facets_overlap(CageDraft<3>& draft) {
-  const double tolerance = kMergeTolerance * bounding_box_diagonal<3>(draft.points);
+  const double tolerance = draft.tolerance * bounding_box_diagonal<3>(draft.points);
   UnionFind overlapping(static_cast<Index>(draft.facets.size()));
   for (const auto& [f, g] : close_pairs(draft, tolerance)) {
     if (overlap(draft, f, g, tolerance)) overlapping.unite(f, g);

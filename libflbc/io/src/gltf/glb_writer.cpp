@@ -41,6 +41,7 @@ class SkinBuilder {
       const auto missing = edit_.embed_pictures();
       left_out_.insert(left_out_.end(), missing.begin(), missing.end());
       drop_old_motion();
+      move_to_roots();
       add_joints();
       for (const auto& part : scene.document->parts) skin(part);
       skin_others();
@@ -53,7 +54,7 @@ class SkinBuilder {
     add_scenes();
   }
 
-  std::string glb() const { return document_.glb(); }
+  std::string glb() { return edit_.glb(); }
 
  private:
   std::size_t num_nodes() const { return document_.json["nodes"].size(); }
@@ -64,23 +65,21 @@ class SkinBuilder {
 
   // Joints and skins of the model before it got its cage, and the animations that move them.
   void drop_old_motion() {
-    std::set<std::size_t> meshes, moved;
-    for (const auto& part : scene_.document->parts) meshes.insert(part.node);
-    std::set<std::size_t> kept;
-    for (std::size_t k = 0; k < num_nodes(); ++k) {
-      auto& node = edit_.node(k);
+    const io::GltfPaths to_skins{"nodes/*/skin"};
+    const auto skins = io::numbers_at(document_.json, to_skins);
+    std::set<std::size_t> moved;
+    for (const auto& part : scene_.document->parts) {
+      moved.insert(part.node);
+      auto& node = edit_.node(part.node);
       if (!node.contains("skin")) continue;
-      const auto skin = io::whole(node["skin"]);
-      if (meshes.count(k) == 0) {
-        kept.insert(skin);
-        continue;
+      for (const auto joint : io::wholes(list("skins").at(io::whole(node["skin"])), "joints")) {
+        moved.insert(joint);
       }
-      for (const auto joint : io::wholes(list("skins").at(skin), "joints")) moved.insert(joint);
       node.erase("skin");
     }
-    moved.insert(meshes.begin(), meshes.end());
     add_ancestors(moved);
-    const bool has_skins = drop_skins(kept), has_animations = drop_animations(moved);
+    const bool has_skins = io::drop_unused(document_.json, "skins", to_skins, skins) > 0;
+    const bool has_animations = drop_animations(moved);
     if (!has_skins && !has_animations) return;
     left_out_.push_back(std::string("its own ") + (has_skins ? "skins" : "") +
                         (has_skins && has_animations ? " and " : "") +
@@ -88,39 +87,31 @@ class SkinBuilder {
                         ", because the cage moves the model");
   }
 
+  std::map<std::size_t, std::size_t> parents() {
+    std::map<std::size_t, std::size_t> parent_of;
+    for (std::size_t k = 0; k < num_nodes(); ++k) {
+      for (const auto child : io::wholes(edit_.node(k), "children")) parent_of[child] = k;
+    }
+    return parent_of;
+  }
+
   void add_ancestors(std::set<std::size_t>& nodes) {
-    for (bool is_complete = false; !is_complete;) {
-      is_complete = true;
-      for (std::size_t k = 0; k < num_nodes(); ++k) {
-        for (const auto child : io::wholes(edit_.node(k), "children")) {
-          if (nodes.count(child) > 0 && nodes.insert(k).second) is_complete = false;
-        }
+    const auto parent_of = parents();
+    for (const auto node : std::set<std::size_t>(nodes)) {
+      auto parent = parent_of.find(node);
+      while (parent != parent_of.end() && nodes.insert(parent->second).second) {
+        parent = parent_of.find(parent->second);
       }
     }
   }
 
-  bool drop_skins(const std::set<std::size_t>& kept) {
-    if (!document_.json.contains("skins")) return false;
-    const auto before = list("skins").size();
-    auto skins = Json::array();
-    std::map<std::size_t, std::size_t> number_of;
-    for (const auto skin : kept) {
-      number_of[skin] = skins.size();
-      skins.push_back(list("skins").at(skin));
-    }
-    for (auto& node : list("nodes")) {
-      if (node.contains("skin")) node["skin"] = number_of.at(io::whole(node["skin"]));
-    }
-    document_.json.erase("skins");
-    if (!skins.empty()) list("skins") = std::move(skins);
-    return kept.size() < before;
-  }
-
   bool drop_animations(const std::set<std::size_t>& moved) {
     if (!document_.json.contains("animations")) return false;
+    const io::GltfPaths to_samplers{"channels/*/sampler"};
     bool has_dropped = false;
     auto animations = Json::array();
     for (auto& animation : list("animations")) {
+      const auto samplers = io::numbers_at(animation, to_samplers);
       auto channels = Json::array();
       for (auto& channel : animation.at("channels")) {
         const auto& target = channel.at("target");
@@ -130,11 +121,46 @@ class SkinBuilder {
         has_dropped = has_dropped || moves;
       }
       animation["channels"] = std::move(channels);
+      io::drop_unused(animation, "samplers", to_samplers, samplers);
       if (!animation["channels"].empty()) animations.push_back(animation);
     }
     document_.json.erase("animations");
     if (!animations.empty()) list("animations") = std::move(animations);
     return has_dropped;
+  }
+
+  // Viewers ignore where the node of a skinned mesh is, and validators warn of it.
+  void move_to_roots() {
+    const auto joints = io::numbers_at(document_.json, {"skins/*/joints/*", "skins/*/skeleton"});
+    auto parent_of = parents();
+    const auto& parts = scene_.document->parts;
+    // Children first, because a node with children stays.
+    for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
+      auto& node = edit_.node(part->node);
+      const bool has_use = joints.count(part->node) > 0 || node.contains("children") ||
+                           node.contains("camera") || node.contains("extensions");
+      if (has_use) continue;
+      for (const char* name : {"matrix", "translation", "rotation", "scale"}) node.erase(name);
+      if (parent_of.count(part->node) > 0) detach(part->node, parent_of);
+    }
+  }
+
+  void detach(std::size_t number, std::map<std::size_t, std::size_t>& parent_of) {
+    auto root = number;
+    while (parent_of.count(root) > 0) root = parent_of.at(root);
+    for (std::size_t k = 0; document_.json.contains("scenes") && k < list("scenes").size(); ++k) {
+      const auto nodes = io::wholes(list("scenes")[k], "nodes");
+      const auto place = std::find(nodes.begin(), nodes.end(), root);
+      if (place == nodes.end()) continue;
+      auto& order = list("scenes")[k]["nodes"];
+      order.insert(order.begin() + (place - nodes.begin()) + 1, number);
+    }
+    auto& parent = edit_.node(parent_of.at(number));
+    auto siblings = io::wholes(parent, "children");
+    siblings.erase(std::find(siblings.begin(), siblings.end(), number));
+    parent["children"] = siblings;
+    if (siblings.empty()) parent.erase("children");
+    parent_of.erase(number);
   }
 
   // ---------------------------------------- influences
@@ -342,13 +368,10 @@ class SkinBuilder {
   }
 
   Json roots() {
-    std::set<std::size_t> children;
-    for (const auto& node : list("nodes")) {
-      for (const auto child : io::wholes(node, "children")) children.insert(child);
-    }
+    const auto parent_of = parents();
     auto result = Json::array();
     for (std::size_t k = 0; k < cage_; ++k) {
-      if (children.count(k) == 0) result.push_back(k);
+      if (parent_of.count(k) == 0) result.push_back(k);
     }
     return result;
   }

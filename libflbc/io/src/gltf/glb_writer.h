@@ -41,7 +41,8 @@ struct GlbScene {
 //! joints "control_point_0" etc., and "cage_end", which moves nothing but makes programs draw short
 //! bones. A second scene, not shown by default, also has the cage edges: the skinned node
 //! "cage_wire". A document keeps all its content, except for skins of the model and animations of
-//! their joints. Its meshes stay at their nodes, and its positions in their coordinates.
+//! their joints. Positions stay in the coordinates of their nodes, which lose their transforms and
+//! parents, because those do not move skins, unless something else needs them.
 //! \param left_out  gets what is missing, one phrase each
 //! \throws InputError if it exceeds the 4 GB limit of the format
 std::string encode_glb(const GlbScene& scene, std::vector<std::string>& left_out);

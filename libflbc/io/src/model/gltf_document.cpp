@@ -89,6 +89,19 @@ std::size_t component_size(std::size_t type) {
   return type >= 5120 && type <= 5126 ? kSizes[type - 5120] : 0;
 }
 
+template <class Visit>
+void visit_path(GltfJson& json, std::string_view path, const Visit& visit) {
+  if (path.empty()) return visit(json);
+  const auto end = std::min(path.find('/'), path.size());
+  const std::string key(path.substr(0, end));
+  const auto rest = path.substr(std::min(end + 1, path.size()));
+  if (key == "*") {
+    for (auto& entry : json) visit_path(entry, rest, visit);
+  } else if (json.contains(key)) {
+    visit_path(json[key], rest, visit);
+  }
+}
+
 int rows_of(const std::string& type) {
   constexpr std::pair<const char*, int> kRows[] = {
       {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
@@ -99,6 +112,34 @@ int rows_of(const std::string& type) {
 }
 
 }  // namespace
+
+std::set<std::size_t> numbers_at(GltfJson& json, const GltfPaths& paths) {
+  std::set<std::size_t> numbers;
+  for (const auto path : paths) {
+    visit_path(json, path, [&](const GltfJson& number) { numbers.insert(whole(number)); });
+  }
+  return numbers;
+}
+
+std::size_t drop_unused(GltfJson& json, const char* list, const GltfPaths& paths,
+                        const std::set<std::size_t>& before) {
+  if (!json.contains(list)) return 0;
+  const auto used = numbers_at(json, paths);
+  std::vector<std::size_t> number_of;
+  auto kept = GltfJson::array();
+  for (auto& entry : json[list]) {
+    const auto k = number_of.size();
+    number_of.push_back(kept.size());
+    if (before.count(k) == 0 || used.count(k) > 0) kept.push_back(std::move(entry));
+  }
+  for (const auto path : paths) {
+    visit_path(json, path, [&](GltfJson& number) { number = number_of.at(whole(number)); });
+  }
+  const auto num_dropped = number_of.size() - kept.size();
+  json[list] = std::move(kept);
+  if (json[list].empty()) json.erase(list);
+  return num_dropped;
+}
 
 GltfDocument::GltfDocument()
     : json{{"asset", {{"version", "2.0"}, {"generator", "flbc " FLBC_VERSION}}}} {
@@ -285,6 +326,29 @@ void GltfDocument::set_bounds(GltfJson& accessor, const Eigen::MatrixXd& columns
     accessor["min"].push_back(columns.row(row).minCoeff());
     accessor["max"].push_back(columns.row(row).maxCoeff());
   }
+}
+
+void GltfDocument::pack() {
+  std::vector<std::pair<std::size_t, std::size_t>> begins;  // of views, and their numbers
+  auto& views = json.at("bufferViews");
+  for (const auto& view : views) begins.emplace_back(whole(view, "byteOffset", 0), begins.size());
+  std::sort(begins.begin(), begins.end());
+  std::string packed;
+  std::size_t end = 0;  // of what is copied
+  for (const auto& [begin, number] : begins) {
+    if (begin > end) {
+      packed.resize(packed.size() + (begin - packed.size()) % kAlignment);
+      end = begin;
+    }
+    const auto size = view(number).size();
+    if (begin + size > end) {
+      packed.append(binary_, end, begin + size - end);
+      end = begin + size;
+    }
+    const auto place = packed.size() - (end - begin);
+    if (place != begin) views[number]["byteOffset"] = place;
+  }
+  binary_ = std::move(packed);
 }
 
 std::string GltfDocument::glb() const {

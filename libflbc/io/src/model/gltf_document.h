@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -42,6 +43,17 @@ struct GltfSource {
   std::string path{};
   std::vector<GltfPart> parts{};
 };
+
+//! Places of numbers in JSON, such as "nodes/*/mesh"; "*" stands for all entries.
+using GltfPaths = std::vector<std::string_view>;
+
+//! The numbers at paths. \throws std::out_of_range if one is not an index
+std::set<std::size_t> numbers_at(GltfJson& json, const GltfPaths& paths);
+
+//! Removes entries of a list to which no number at the paths refers any more, and renumbers.
+//! \param before  entries to which a number referred; others stay \return how many are removed
+std::size_t drop_unused(GltfJson& json, const char* list, const GltfPaths& paths,
+                        const std::set<std::size_t>& before);
 
 class GltfDocument {
  public:
@@ -112,6 +124,9 @@ class GltfDocument {
 
   //! Appends to a list of the document. \return the number in it
   std::size_t append(const char* list, GltfJson value);
+
+  //! Removes bytes that belong to no buffer view.
+  void pack();
 
   //! The content of a .glb file. \throws InputError beyond 4 GB
   std::string glb() const;

@@ -17,6 +17,26 @@ namespace {
 
 constexpr int kBase = -1;  // in place of a morph target
 
+const GltfPaths kToAccessors{
+    "meshes/*/primitives/*/attributes/*", "meshes/*/primitives/*/targets/*/*",
+    "meshes/*/primitives/*/indices",      "skins/*/inverseBindMatrices",
+    "animations/*/samplers/*/input",      "animations/*/samplers/*/output"};
+const GltfPaths kToViews{"accessors/*/bufferView", "accessors/*/sparse/indices/bufferView",
+                         "accessors/*/sparse/values/bufferView", "images/*/bufferView"};
+
+// Whether extensions do not refer to accessors or buffer views, so that these can be renumbered.
+bool are_references_known(const GltfJson& json) {
+  constexpr std::string_view kWithout[] = {
+      "KHR_materials_", "KHR_texture_", "KHR_lights_", "KHR_mesh_quant",   "KHR_node_",
+      "KHR_xmp",        "EXT_texture_", "VRM",         "FB_ngon_encoding", "MSFT_lod"};
+  const auto extensions = json.value("extensionsUsed", std::vector<std::string>());
+  return std::all_of(extensions.begin(), extensions.end(), [&](const std::string& extension) {
+    return std::any_of(std::begin(kWithout), std::end(kWithout), [&](std::string_view name) {
+      return extension.compare(0, name.size(), name) == 0;
+    });
+  });
+}
+
 // How space turns and stretches around each point: the area-weighted mean over its triangles, as
 // the difference from the identity, which is exactly 0 where nothing moves.
 std::vector<Eigen::Matrix3d> changes_of_space(const PolygonSoup& soup,
@@ -104,8 +124,18 @@ std::string media_type_of(const std::string& picture) {
 }
 
 GltfEdit::GltfEdit(const GltfSource& source) : document(source.path, read_file(source.path)) {
+  accessors_ = numbers_at(document.json, kToAccessors);
+  views_ = numbers_at(document.json, kToViews);
   part_meshes(source);
   find_users();
+}
+
+std::string GltfEdit::glb() {
+  if (are_references_known(document.json)) {
+    drop_unused(document.json, "accessors", kToAccessors, accessors_);
+    if (drop_unused(document.json, "bufferViews", kToViews, views_) > 0) document.pack();
+  }
+  return document.glb();
 }
 
 // Nodes that show the same mesh get one each, as their vertices move in different ways.
@@ -285,7 +315,7 @@ std::string moved_gltf(const Model& model) {
       const auto motion = motion_of(edit, part, model, before, changes);
       if (std::count(motion.moves.begin(), motion.moves.end(), true) > 0) edit.move(part, motion);
     }
-    return edit.document.glb();
+    return edit.glb();
   });
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +40,9 @@ class GltfEdit {
   //! Puts pictures from other files into the document. \return those that cannot be read
   std::vector<std::string> embed_pictures();
 
+  //! The .glb file, without numbers that only the edits have left unused.
+  std::string glb();
+
   GltfDocument document;
 
  private:
@@ -56,6 +60,7 @@ class GltfEdit {
   bool can_replace(const GltfPart& part, int target, const char* name, std::size_t accessor) const;
 
   std::map<Place, std::vector<User>> users_;  // of numbers
+  std::set<std::size_t> accessors_, views_;   // that the file uses
 };
 
 //! The .glb file of a model that was read from such a file, with its vertices and normals moved.
