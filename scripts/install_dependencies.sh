@@ -9,7 +9,7 @@ set -euo pipefail
 # The Python module is always there, because a build without it cannot be extended by it.
 declare -A groups=(
   [program]="g++ cmake ninja-build pkg-config
-    libeigen3-dev libsuitesparse-dev libopenblas0-serial
+    libeigen3-dev libsuitesparse-dev libopenblas0-serial libpugixml-dev
     libopenmesh-dev libcgal-dev libtet1.5-dev
     libcli11-dev nlohmann-json3-dev libpng-dev libcairo2-dev libgtest-dev
     pybind11-dev python3-dev python3-numpy"
@@ -42,8 +42,8 @@ for name in program "$@"; do
   packages+=(${groups[$name]:-$name})
   case $name in
     openfoam) [ -e $headers/src/dynamicMesh/lnInclude ] || needs_headers=yes ;;
-    web) needs_sources tetgen ;;
-    windows | aarch64) needs_sources tetgen zlib libpng1.6 openmesh ;;
+    web) needs_sources tetgen pugixml ;;
+    windows | aarch64) needs_sources tetgen pugixml zlib libpng1.6 openmesh ;;
   esac
 done
 

@@ -12,7 +12,7 @@ const dist = at("dist/");
 mkdirSync(dist, { recursive: true });
 
 const kLicense = `libflbc ${version}. SPDX-License-Identifier: AGPL-3.0-or-later. Contains TetGen (AGPL-3.0-or-later), `
-  + `CGAL (GPL-3), Eigen (MPL-2.0), nlohmann/json (MIT), fast_float, Boost; libflbc itself is BSD-3.`;
+  + `CGAL (GPL-3), Eigen (MPL-2.0), pugixml, nlohmann/json (MIT), fast_float, Boost; libflbc itself is BSD-3.`;
 
 // The modules in one scope, without import and export.
 function joined(paths) {
@@ -62,7 +62,7 @@ function page(assets) {
 const all = assetsOf("flbc_web");
 const { worker } = all;
 copyFileSync(`${built}/flbc_web.wasm`, new URL("flbc.wasm", dist));
-const kCoreLicense = `libflbc ${version}. SPDX-License-Identifier: BSD-3-Clause. Contains Eigen (MPL-2.0), `
+const kCoreLicense = `libflbc ${version}. SPDX-License-Identifier: BSD-3-Clause. Contains Eigen (MPL-2.0), pugixml, `
   + "nlohmann/json (MIT), fast_float.";
 const files = { "core.mjs": module(assetsOf("flbc_core"), kCoreLicense), "core.d.ts": 'export * from "./flbc.js";\n',
                 "flbc.html": page(all), "index.html": page({ worker }), "flbc.mjs": module(all, kLicense),

@@ -332,9 +332,9 @@ bool cross(const Vector<2>& a, const Vector<2>& b, const Vector<2>& c, const Vec
 }
 
 bool have_crossing(const std::vector<Loop>& loops) {
-  using Edge = std::pair<Vector<2>, Vector<2>>;  // from left to right
+  using Segment = std::pair<Vector<2>, Vector<2>>;  // from left to right
   const auto is_left = [](const auto& p, const auto& q) { return p.x() < q.x(); };
-  std::vector<Edge> edges;
+  std::vector<Segment> edges;
   for (const auto& loop : loops) {
     Vector<2> last = loop.back();
     for (const auto& corner : loop) {
@@ -343,7 +343,7 @@ bool have_crossing(const std::vector<Loop>& loops) {
     }
   }
   std::sort(edges.begin(), edges.end(),
-            [&](const Edge& e, const Edge& f) { return is_left(e.first, f.first); });
+            [&](const Segment& e, const Segment& f) { return is_left(e.first, f.first); });
   for (auto e = edges.begin(); e != edges.end(); ++e) {
     for (auto f = e + 1; f != edges.end() && f->first.x() <= e->second.x(); ++f) {
       if (cross(e->first, e->second, f->first, f->second)) return true;
