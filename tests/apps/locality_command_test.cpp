@@ -152,8 +152,8 @@ TEST_F(LocalityCommand, DefectiveFilesAreRefused) {
   refused(
       "[{\"control_points\": [0], \"region\": [0]}, {\"control_points\": [0], \"regoin\": [0]}]",
       "entry 1: unknown key \"regoin\"; choose from control_points, region");
-  refused("[{\"control_points\": [0], \"region\": {\"vertexes\": [0]}}]",
-          "unknown key \"vertexes\"; choose from attribute, box, group, vertices");
+  refused("[{\"control_points\": [0], \"region\": {\"verts\": [0]}}]",
+          "unknown key \"verts\"; choose from attribute, box, group, vertices");
   refused("[{\"control_points\": [0], \"region\": {\"vertices\": [0], \"group\": \"arm\"}}]",
           "give one choice");
   refused("{\"masks\": [], \"conflicts\": \"no\"}",

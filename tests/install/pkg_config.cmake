@@ -1,5 +1,6 @@
 # Links and runs programs with nothing but a compiler and pkg-config's flags: headers are looked for,
 # and the objects are those of the build CONSUMER.
+cmake_policy(VERSION 3.25)  # IN_LIST
 file(GLOB_RECURSE pc ${PREFIX}/*/flbc.pc)
 cmake_path(GET pc PARENT_PATH folder)
 set(ENV{PKG_CONFIG_PATH} ${folder})

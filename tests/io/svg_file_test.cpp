@@ -170,7 +170,7 @@ TEST_F(SvgFile, ErrorsNameTheFile) {
                            {path("a.obj"), "looks like SVG; let its name end in .svg"});
   const ModelFile file(make("b.svg", head + "<path d='M0 0h9v9z'/></svg>"));
   expect_error<OptionError>([&] { write_model(path("c.svg"), file.model()); },
-                            {"write .glb or .obj"});
+                            {"write .glb, .ply, or .obj"});
 }
 
 }  // namespace
