@@ -94,7 +94,8 @@ class ColumnProjection {
     return control_points_(Eigen::all, masks_.allowed(point));
   }
 
-  // \return false if the control points with large weights cannot carry the point
+  // \return false if the control points with large weights cannot carry the point with nearly the
+  // same weights: mean squared change at most that of the negligible ones
   bool project_on_large(Index point, Eigen::VectorXd& column) const {
     std::vector<Index> large;
     for (Index i = 0; i < static_cast<Index>(column.size()); ++i) {
@@ -103,6 +104,8 @@ class ColumnProjection {
     }
     Eigen::VectorXd few;
     if (large.empty() || !projection_.project(points_.col(point), large, column, few)) return false;
+    const auto count = static_cast<double>(column.size());
+    if ((few - column).squaredNorm() > count * negligible_ * negligible_) return false;
     column = few;
     return true;
   }

@@ -15,6 +15,7 @@ namespace flbc {
 //! \param weights_of  returns the n weights of a point; called by several threads
 //! \param masks  of the points, feasible; masked weights become exactly 0
 //! \param negligible  smaller weights become exactly 0 where the others can carry the point
+//! with nearly the same weights
 template <int Dim>
 SparseWeights project_columns(const PointList<Dim>& control_points, const PointList<Dim>& points,
                               const std::vector<Index>& columns,
