@@ -58,9 +58,9 @@ constexpr double kSmoothness = 0.003;
 constexpr double kTolerance = 1e-6;
 //! The same for `paper` and `lbc2014`, section 5 of the paper.
 constexpr double kPublishedTolerance = 1e-7;
-//! Weights below this factor times sqrt(tolerance) become 0 where the others carry the vertex nearly alike.
-//! They are errors of the iteration: a vertex of a horse has 22 weights above 1e-5 of 51 at the
-//! default tolerance, and 10 at the optimum, of which 9.4 are above 1e-4.
+//! Weights below this factor times sqrt(tolerance) become 0 where the others carry the vertex
+//! nearly alike. They are errors of the iteration: a vertex of a horse has 22 weights above 1e-5 of
+//! 51 at the default tolerance, and 10 at the optimum, of which 9.4 are above 1e-4.
 constexpr double kNegligible = 0.1;
 //! Default certified gap without smoothness, whose optimum does not determine the weights.
 constexpr double kGap = 1e-3;
