@@ -95,7 +95,7 @@ class ColumnProjection {
   }
 
   // \return false if the control points with large weights cannot carry the point with nearly the
-  // same weights: mean squared change at most that of the negligible ones
+  // same weights: mean squared change at most ten times that of negligible ones
   bool project_on_large(Index point, Eigen::VectorXd& column) const {
     std::vector<Index> large;
     for (Index i = 0; i < static_cast<Index>(column.size()); ++i) {
@@ -104,8 +104,8 @@ class ColumnProjection {
     }
     Eigen::VectorXd few;
     if (large.empty() || !projection_.project(points_.col(point), large, column, few)) return false;
-    const auto count = static_cast<double>(column.size());
-    if ((few - column).squaredNorm() > count * negligible_ * negligible_) return false;
+    const double most = 10 * static_cast<double>(column.size()) * negligible_ * negligible_;
+    if ((few - column).squaredNorm() > most) return false;
     column = few;
     return true;
   }
