@@ -50,6 +50,12 @@ void expect_box(const Cage<Dim>& cage) {
   EXPECT_NEAR(measure_cage(cage).measure, std::pow(2.0, Dim), 1e-9);
 }
 
+template <int Dim>
+void expect_united(const RepairedCage<Dim>& repaired, double measure, double tolerance) {
+  EXPECT_FALSE(repaired.is_wrapped);
+  EXPECT_NEAR(measure_cage(repaired.cage).measure, measure, tolerance);
+}
+
 TEST_IN_2D_AND_3D(RepairCageTest, SoundCagesStayAsTheyAre) {
   const auto cage = join(box_cage<Dim>(1), box_cage<Dim>(0.5));
   const auto repaired = repair(cage);
@@ -188,8 +194,7 @@ template <int Dim>
 RepairedCage<Dim> expect_union(const Boxes<Dim>& boxes) {
   const auto cage = cage_of<Dim>(boxes);
   const auto repaired = repair(cage);
-  EXPECT_FALSE(repaired.is_wrapped);
-  EXPECT_NEAR(measure_cage(repaired.cage).measure, measure_of_union<Dim>(boxes), 1e-9);
+  expect_united(repaired, measure_of_union<Dim>(boxes), 1e-9);
   EXPECT_NEAR(repaired.measure_before, measure_of_union<Dim>(boxes), 1e-9);
   EXPECT_EQ(repaired.max_distance, 0);
   expect_inside(repaired.cage, [&](const auto& point) { return covers<Dim>(boxes, point); });
@@ -236,8 +241,7 @@ TEST_IN_2D_AND_3D(RepairCageTest, RotatedPartsAreUnited) {
       Eigen::Rotation2Dd(1.1).toRotationMatrix() * turn.template bottomRows<2>().eval();
   cage.points = turn * cage.points;
   const auto repaired = repair(cage);
-  EXPECT_FALSE(repaired.is_wrapped);
-  EXPECT_NEAR(measure_cage(repaired.cage).measure, measure_of_union<Dim>(boxes), 1e-9);
+  expect_united(repaired, measure_of_union<Dim>(boxes), 1e-9);
 }
 
 // Plates that cross each other, in any direction: rounded crossings are close to each other.
@@ -260,8 +264,7 @@ TEST_IN_2D_AND_3D(RepairCageTest, CrossingPlatesAreUnited) {
     turn = turn.householderQr().householderQ();
     cage.points = turn * cage.points;
     const auto repaired = repair(cage);
-    EXPECT_FALSE(repaired.is_wrapped);
-    EXPECT_NEAR(measure_cage(repaired.cage).measure, measure_of_union<Dim>(boxes), 1e-5);
+    expect_united(repaired, measure_of_union<Dim>(boxes), 1e-5);
   }
 }
 
@@ -327,8 +330,7 @@ TEST(RepairCage3Test, OpenChannelsWithWallsAreClosed) {
     all = join(all, other);
   }
   const auto repaired = repair(all);
-  EXPECT_FALSE(repaired.is_wrapped);
-  EXPECT_NEAR(measure_cage(repaired.cage).measure, 6, 1e-9);
+  expect_united(repaired, 6, 1e-9);
 }
 
 // Parts touch only within the tolerance, or miss each other by little more.
@@ -341,8 +343,7 @@ TEST_IN_2D_AND_3D(RepairCageTest, RoundedPartsThatTouchAreRepaired) {
     for (double& x : cage.points.reshaped()) x += scale * error(random);
     const auto repaired = repair(cage);
     if (scale <= 1e-7) {
-      EXPECT_FALSE(repaired.is_wrapped);
-      EXPECT_NEAR(measure_cage(repaired.cage).measure, 2, 1e-5);
+      expect_united(repaired, 2, 1e-5);
     }
   }
 }
@@ -423,8 +424,7 @@ TEST(RepairCage2Test, BothLobesOfAnOutlineThatCrossesItselfStay) {
   points << 0, 3, 3, 0,  //
       0, 1, 0, 1;
   const auto repaired = repair(loop(points));
-  EXPECT_FALSE(repaired.is_wrapped);
-  EXPECT_NEAR(measure_cage(repaired.cage).measure, 1.5, 1e-3);
+  expect_united(repaired, 1.5, 1e-3);
 }
 
 // A facet that hangs in space bounds nothing.

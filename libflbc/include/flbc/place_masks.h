@@ -39,8 +39,8 @@ std::vector<Mask> relax_masks(const Cage<Dim>& cage, const PointList<Dim>& point
 //! Prepares masks. Vertices of the mesh that cannot obey are left out, because enforce_masks()
 //! makes weights of the points exactly 0.
 //! \param placement  of P points, in the mesh \param masks  of the P points
-//! \throws MaskConflict if points cannot obey, naming their number, the first, and the control points
-//! to free; InputError as PointMasks
+//! \throws MaskConflict if points cannot obey, naming their number, the first, and the control
+//! points to free; InputError as PointMasks
 template <int Dim>
 PlacedMasks place_masks(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                         const Placement<Dim>& placement, const std::vector<Mask>& masks);

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/distance_to_segment.h"
 #include "base/instantiate.h"
 #include "base/union_find.h"
 
@@ -52,14 +53,6 @@ class Turns {
   double real_ = 1, imaginary_ = 0;
   Index turns_ = 0;
 };
-
-template <int Dim>
-double distance_to_segment(const Vector<Dim>& p, const Vector<Dim>& a, const Vector<Dim>& b) {
-  const Vector<Dim> along = b - a;
-  const double squared = along.squaredNorm();
-  const double t = squared > 0 ? std::clamp((p - a).dot(along) / squared, 0.0, 1.0) : 0.0;
-  return (p - a - t * along).norm();
-}
 
 }  // namespace
 

@@ -15,8 +15,8 @@ template <int Dim>
 std::vector<Index> mask_conflicts(const PointList<Dim>& control_points,
                                   const PointList<Dim>& points, const PointMasks& masks);
 
-//! \throws MaskConflict if there are such points, naming their number, the first, and control points
-//! without whose masks there are none
+//! \throws MaskConflict if there are such points, naming their number, the first, and control
+//! points without whose masks there are none
 template <int Dim>
 void refuse_mask_conflicts(const PointList<Dim>& control_points, const PointList<Dim>& points,
                            const PointMasks& masks);

@@ -95,8 +95,9 @@ class ColumnProjection {
   }
 
   // \return false if the control points with large weights cannot carry the point with nearly the
-  // same weights: mean squared change at most ten times that of negligible ones
+  // same weights
   bool project_on_large(Index point, Eigen::VectorXd& column) const {
+    constexpr double kMostChange = 10;  // mean square, relative to that of negligible weights
     std::vector<Index> large;
     for (Index i = 0; i < static_cast<Index>(column.size()); ++i) {
       if (column[i] < negligible_ || (masks_.at(point) && masks_.forbids(point, i))) continue;
@@ -104,8 +105,8 @@ class ColumnProjection {
     }
     Eigen::VectorXd few;
     if (large.empty() || !projection_.project(points_.col(point), large, column, few)) return false;
-    const double most = 10 * static_cast<double>(column.size()) * negligible_ * negligible_;
-    if ((few - column).squaredNorm() > most) return false;
+    const double mean_square = (few - column).squaredNorm() / static_cast<double>(column.size());
+    if (mean_square > kMostChange * negligible_ * negligible_) return false;
     column = few;
     return true;
   }

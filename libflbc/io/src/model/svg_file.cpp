@@ -19,6 +19,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/distance_to_segment.h"
 #include "flbc/errors.h"
 #include "model/model_scan.h"
 
@@ -280,15 +281,8 @@ class Tracer {
 
   const Picture& picture_;
   const std::int64_t columns_ = picture_.width + 2;
-  std::map<std::int64_t, std::int64_t> next_{};  // by side: where the line goes on
+  std::map<std::int64_t, std::int64_t> next_{};  // by side: the side that follows on its line
 };
-
-double distance_to_segment(const Vector<2>& p, const Vector<2>& a, const Vector<2>& b) {
-  const Vector<2> along = b - a;
-  const double length2 = along.squaredNorm();
-  const double t = length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0;
-  return (p - a - t * along).norm();
-}
 
 // Appends the first point of a line and those others from which the rest is not farther than the
 // tolerance (Douglas and Peucker 1973). The last point begins the next line.
@@ -297,7 +291,7 @@ void append_corners(const Loop& line, std::size_t first, std::size_t last, doubl
   std::size_t farthest = first;
   double distance = tolerance;
   for (std::size_t k = first + 1; k < last; ++k) {
-    const double own = distance_to_segment(line[k], line[first], line[last]);
+    const double own = distance_to_segment<2>(line[k], line[first], line[last]);
     if (own > distance) distance = own, farthest = k;
   }
   if (farthest == first) return corners.push_back(line[first]);
