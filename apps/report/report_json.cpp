@@ -40,7 +40,6 @@ nlohmann::ordered_json options_json(const SolveReport& report, const SolveSettin
           {"mesher", settings.meshing.mesher},
           {"method", name_of_method(settings, given.method)},
           {"non_negative", name_of(options.non_negative)},
-          {"active", name_of(options.active_set)},
           {"certify", options.certify},
           {"phi", settings.phi.empty() ? name_of(options.phi) : settings.phi},
           {"smoothness", *options.smoothness},

@@ -19,7 +19,7 @@ constexpr double kBase = 25e6;                                       // bytes of
 
 // Share of the pairs in an active set: 15% for 110 control points, 3.5% for 1,000.
 double active_share(double control_points) {
-  return std::fmin(0.5, 0.15 * std::pow(110 / control_points, 0.65));
+  return 0.15 * std::pow(110 / control_points, 0.65);
 }
 
 // "0.25", "1.3", "120".
@@ -35,13 +35,13 @@ std::string rounded(double value) {
 Estimate estimate_solve(int dim, Index control_points, Index vertices,
                         const SolverOptions& options) {
   const double pairs = static_cast<double>(control_points) * vertices;
-  if (tries_active_set(dim, control_points, vertices, options)) {
-    const double active = active_share(control_points) * pairs;
-    return {kSecondsPerActivePair * active + kSecondsPerDistance * pairs,
-            kBase + kBytesPerActivePair * active + kBytesPerDistance * pairs};
-  }
-  if (dim == 2) return {kSecondsPerPair2D * pairs, kBase + kBytesPerPair2D * pairs};
-  return {kSecondsPerPair3D * pairs, kBase + kBytesPerPair3D * pairs};
+  const Estimate all = {(dim == 2 ? kSecondsPerPair2D : kSecondsPerPair3D) * pairs,
+                        kBase + (dim == 2 ? kBytesPerPair2D : kBytesPerPair3D) * pairs};
+  if (!tries_active_set(dim, control_points, vertices, options)) return all;
+  const double active = active_share(control_points) * pairs;
+  const Estimate some = {kSecondsPerActivePair * active + kSecondsPerDistance * pairs,
+                         kBase + kBytesPerActivePair * active + kBytesPerDistance * pairs};
+  return some.seconds < all.seconds ? some : all;
 }
 
 std::string describe(const Estimate& estimate) {

@@ -49,15 +49,12 @@ void refuse_unread_options(const CLI::App& command, const SolveSettings& setting
   const auto name = std::string("the method ") + name_of_method(settings, method);
   if (settings.coordinates) {
     for (const char* option :
-         {"--phi", "--smoothness", "--distances", "--precision", "--active", "--tolerance", "--gap",
+         {"--phi", "--smoothness", "--distances", "--precision", "--tolerance", "--gap",
           "--max-iterations", "--penalty", "--certify", "--locality"}) {
       refuse(option, name + " does not use it");
     }
   }
-  if (method != Method::kWeights) {
-    refuse("--active", name + " does not use it");
-    refuse("--locality", name + " does not use it");
-  }
+  if (method != Method::kWeights) refuse("--locality", name + " does not use it");
   if (is_meshless(settings)) {
     for (const char* option : {"--domain", "--vertices", "--embed", "--mesher", "--mesh-timeout"}) {
       refuse(option, name + " needs no mesh for the weights of a model");
@@ -139,9 +136,6 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
              "method that keeps weights non-negative (default: depends on --method)");
   add_phi(command, settings);
   add_locality_option(command, settings.locality);
-  add_choice(command, "--active", options.active_set,
-             "store and update only weights that may be positive (default: auto, which is on in "
-             "3D from 80 control points, unless --certify is given)");
   add_choice(command, "--distances", options.distances,
              "compute distances on the mesh, or interpolate them from a coarser one (default: "
              "auto)");

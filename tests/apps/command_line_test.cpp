@@ -226,17 +226,15 @@ TEST_F(CommandLine, OptionsThatNothingReadsAreWrongUsage) {
   for (const std::string method : {"harmonic", "meanvalue"}) {
     for (const std::string option :
          {"--tolerance 1e-5", "--penalty 10", "--phi linear", "--precision single",
-          "--max-iterations 9", "--distances exact", "--active off", "--gap 1e-3", "--certify"}) {
+          "--max-iterations 9", "--distances exact", "--gap 1e-3", "--certify"}) {
       const auto name = option.substr(0, option.find(' '));
       expect_refused(solve + "--method " + method + ' ' + option, 1,
                      name + ": the method " + method + " does not use it");
     }
   }
   for (const std::string method : {"gradient", "paper", "lbc2014"}) {
-    for (const std::string option : {"--active"}) {
-      expect_refused(solve + "--method " + method + ' ' + option + " off", 1,
-                     option + ": the method " + method + " does not use it");
-    }
+    expect_refused(solve + "--method " + method + " --locality l.json", 1,
+                   "--locality: the method " + method + " does not use it");
   }
   expect_refused(solve + "--outside nearest", 1, "--outside: no model is given");
   for (const std::string way : {"", "--auto-cage "}) {

@@ -50,8 +50,7 @@ enum class Distances {
 //! solver finds, extends, and checks it. Memory then follows these pairs, except for 4 n V bytes of
 //! distances, and 16 n V bytes of harmonic coordinates at a start without a coarse mesh.
 enum class ActiveSet {
-  kAuto,  //!< in 3D with at least 80 control points and 400,000 pairs, unless `certify` or `gap` is
-          //!< set
+  kAuto,  //!< in 3D if it has at most 30% of all pairs, unless `certify` or `gap` is set
   kOn,    //!< always; an error with `certify` or `gap`, which need the duals of all pairs, and with
           //!< more than 65,000 control points
   kOff    //!< all pairs

@@ -26,12 +26,11 @@ LinearSolver linear_solver(const Sizes& sizes, Method method) {
 }
 
 bool active_set(const Sizes& sizes, const Settings& settings) {
-  const auto [dim, n, vertices] = sizes;
-  if (settings.method != Method::kWeights || n > kMostActiveControlPoints) return false;
+  if (settings.method != Method::kWeights || sizes.control_points > kMostActiveControlPoints)
+    return false;
   if (!settings.masks.empty()) return true;
   if (settings.active_set != ActiveSet::kAuto) return settings.active_set == ActiveSet::kOn;
-  if (static_cast<double>(n) * vertices < kActivePairs) return false;
-  return dim == 3 && n >= kActiveControlPoints && !proves(settings);
+  return sizes.dim == 3 && !proves(settings);
 }
 
 bool active_set_is_complete(const Sizes& sizes, const Settings& settings, bool cold) {
