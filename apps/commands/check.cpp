@@ -51,7 +51,8 @@ void check_model(CheckReport<Dim>& report) {
   for (const auto& point : nearest_on_cage(report.cage, points, outside)) {
     if (farthest.point < 0 || point.distance() > farthest.distance()) farthest = point;
   }
-  report.model = ModelCheck<Dim>{std::move(points), std::move(outside), farthest};
+  auto reach = least_reach(report.cage, points);
+  report.model = ModelCheck<Dim>{std::move(points), std::move(outside), farthest, reach};
 }
 
 template <int Dim>

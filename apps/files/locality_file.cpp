@@ -11,6 +11,7 @@
 #include "flbc/io/files.h"
 #include "flbc/io/formats.h"
 #include "flbc/io/vertex_attribute.h"
+#include "flbc/options.h"
 #include "flbc/place_masks.h"
 #include "instantiate.h"
 
@@ -107,25 +108,22 @@ std::vector<Index> indices_of(const LocalityJson& chosen, const PointList<Dim>& 
       "regions of a model, {\"group\": name} or {\"attribute\": name}");
 }
 
-// Factors of the reach of control points; none if all are 1.
 template <int Dim>
-Eigen::VectorXd reach_in(const LocalityJson& json, const PointList<Dim>& control_points) {
-  constexpr double kMost = 16;
+std::vector<double> reach_in(const LocalityJson& json, const PointList<Dim>& control_points) {
   if (!json.contains("reach")) return {};
-  Eigen::VectorXd reach = Eigen::VectorXd::Ones(control_points.cols());
+  SolverOptions options;
+  auto& reach = options.reach;
+  reach.assign(control_points.cols(), 1);
   for (const auto& entry : json["reach"]) {
-    const auto factor = entry.at("factor").get<double>();
-    if (!(factor >= 1 / kMost && factor <= kMost)) {
-      throw InputError("reach: a factor must be from 1/16 to 16");
-    }
     for (const Index i : indices_of<Dim>(entry.at("control_points"), control_points, "")) {
-      if (i < 0 || i >= reach.size()) {
+      if (i < 0 || i >= control_points.cols()) {
         throw InputError("reach: there is no control point " + std::to_string(i));
       }
-      reach[i] = factor;
+      reach[i] = entry.at("factor").get<double>();
     }
   }
-  return (reach.array() == 1).all() ? Eigen::VectorXd() : reach;
+  validate(options);
+  return reach;
 }
 
 // Whether control points in conflict are removed from masks.
@@ -186,6 +184,8 @@ Locality load_locality(const std::string& path, const Cage<Dim>& cage, const Poi
                      "{\"vertices\": [0, 1]}}]");
   } catch (const InputError& error) {
     throw InputError(path + ": " + entry + error.what());
+  } catch (const OptionError& error) {
+    throw InputError(path + ": " + error.what());
   }
   return locality;
 }

@@ -22,9 +22,8 @@ CLI::Option* add_locality_option(CLI::App& command, std::string& path);
 //! The content of a locality file.
 struct Locality {
   std::vector<flbc::Mask> masks{};
-  std::vector<Index> freed{};  //!< control points that "relax" removed from the masks
-  //! Factors in [1/16, 16], by which phi of each control point is divided; empty if all are 1.
-  Eigen::VectorXd reach{};
+  std::vector<Index> freed{};   //!< control points that "relax" removed from the masks
+  std::vector<double> reach{};  //!< SolverOptions::reach
 
   //! About the control points that were freed; empty if there are none.
   std::string note() const;

@@ -23,6 +23,7 @@ struct ModelCheck {
   PointList<Dim> points;
   std::vector<Index> outside;   //!< their indices
   NearestOnCage<Dim> farthest;  //!< of those outside
+  LeastReach<Dim> least_reach;
 };
 
 //! Everything found out. What was not asked for, or could not be looked at because the cage is

@@ -111,6 +111,15 @@ void print_model(std::ostream& out, const Json& model, double size) {
       << "% of the cage size; use flbc solve --outside, or make a cage around it with flbc cage\n";
 }
 
+void print_least_reach(std::ostream& out, const Json& reach) {
+  const auto& maximum = reach["maximum"];
+  if (maximum.is_null()) return;
+  out << "  least reach: half of the vertices need control points within "
+      << number(100 * reach["median"].get<double>(), 3) << "% of the cage size, and vertex "
+      << maximum["point"] << " at " << position(maximum["place"]) << " within "
+      << number(100 * maximum["value"].get<double>(), 3) << "%\n";
+}
+
 void add_extrema(TextTable& table, const char* name, const Json& numbers, const Json& worst) {
   std::int64_t total = 0;
   for (const std::int64_t vertices : numbers) total += vertices;
@@ -196,7 +205,10 @@ void print_creases(std::ostream& out, const Json& creases) {
 
 void print_check(std::ostream& out, const Json& report) {
   print_cage(out, report["cage"]);
-  if (report.contains("model")) print_model(out, report["model"], report["cage"]["size"]);
+  if (report.contains("model")) {
+    print_model(out, report["model"], report["cage"]["size"]);
+    print_least_reach(out, report["model"]["least_reach"]);
+  }
   if (report.contains("weights")) {
     const auto& weights = report["weights"];
     print_weights(out, weights,

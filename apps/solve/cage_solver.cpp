@@ -137,14 +137,9 @@ Solution compute_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
   if (settings.penalty) {
     options.penalty = published_penalty(cage, domain, options.method, *settings.penalty);
   }
-  const bool has_reach = settings.reach.size() > 0;
-  if (settings.phi.empty() && !has_reach) return flbc::solve(cage, domain, options, observer);
-  const auto scheme = has_reach ? options.phi : DistanceScheme::kConstant;
-  auto problem = make_problem(cage, domain, scheme, *resolve(options).smoothness);
-  if (has_reach) {
-    problem.phi = WeightFunctions(settings.reach.cwiseInverse().asDiagonal() * problem.phi.dense());
-    return flbc::solve(problem, options, observer);
-  }
+  if (settings.phi.empty()) return flbc::solve(cage, domain, options, observer);
+  auto problem =
+      make_problem(cage, domain, DistanceScheme::kConstant, *resolve(options).smoothness);
   problem.phi = WeightFunctions(io::read_weights(settings.phi).dense());
   return naming(settings.phi, [&] { return flbc::solve(problem, options, observer); });
 }
@@ -249,9 +244,6 @@ void CageSolver<Dim>::load_masks(bool quiet) {
   if (settings_.locality.empty()) return;
   const auto& points = settings_.model.empty() ? domain().points : model_;
   locality_ = load_locality(settings_.locality, cage_, points, settings_.model);
-  if (locality_.reach.size() > 0 && !settings_.phi.empty()) {
-    throw OptionError("--phi: " + settings_.locality + " changes phi too; leave out one of them");
-  }
   options.masks = locality_.masks;
   naming(settings_.locality, [&] { rig_->set_options(options); });
   for (const auto& note : {locality_.note(), rig_->masks().note()}) {
@@ -296,6 +288,7 @@ void CageSolver<Dim>::solve(bool quiet) {
   if (!quiet) announce();
   auto settings = settings_;
   settings.options.masks = rig_->masks().of_mesh;
+  settings.options.reach = locality_.reach;
   ProgressBar bar(quiet, "setting up: boundary values, distances", settings.options);
   HistoryRecorder recorder(settings.options);
   Observer observer;
@@ -305,7 +298,6 @@ void CageSolver<Dim>::solve(bool quiet) {
     return true;
   };
   observer.stage = [&](Stage stage, double done) { bar.show(name_of(stage), done); };
-  settings.reach = locality_.reach;
   rig_->set_solution(naming(settings_.domain.empty() ? settings_.cage : settings_.domain,
                             [&] { return compute_weights(cage_, domain(), settings, observer); }));
   if (settings_.history) history_ = recorder.finished(report());

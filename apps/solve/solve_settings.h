@@ -27,7 +27,6 @@ struct SolveSettings {
   std::optional<double> penalty{};           //!< as published (flbc/published_penalty.h)
   SolverOptions options{};                   //!< but for the penalty, which depends on the mesh
   std::string locality{};                    //!< file of the model's masks, or else the domain's
-  Eigen::VectorXd reach{};                   //!< factors for each control point; empty: all are 1
   int mirror_axis = -1;                      //!< of the exact mirror of model weights; -1 for none
   std::string phi{};                         //!< file of phi, a row per cell of the domain
   std::optional<Coordinates> coordinates{};  //!< instead of the method of the options, of which

@@ -23,7 +23,7 @@ from ._shapes import (
 )
 from ._solve import (
     SolverOptions,
-    as_mask,
+    as_locality,
     checked,
     mesh,
     take_phi,
@@ -332,7 +332,7 @@ def bind(
     if len(points) == 0:
         raise InputError("vertices has shape (0, d): the model has no vertices")
     polygons = as_polygons(faces, "faces", len(points))
-    as_mask(given, len(points), cage)
+    as_locality(given, len(points), cage)
     if domain is None and np.ndim(given.get("phi", "")) > 0:
         domain = mesh(cage, mesh_vertices)
     fill = None if domain is None else as_mesh(domain, cage)

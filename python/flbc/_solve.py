@@ -63,6 +63,7 @@ class SolverOptions(TypedDict, total=False):
     active_set: str
     penalty: Optional[float]
     mask: Optional[ArrayLike]
+    reach: Optional[ArrayLike]
 
 
 OPTIONS = """\
@@ -106,6 +107,9 @@ OPTIONS = """\
         True where a control point must not move a vertex of the mesh, (P, n) for `bind` those of
         the model: its weight is exactly 0, except on the facets of the control point. For
         "weights" and a cage in one part.
+    reach : array_like, shape (n,), optional
+        Factors from 1/16 to 16 by which phi of each control point is divided. Weights extend
+        farther with a larger one. Not a guarantee, which a mask is.
 """
 
 
@@ -142,8 +146,15 @@ def take_phi(options: Dict[str, Any], cage: Cage, mesh: DomainMesh) -> Optional[
     return as_floats(array, "phi")
 
 
-def as_mask(options: Dict[str, Any], count: int, cage: Cage) -> None:
-    """Checks the mask of options, of count points, and makes it a Boolean array."""
+def as_locality(options: Dict[str, Any], count: int, cage: Cage) -> None:
+    """Checks reach and mask of options, of count points, and makes them arrays."""
+    if options.get("reach") is not None:
+        options["reach"] = as_floats(as_array(options["reach"], "reach"), "reach")
+        if options["reach"].shape != (len(cage),):
+            raise InputError(
+                f"reach has shape {options['reach'].shape}, but needs {(len(cage),)}: one factor "
+                "for each control point"
+            )
     if options.get("mask") is None:
         return
     array = np.asarray(options["mask"])
@@ -427,7 +438,7 @@ def solve(
     cage = as_cage(cage)
     domain = mesh_of(cage) if mesh is None else as_mesh(mesh, cage)
     phi = take_phi(given, cage, domain)
-    as_mask(given, len(domain), cage)
+    as_locality(given, len(domain), cage)
     found = _core.solve(
         cage.points, cage.facets, domain.points, domain.cells, given, phi, callback
     )
@@ -475,7 +486,7 @@ class Solver:
         require_name_of_phi(given)
         cage = as_cage(cage)
         domain = mesh_of(cage) if mesh is None else as_mesh(mesh, cage)
-        as_mask(given, len(domain), cage)
+        as_locality(given, len(domain), cage)
         self._core = _core.Solver(cage.points, cage.facets, domain.points, domain.cells, given)
 
     def solve(
@@ -534,7 +545,7 @@ class Solver:
         """Changes options of the following solves; `phi` cannot change."""
         given = checked(options, "Solver")
         require_name_of_phi(given)
-        as_mask(given, len(self.mesh), self.cage)
+        as_locality(given, len(self.mesh), self.cage)
         self._core.set_options({**self._core.options(), **given})
 
     def __reduce__(self) -> Any:

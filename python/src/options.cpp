@@ -123,6 +123,14 @@ const std::vector<Field>& fields() {
       {"mask",
        [](SolverOptions& options, const py::handle& value) { options.masks = masks_of(value); },
        [](const SolverOptions& options) { return masks_as_object(options.masks); }},
+      {"reach",
+       [](SolverOptions& options, const py::handle& value) {
+         options.reach.clear();
+         if (!value.is_none()) options.reach = value.cast<std::vector<double>>();
+       },
+       [](const SolverOptions& options) -> py::object {
+         return options.reach.empty() ? py::none() : py::cast(options.reach);
+       }},
   };
   return table;
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Masks, their certificates, exact mirrors, and composed weights."""
+"""Masks, their certificates, reach, exact mirrors, and composed weights."""
 import flbc
 import numpy as np
 import pytest
@@ -107,6 +107,38 @@ def test_masks_and_mirrors_take_arrays_of_phi(masked):
     weights = found.weights.toarray()
     assert (weights[0] == weights[1][[2, 1, 0, 5, 4, 3]]).all() and weights[0, 3] == 0
     assert abs(found.deform(cage.points) - points).max() < 1e-12
+
+
+def test_reach_extends_weights(masked, checker, tmp_path):  # noqa: F811
+    cage, mesh = masked[0].cage, masked[0].mesh
+    reach = np.array([1, 4, 1, 0.25, 1, 2])
+    found = flbc.solve(cage, mesh, reach=reach, certify=True)
+    free = flbc.solve(cage, mesh)
+    change = (found.weights - free.weights).mean(0)
+    assert change[1] > 1e-3 and change[3] < -1e-3
+    assert (flbc.solve(cage, mesh, reach=[1] * 6).weights == free.weights).all()
+    found.save_certificate(tmp_path / "proof.npz")
+    checker.main(str(tmp_path / "proof.npz"))
+    assert found.certificate.relative_gap < 0.01
+    points = np.array([[0.3, 0.4], [1.7, 0.4]])
+    bound = [flbc.bind(points, None, cage, domain=mesh, max_influences=0, phi=phi, reach=reach)
+             for phi in ("constant", np.ones((len(mesh.cells), len(cage))))]
+    assert bound[0].weights.toarray() == pytest.approx(bound[1].weights.toarray(), abs=1e-3)
+    assert abs(bound[0].deform(cage.points) - points).max() < 1e-12
+
+    solver = flbc.Solver(cage, mesh)
+    solver.solve()
+    solver.set_options(reach=reach)
+    assert solver.solve().weights == pytest.approx(found.weights, abs=0.02)
+    assert solver.options["reach"] == reach.tolist()
+    solver.set_options(reach=None)
+    assert solver.solve().weights == pytest.approx(free.weights, abs=0.02)
+    with pytest.raises(flbc.InputError, match=r"reach has shape \(5,\), but needs \(6,\)"):
+        solver.set_options(reach=reach[1:])
+    with pytest.raises(flbc.OptionError, match=r"reach of control point 2 must be in \[1/16, 16\]"):
+        flbc.solve(cage, mesh, reach=[1, 1, 17, 1, 1, 1])
+    with pytest.raises(flbc.OptionError, match="reach: the method harmonic does not use it"):
+        flbc.solve(cage, mesh, reach=reach, method="harmonic")
 
 
 def test_compose_multiplies(flat):

@@ -133,11 +133,16 @@ TEST_F(CheckCommand, ModelsOutsideAreCountedAndNamed) {
   const auto cage = file("cage.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nl 1 2 3 4 1\n");
   const auto model = file("model.obj", "v 1 1 0\nv 5 1 0\nv 2 -1 0\nv 0 2 0\n");
   expect_check(cage + " --model " + model + " --json r.json", 0,
-               {"2 of 4 vertices are outside the cage; the farthest is vertex 1 at (5, 1)"});
+               {"2 of 4 vertices are outside the cage; the farthest is vertex 1 at (5, 1)",
+                "half of the vertices need control points within 55.9% of the cage size, and "
+                "vertex 0 at (1, 1) within 55.9%"});
   const auto json = json_in("r.json")["model"];
   EXPECT_EQ(json["outside"], 2);
   EXPECT_EQ(json["first_outside"]["point"], 1);
   EXPECT_EQ(json["farthest_outside"]["distance"], 1);
+  const auto& farthest = json["least_reach"]["maximum"];
+  EXPECT_NEAR(farthest["value"], std::sqrt(10.0 / 32), 1e-12);  // without the opposite corner
+  EXPECT_EQ(farthest["point"], 0);
   expect_check("3d/limb_cage.obj --model 3d/limb_model.obj", 0, {"none outside the cage"});
   if (!has_model("defective/half_outside_cage.obj")) GTEST_SKIP() << "the real models are absent";
   expect_check(model_path("defective/half_outside_cage.obj") + " --model " +

@@ -159,7 +159,8 @@ TEST_F(LocalityCommand, DefectiveFilesAreRefused) {
   refused("{\"masks\": [], \"conflicts\": \"no\"}",
           "invalid value \"no\"; choose from fail, relax");
   refused("{\"mask\": []}", "unknown key \"mask\"; choose from conflicts, masks, reach");
-  refused("{\"reach\": [{\"control_points\": [0], \"factor\": 17}]}", "from 1/16 to 16");
+  refused("{\"reach\": [{\"control_points\": [0], \"factor\": 17}]}",
+          "bad.json: reach of control point 0 must be in [1/16, 16], not 17");
   refused("{\"reach\": [{\"control_points\": [99], \"factor\": 2}]}", "no control point 99");
   expect("solve 3d/limb_cage.obj -o w.npy --method gradient --locality bad.json", 1,
          "--locality: the method gradient does not use it");

@@ -141,6 +141,26 @@ TEST_IN_2D_AND_3D(SolvePartsTest, EachIsAsAlone) {
   }
 }
 
+TEST_IN_2D_AND_3D(SolvePartsTest, EachHasItsOwnReach) {
+  for (const auto& pair : pairs<Dim>()) {
+    SolverOptions options;
+    options.max_iterations = 40;
+    for (Index i = 0; i < pair.whole.cage.size(); ++i) options.reach.push_back(1 + i % 4);
+    const auto whole = solve(pair.whole.cage, pair.whole.mesh, options).weights.dense();
+    for (int k = 0; k < 2; ++k) {
+      auto of_part = options;
+      of_part.reach.clear();
+      for (const Index i : pair.control_points[k]) of_part.reach.push_back(options.reach[i]);
+      const auto& [cage, mesh, name] = pair.alone[k];
+      EXPECT_EQ(WeightMatrix(whole(pair.control_points[k], pair.vertices[k])),
+                solve(cage, mesh, of_part).weights.dense());
+    }
+    options.reach.pop_back();
+    expect_error<OptionError>([&] { solve(pair.whole.cage, pair.whole.mesh, options); },
+                              {"reach needs a factor for each"});
+  }
+}
+
 // The objective of the joined weights, which the library adds up cell by cell, is the sum.
 TEST_IN_2D_AND_3D(SolvePartsTest, TotalVariationAddsUp) {
   const auto pair = std::move(pairs<Dim>().front());

@@ -98,6 +98,20 @@ template <int Dim>
 WeightCheck<Dim> check_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
                                const SparseWeights& weights);
 
+//! How far away the nearest control points that can carry a point are: the least radius within
+//! which control points have it in their convex hull, relative to cage size. Nearer ones alone have
+//! no weights >= 0 that reproduce it. It is large where a cage has too few control points.
+template <int Dim>
+struct LeastReach {
+  Extreme<Dim> maximum{};  //!< with the farthest of these control points
+  double median = 0;       //!< over the points
+};
+
+//! Measures points, except for those outside the convex hull of all control points.
+//! \param points  Dim x P, in the units of the cage
+template <int Dim>
+LeastReach<Dim> least_reach(const Cage<Dim>& cage, const PointList<Dim>& points);
+
 //! Changes of the angles between neighboring faces of a surface in a pose, in degrees: creases that
 //! a deformation makes.
 struct CreaseCheck {

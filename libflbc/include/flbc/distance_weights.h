@@ -72,9 +72,18 @@ class WeightFunctions {
   //! The distances that phi was made from, n x V; empty for kConstant and for given values.
   const DistanceMatrix& distances() const { return distances_; }
 
-  //! phi_i on one cell, in [0, 1] if made from distances. \param i  control point \param s  cell
+  //! Divides phi_i by SolverOptions::reach, in place of the factors before.
+  //! \param reach  n factors > 0; or empty
+  void set_reach(std::vector<double> reach) { reach_ = std::move(reach); }
+
+  //! These factors; empty if all are 1.
+  const std::vector<double>& reach() const { return reach_; }
+
+  //! phi_i on one cell, in [0, 1] if made from distances without reach.
+  //! \param i  control point \param s  cell
   double operator()(Eigen::Index i, Eigen::Index s) const {
-    return cells_.cols() > 0 ? from_distances(i, s) : values_(i, s);
+    const double value = cells_.cols() > 0 ? from_distances(i, s) : values_(i, s);
+    return reach_.empty() ? value : value / reach_[i];
   }
 
   //! phi on one cell, one value per control point. \param s  cell
@@ -92,6 +101,7 @@ class WeightFunctions {
   DistanceScheme scheme_ = DistanceScheme::kConstant;
   double scale_ = 1;
   Eigen::Index num_control_points_ = 0;
+  std::vector<double> reach_;
 };
 
 }  // namespace flbc

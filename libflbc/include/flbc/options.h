@@ -124,6 +124,11 @@ struct SolverOptions {
   //! solve() throws InputError where no weights >= 0 exist, and names the control points to free.
   std::vector<Mask> masks{};
 
+  //! Factors in [1/16, 16] by which phi_i is divided, one per control point; empty if all are 1.
+  //! Weights of a control point with a larger factor extend farther. It is a tendency; masks are a
+  //! guarantee. For every method; a certificate holds for the divided phi.
+  std::vector<double> reach{};
+
   //! Number of threads, at most 1024; 0 = as many as OpenMP offers, or one if n V < 100,000.
   int threads = 0;
 };

@@ -103,8 +103,8 @@ class Solver {
                        const Observer& observer = {});
 
   //! Changes the options of the following solves. The next solve resumes from the last state if
-  //! only tolerance, gap, max_iterations, certify, masks, or threads differ and distances are
-  //! accurate enough. Otherwise the problem is set up again, as by a new Solver.
+  //! only tolerance, gap, max_iterations, certify, masks, reach, or threads differ and distances
+  //! are accurate enough. Otherwise the problem is set up again, as by a new Solver.
   //! \throws OptionError, SolverError; InputError for masks without weights; then options are
   //! unchanged
   void set_options(const SolverOptions& options);

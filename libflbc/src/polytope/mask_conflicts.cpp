@@ -12,7 +12,6 @@
 #include "polytope/nearest_point_in_hull.h"
 #include "polytope/scaling.h"
 #include "polytope/small_lu.h"
-#include "polytope/weight_projection.h"
 
 namespace flbc {
 namespace {
@@ -165,21 +164,7 @@ void refuse_mask_conflicts(const PointList<Dim>& control_points, const PointList
       conflicts, cure);
 }
 
-template <int Dim>
-bool project_on(const PointList<Dim>& control_points, const std::vector<Index>& allowed,
-                const Vector<Dim>& point, Eigen::VectorXd& weights) {
-  if (allowed.empty()) return false;
-  const WeightProjection<Dim> projection(control_points(Eigen::all, allowed));
-  typename WeightProjection<Dim>::Workspace work(projection);
-  Eigen::VectorXd few = weights(allowed);
-  if (projection.project(point, few, work) > 0) return false;
-  weights.setZero();
-  weights(allowed) = few;
-  return true;
-}
-
 FLBC_INSTANTIATE_FUNCTION(mask_conflicts)
-FLBC_INSTANTIATE_FUNCTION(project_on)
 FLBC_INSTANTIATE_FUNCTION(refuse_mask_conflicts)
 
 }  // namespace flbc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Weights on the control points that masks allow: projection, conflicts, and their cure.
+// Points without weights on the control points that masks allow, and their cure.
 #pragma once
 
 #include <vector>
@@ -20,11 +20,5 @@ std::vector<Index> mask_conflicts(const PointList<Dim>& control_points,
 template <int Dim>
 void refuse_mask_conflicts(const PointList<Dim>& control_points, const PointList<Dim>& points,
                            const PointMasks& masks);
-
-//! Replaces weights by the nearest feasible ones of the allowed control points; others become 0.
-//! \return false if there are none
-template <int Dim>
-bool project_on(const PointList<Dim>& control_points, const std::vector<Index>& allowed,
-                const Vector<Dim>& point, Eigen::VectorXd& weights);
 
 }  // namespace flbc

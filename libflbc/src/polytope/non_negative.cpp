@@ -15,7 +15,6 @@
 #include "base/stage_progress.h"
 #include "flbc/errors.h"
 #include "flbc/non_negative.h"
-#include "polytope/mask_conflicts.h"
 #include "polytope/nearest_point_in_hull.h"
 #include "polytope/weight_projection.h"
 
@@ -77,7 +76,8 @@ class ColumnProjection {
     }
     const Index point = outside_;
     if (point == points_.cols()) return;
-    const PointList<Dim> carriers = masks_.at(point) ? allowed_points(point) : control_points_;
+    const PointList<Dim> carriers =
+        masks_.at(point) ? control_points_(Eigen::all, masks_.allowed(point)) : control_points_;
     if (carriers.cols() == 0) {
       throw InputError("all control points are masked at point " + std::to_string(point) + " at " +
                        format_point(points_.col(point)) + ", but its weights must sum to 1");
@@ -90,10 +90,6 @@ class ColumnProjection {
   }
 
  private:
-  PointList<Dim> allowed_points(Index point) const {
-    return control_points_(Eigen::all, masks_.allowed(point));
-  }
-
   // \return false if the control points with large weights cannot carry the point with nearly the
   // same weights
   bool project_on_large(Index point, Eigen::VectorXd& column) const {
@@ -112,9 +108,14 @@ class ColumnProjection {
   }
 
   void project_masked(Index point, Eigen::VectorXd& column) {
-    if (!project_on<Dim>(control_points_, masks_.allowed(point), points_.col(point), column)) {
-      lower_to(outside_, point);
-    }
+    const auto allowed = masks_.allowed(point);
+    if (allowed.empty()) return lower_to(outside_, point);
+    const WeightProjection<Dim> projection(control_points_(Eigen::all, allowed));
+    typename WeightProjection<Dim>::Workspace work(projection);
+    Eigen::VectorXd few = column(allowed);
+    if (projection.project(points_.col(point), few, work) > 0) return lower_to(outside_, point);
+    column.setZero();
+    column(allowed) = few;
   }
 
   static void lower_to(std::atomic<Index>& least, Index number) {

@@ -25,10 +25,12 @@ LbcProblem<Dim> make_geometry(Cage<Dim> cage, DomainMesh<Dim> mesh);
 template <int Dim>
 DistanceMatrix distances_for(DistanceScheme scheme, const LbcProblem<Dim>& problem);
 
-//! Makes phi from distances, n x V.
+//! Makes phi from distances, n x V; its reach stays.
 template <int Dim>
 void set_phi(LbcProblem<Dim>& problem, DistanceScheme scheme, DistanceMatrix distances) {
+  auto reach = problem.phi.reach();
   problem.phi = {scheme, std::move(distances), problem.mesh, problem.num_control_points()};
+  problem.phi.set_reach(std::move(reach));
 }
 
 //! Makes phi from distances on the mesh of the problem.

@@ -53,7 +53,7 @@ Solution compute_coordinates(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                              const Observer& observer) {
   validate(coordinates, options);
   const auto compute_connected = [&](const Cage<Dim>& part, const DomainMesh<Dim>& domain,
-                                     const Reporter& reporter, bool) {
+                                     const Reporter& reporter, const std::vector<Index>&, bool) {
     const ThreadScope threads(threads_for(options.threads, part.size(), domain.num_vertices()));
     Stopwatch watch;
     Solution solution;

@@ -2,6 +2,7 @@
 #include "solver/api/solve_parts.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -183,7 +184,11 @@ template <int Dim>
 Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Reporter& reporter,
                      const SolvePart<Dim>& solve_part) {
   validate(mesh);
-  if (count_parts(mesh) == 1) return solve_part(cage, mesh, reporter, false);
+  if (count_parts(mesh) == 1) {
+    std::vector<Index> all(cage.size());
+    std::iota(all.begin(), all.end(), 0);
+    return solve_part(cage, mesh, reporter, all, false);
+  }
   const auto parts = take_apart(cage, mesh);
   const auto unknowns = [](const Part<Dim>& part) {
     return static_cast<double>(part.cage.size()) * part.domain.mesh.num_vertices();
@@ -199,7 +204,7 @@ Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const R
     const auto to_come = static_cast<int>(parts.size() - p) - 1;
     solved.push_back(solve_part(parts[p].cage, parts[p].domain.mesh,
                                 reporter.with_more_to_come(to_come).of_part(before, share),
-                                stopped));
+                                parts[p].control_points, stopped));
     stopped = stopped || solved[p].report.status == SolveStatus::kStopped;
     reports.push_back(std::move(solved[p].report));
     before += share;

@@ -4,17 +4,19 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "flbc/solver.h"
 #include "solver/run/reporter.h"
 
 namespace flbc {
 
-//! Solves one connected part. \param stopped  whether the caller stopped the solve of a part
-//! before, so that one iteration suffices
+//! Solves one connected part. \param control_points  their indices in the whole cage
+//! \param stopped  whether the caller stopped the solve of a part before, so that one iteration
+//! suffices
 template <int Dim>
 using SolvePart = std::function<Solution(const Cage<Dim>&, const DomainMesh<Dim>&, const Reporter&,
-                                         bool stopped)>;
+                                         const std::vector<Index>& control_points, bool stopped)>;
 
 //! Checks the mesh, and solves every part of it with the control points that are its vertices. If
 //! there is one part, it is the mesh itself.

@@ -34,8 +34,15 @@
 namespace flbc {
 namespace {
 
+void require_factors(const std::vector<double>& reach, Index control_points) {
+  if (reach.empty() || static_cast<Index>(reach.size()) == control_points) return;
+  throw OptionError("reach needs a factor for each of the " + std::to_string(control_points) +
+                    " control points, not " + std::to_string(reach.size()) + " factors");
+}
+
 void require_valid(const SolverOptions& options, Index control_points) {
   validate(options);
+  require_factors(options.reach, control_points);
   if (options.active_set == ActiveSet::kOn && control_points > plan::kMostActiveControlPoints) {
     throw OptionError("active_set on is for at most " +
                       std::to_string(plan::kMostActiveControlPoints) + " control points, not " +
@@ -168,14 +175,19 @@ void require_distances(const NestedProblem<Dim>& ready, const plan::Settings& se
 // Solves connected parts of a mesh. Keeps references to the arguments.
 // \param topology  of the whole mesh; null if not known
 template <int Dim>
-SolvePart<Dim> part_solver(const DomainMesh<Dim>& mesh, const SolverOptions& given,
-                           const MeshTopology<Dim>* topology) {
-  require_valid(given, 0);
+SolvePart<Dim> part_solver(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                           const SolverOptions& given, const MeshTopology<Dim>* topology) {
+  validate(given);
+  require_factors(given.reach, cage.size());
   return [&mesh, topology, common = plan::settings_of(given)](
              const Cage<Dim>& part, const DomainMesh<Dim>& domain, const Reporter& reporter,
-             bool stopped) {
-    require_valid(common, part.size());
+             const std::vector<Index>& control_points, bool stopped) {
     auto settings = common;
+    settings.reach.clear();
+    if (!common.reach.empty()) {
+      for (const Index i : control_points) settings.reach.push_back(common.reach[i]);
+    }
+    require_valid(settings, part.size());
     if (stopped) settings.max_iterations = 1;
     const ThreadScope threads(threads_for(settings.threads, part.size(), domain.num_vertices()));
     require_connected(domain);
@@ -231,11 +243,12 @@ void require_points_for(const Cage<Dim>& cage, const PointList<Dim>& control_poi
 }
 
 // Options that stay the same during a run. All others take effect when it resumes, except for
-// masks, for which another run starts from its duals. Names all options, so that a new one cannot
-// be forgotten.
+// masks and reach, for which another run starts from its duals. Names all options, so that a new
+// one cannot be forgotten.
 auto fixed_in_a_run(const SolverOptions& options) {
   const auto& [method, phi, smoothness, distances, precision, non_negative, tolerance, gap,
-               active_set, max_iterations, penalty, certify, masks, threads] = resolve(options);
+               active_set, max_iterations, penalty, certify, masks, reach, threads] =
+      resolve(options);
   return std::tuple(method, phi, smoothness, distances, precision, non_negative, active_set,
                     penalty);
 }
@@ -250,12 +263,18 @@ template <int Dim>
 Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& given,
                const Observer& observer) {
   auto options = given;
-  if (!options.masks.empty() && problem.masks.empty()) {
-    auto masked = problem;
-    masked.masks =
-        masks_inside(problem.cage.points, problem.mesh.points, problem.boundary, options.masks);
-    if (masked.masks.empty()) options.masks.clear();
-    return solve(masked, options, observer);
+  const bool needs_masks = !options.masks.empty() && problem.masks.empty();
+  const bool needs_reach = !options.reach.empty() && problem.phi.reach() != options.reach;
+  if (needs_masks || needs_reach) {
+    require_valid(options, problem.num_control_points());
+    auto changed = problem;
+    if (needs_masks) {
+      changed.masks =
+          masks_inside(problem.cage.points, problem.mesh.points, problem.boundary, options.masks);
+      if (changed.masks.empty()) options.masks.clear();
+    }
+    if (needs_reach) changed.phi.set_reach(options.reach);
+    return solve(changed, options, observer);
   }
   if (!options.smoothness) options.smoothness = problem.smoothness;
   require_valid(options, problem.num_control_points());
@@ -274,7 +293,8 @@ template <int Dim>
 Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
                const Observer& observer) {
   require_one_part(mesh, options);
-  return solve_parts(cage, mesh, Reporter(observer), part_solver<Dim>(mesh, options, nullptr));
+  return solve_parts(cage, mesh, Reporter(observer),
+                     part_solver<Dim>(cage, mesh, options, nullptr));
 }
 
 template <int Dim>
@@ -282,7 +302,8 @@ Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                const MeshTopology<Dim>& topology, const SolverOptions& options,
                const Observer& observer) {
   require_one_part(mesh, options);
-  return solve_parts(cage, mesh, Reporter(observer), part_solver<Dim>(mesh, options, &topology));
+  return solve_parts(cage, mesh, Reporter(observer),
+                     part_solver<Dim>(cage, mesh, options, &topology));
 }
 
 template <int Dim>
@@ -326,12 +347,18 @@ struct Solver<Dim>::State {
     duals.reset();
   }
 
-  // The next solve starts from the present duals, with other masks.
-  void change_masks(const std::vector<Mask>& masks) {
+  // The next solve starts from the present duals, with other masks and another reach. Methods
+  // without them start over.
+  void change_problem(const SolverOptions& given) {
     auto& [problem, coarse, distances] = static_cast<NestedProblem<Dim>&>(*shape);
-    auto changed = masks_inside(shape->cage.points, shape->mesh.points, problem.boundary, masks);
-    if (!duals) duals = shape->run->duals();
-    problem.masks = std::move(changed);
+    auto masks =
+        masks_inside(shape->cage.points, shape->mesh.points, problem.boundary, given.masks);
+    if (!duals && plan::inherits(given.method) && shape->run->has_duals()) {
+      duals = shape->run->duals();
+    }
+    coarse.reset();  // has those before
+    problem.masks = std::move(masks);
+    problem.phi.set_reach(given.reach);
     shape->run.emplace(problem);
   }
 
@@ -473,7 +500,9 @@ void Solver<Dim>::set_options(const SolverOptions& options) {
   const bool has_begun = state.shape->run->has_begun() || state.duals;
   if (has_begun && fixed_in_a_run(options) == fixed_in_a_run(state.options) &&
       !state.needs_other_phi(options)) {
-    if (options.masks != state.options.masks) state.change_masks(options.masks);
+    if (options.masks != state.options.masks || options.reach != state.options.reach) {
+      state.change_problem(options);
+    }
     state.options = options;
   } else {
     state.begin(state.shape->cage, state.shape->mesh, options);

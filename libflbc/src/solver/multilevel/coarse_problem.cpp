@@ -103,6 +103,7 @@ std::optional<CoarseProblem<Dim>> make_coarse(const LbcProblem<Dim>& problem, Di
   }
   made->problem.smoothness = problem.smoothness;
   made->problem.masks = masks_on_coarse(problem.masks, *made);
+  made->problem.phi.set_reach(problem.phi.reach());
   set_phi(made->problem, phi);
   return made;
 }
@@ -136,6 +137,7 @@ NestedProblem<Dim> set_up(LbcProblem<Dim> geometry, const plan::Settings& settin
   NestedProblem<Dim> nested{std::move(geometry)};
   auto& [problem, coarse, report] = nested;
   problem.smoothness = *settings.smoothness;
+  problem.phi.set_reach(settings.reach);
   if (plan::inherits(settings.method) || settings.distances == Distances::kInterpolated) {
     coarse = make_coarse(problem, settings.phi);
   }

@@ -38,6 +38,16 @@ void validate_masks(const SolverOptions& options) {
   }
 }
 
+void validate_reach(const std::vector<double>& reach) {
+  constexpr double kMost = 16;
+  for (std::size_t i = 0; i < reach.size(); ++i) {
+    if (reach[i] >= 1 / kMost && reach[i] <= kMost) continue;
+    throw OptionError("reach of control point " + std::to_string(i) +
+                      " must be in [1/16, 16], not " + format_number(reach[i]) +
+                      "; choose a factor in this range, or a mask for weights of 0");
+  }
+}
+
 }  // namespace
 
 void validate(const SolverOptions& options) {
@@ -57,6 +67,7 @@ void validate(const SolverOptions& options) {
   }
   validate_gap(options);
   validate_masks(options);
+  validate_reach(options.reach);
   if (options.active_set == ActiveSet::kOn && (options.certify || options.gap.value_or(0) > 0)) {
     throw OptionError(
         "active_set on has no certificate, which needs the duals of all pairs; choose active_set "

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The reach of control points: a factor of their functions phi, in all ways to solve.
+#include "flbc/harmonic.h"
+#include "flbc/names.h"
+#include "flbc/quality.h"
+#include "support/errors.h"
+#include "support/newton_optimum.h"
+#include "support/refined_sample.h"
+#include "support/solver_options.h"
+
+namespace flbc::testing {
+namespace {
+
+constexpr Method kMethods[] = {Method::kWeights, Method::kGradient, Method::kPaper,
+                               Method::kLbc2014};
+
+// Different for all control points.
+std::vector<double> some_reach(Index n) {
+  std::vector<double> reach;
+  for (Index i = 0; i < n; ++i) reach.push_back(std::pow(2.0, 2 - (3 * i) % 5));
+  return reach;
+}
+
+// phi of the default options, divided here.
+template <int Dim>
+LbcProblem<Dim> divided_problem(const Sample<Dim>& sample, const std::vector<double>& reach) {
+  auto problem = smooth_problem(sample);
+  Eigen::MatrixXd phi = problem.phi.dense();
+  for (Index i = 0; i < phi.rows(); ++i) phi.row(i) /= reach[i];
+  problem.phi = WeightFunctions(phi);
+  return problem;
+}
+
+double squared_difference(const Solution& a, const Solution& b) {
+  const WeightMatrix difference = a.weights.dense() - b.weights.dense();
+  return difference.squaredNorm() / static_cast<double>(difference.size());
+}
+
+// The mean of the weights of a control point over the vertices.
+double mean_weight(const Solution& solution, Index i) {
+  return solution.weights.dense().row(i).mean();
+}
+
+TEST_IN_2D_AND_3D(ReachTest, OnesChangeNothing) {
+  const auto sample = refined_sample<Dim>(Shape::kCorner, 3);
+  for (const auto method : kMethods) {
+    SCOPED_TRACE(name_of(method));
+    SolverOptions options{method};
+    options.max_iterations = 40;
+    const auto free = solve(sample.cage, sample.mesh, options);
+    options.reach.assign(sample.cage.size(), 1);
+    EXPECT_EQ(solve(sample.cage, sample.mesh, options).weights.dense(), free.weights.dense());
+    options.reach = some_reach(sample.cage.size());
+    EXPECT_GT(squared_difference(solve(sample.cage, sample.mesh, options), free), 1e-6);
+  }
+}
+
+TEST_IN_2D_AND_3D(ReachTest, FindsTheOptimumOfNewtonsMethod) {
+  const auto sample = make_sample<Dim>(Shape::kBox, Dim == 2 ? 4 : 3, 0.2);
+  SolverOptions options;
+  options.reach = some_reach(sample.cage.size());
+  const auto problem = divided_problem(sample, options.reach);
+  const auto optimum = NewtonOptimum<Dim>(problem, harmonic_coordinates(problem), true).find();
+  ASSERT_TRUE(optimum);
+  options = many_iterations(3000, options);
+  options.certify = true;
+  const auto solution = solve(sample.cage, sample.mesh, options);
+  EXPECT_LT((solution.weights.dense() - *optimum).cwiseAbs().maxCoeff(), 3e-4);
+  const double least = objective(problem.mesh, problem.phi, *optimum, problem.smoothness) /
+                       std::pow(problem.scale, Dim - 1);
+  EXPECT_NEAR(solution.report.objective, least, 1e-5 * least);
+  EXPECT_LE(solution.report.certificate.lower_bound, least * (1 + 1e-9));
+  EXPECT_LT(solution.report.certificate.relative_gap, 1e-4);
+}
+
+// Problems made before, given phi, multilevel starts, and resumed runs have one optimum.
+TEST_IN_2D_AND_3D(ReachTest, EveryWayToSolveAgrees) {
+  const auto sample = refined_sample<Dim>(Shape::kCorner, Dim == 2 ? 6 : 3);
+  SolverOptions free, options;
+  free.distances = options.distances = Distances::kExact;
+  options.reach = some_reach(sample.cage.size());
+  const auto divided = divided_problem(sample, options.reach);
+  const auto optimum = solve(divided, many_iterations(2000));
+  const auto expect_optimal = [&](const char* what, const Solution& solution) {
+    SCOPED_TRACE(what);
+    EXPECT_LT(squared_difference(solution, optimum), 2e-6);
+    const double own = objective(divided, solution.weights);
+    EXPECT_NEAR(solution.report.objective * std::pow(divided.scale, Dim - 1), own, 1e-9 * own);
+  };
+  const auto solution = solve(sample.cage, sample.mesh, options);
+  EXPECT_EQ(solution.report.coarse_levels.size(), 1u);
+  expect_optimal("from the coarse mesh", solution);
+  expect_optimal("cold", solve(sample.cage, in_other_order(sample.mesh), options));
+  const auto plain = smooth_problem(sample);
+  expect_optimal("a problem without", solve(plain, options));
+  auto given = plain;
+  given.phi = WeightFunctions(plain.phi.dense());
+  expect_optimal("given phi", solve(given, options));
+
+  Solver<Dim> solver(sample.cage, sample.mesh, free);
+  expect_optimal("solved with another reach first", [&] {
+    const auto before = solver.solve();
+    solver.set_options(options);
+    const auto resumed = solver.solve();
+    EXPECT_EQ(resumed.report.coarse_levels.size(), 0u);
+    EXPECT_GT(squared_difference(resumed, before), 1e-5);
+    return resumed;
+  }());
+  solver.move(1.1 * sample.cage.points);
+  solver.move(sample.cage.points);
+  EXPECT_LT(squared_difference(solver.solution(), optimum), 2e-6);
+  solver.restart();
+  expect_optimal("restarted", solver.solve());
+}
+
+TEST_IN_2D_AND_3D(ReachTest, ASolverResumes) {
+  const auto sample = with_fine_cage<Dim>(Shape::kBox, Dim == 2 ? 8 : 3, Dim == 2 ? 16 : 6);
+  Solver<Dim> solver(sample.cage, sample.mesh);
+  solver.solve();
+  SolverOptions options;
+  options.reach.assign(sample.cage.size(), 1);
+  for (const double factor : {2.0, 0.5}) {
+    options.reach[1] = factor;
+    solver.set_options(options);
+    const auto resumed = solver.solve();
+    const auto cold = solve(sample.cage, sample.mesh, options);
+    EXPECT_LT(resumed.report.iterations, cold.report.iterations) << factor;
+    EXPECT_LT(squared_difference(resumed, cold), 2e-6) << factor;
+  }
+}
+
+TEST_IN_2D_AND_3D(ReachTest, ALargerFactorExtendsWeights) {
+  const auto sample = make_sample<Dim>(Shape::kCorner, Dim == 2 ? 8 : 4, 0.2);
+  for (const auto method : {Method::kWeights, Method::kGradient}) {
+    SCOPED_TRACE(name_of(method));
+    double before = 0;
+    for (const double factor : {1.0 / 16, 0.5, 4.0, 16.0}) {
+      SolverOptions options{method};
+      options.reach.assign(sample.cage.size(), 1);
+      options.reach[2] = factor;
+      const double mean = mean_weight(solve(sample.cage, sample.mesh, options), 2);
+      EXPECT_GT(mean, before) << factor;
+      before = mean;
+    }
+  }
+}
+
+TEST(ReachTest, WrongFactorsAreRefused) {
+  const auto sample = make_sample<2>(Shape::kBox, 3);
+  const auto problem = smooth_problem(sample);
+  Solver<2> solver(sample.cage, sample.mesh);
+  const auto refused = [&](const std::vector<double>& reach, const std::string& words) {
+    SolverOptions options;
+    options.reach = reach;
+    const auto expect = [&](auto&& action) { expect_refused<OptionError>(words, action); };
+    expect([&] { solve(sample.cage, sample.mesh, options); });
+    expect([&] { solve(problem, options); });
+    expect([&] { solver.set_options(options); });
+    expect([&] { Solver<2>(sample.cage, sample.mesh, options); });
+  };
+  refused({1, 1, 0, 1}, "reach of control point 2 must be in [1/16, 16], not 0; choose a factor");
+  refused({1, 17, 1, 1}, "reach of control point 1 must be in [1/16, 16], not 17");
+  refused({std::nan(""), 1, 1, 1}, "reach of control point 0 must be in [1/16, 16], not nan");
+  refused({1, 1}, "reach needs a factor for each of the 4 control points, not 2");
+}
+
+}  // namespace
+}  // namespace flbc::testing
