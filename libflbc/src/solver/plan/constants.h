@@ -93,9 +93,9 @@ constexpr int kFewestIterations = 8;
 
 // ---- active set ---------------------------------------------------------------------------------
 
-//! Maximum fraction of all pairs for which it pays. At 0.2 (horse, arm, beast; tolerance 1e-6) it is
-//! as fast on 10,000 vertices and twice as fast on 40,000, and the error is a third; at 0.41 (shark)
-//! it is a quarter slower. In 2D, lists are too short for the iteration.
+//! Maximum fraction of all pairs for which it pays. At 0.2 (horse, arm, beast; tolerance 1e-6) it
+//! is as fast on 10,000 vertices and twice as fast on 40,000, and the error is a third; at 0.41
+//! (shark) it is a quarter slower. In 2D, lists are too short for the iteration.
 constexpr double kActiveDensity = 0.3;
 //! With masks, a cold start with fewer pairs has them all.
 constexpr double kActivePairs = 4e5;
