@@ -422,8 +422,9 @@ test("a region is painted on the front of the model, and weights obey the latest
   const protector = new Protector(viewer, {
     protect: async (masks) => {
       asked.push(masks);
-      const given = masks.masks ?? masks;
-      return { onFacets: 0, conflict, masks: given.map((mask) => ({ controlPoints: mask.control_points.slice(0, 1), vertices: mask.region.vertices })) };
+      const given = masks.masks ?? masks, reach = Array(8).fill(1);
+      for (const { control_points: [i], factor } of masks.reach ?? []) reach[i] = factor;
+      return { onFacets: 0, conflict, reach: masks.reach ? reach : [], masks: given.map((mask) => ({ controlPoints: mask.control_points.slice(0, 1), vertices: mask.region.vertices })) };
     },
     refine: async () => ({ converged: asked.at(-1) === "refine" || asked.push("refine") > 0 }),
   });
@@ -498,6 +499,30 @@ test("a region is painted on the front of the model, and weights obey the latest
   await settled();
   assert.deepEqual(protector.accepted, protector.masks());
   assert.equal(protector.masks().every((mask) => mask.control_points.length === 1), true);
+
+  // The reach of the selection is solved for, undone, saved, and loaded with the masks.
+  viewer.editor.select([2, 6]);
+  protector.setReach(0.5);
+  await settled();
+  viewer.editor.select([6]);
+  protector.setReach(4);
+  await settled();
+  const reach = [{ control_points: [2], factor: 0.5 }, { control_points: [6], factor: 4 }];
+  assert.deepEqual(asked.at(-2), { masks: protector.masks(), reach });
+  assert.deepEqual(protector.accepted, protector.locality());
+  protector.setReach(1);
+  await settled();
+  assert.deepEqual(asked.at(-2).reach, reach.slice(0, 1));
+  protector.undo();
+  assert.deepEqual(protector.factors(), reach);
+  await settled();
+  const saved = protector.locality();
+  for (const _ of reach) protector.undo();
+  await settled();
+  assert.deepEqual(asked.at(-2), protector.masks(), "no reach is left");
+  await protector.load(saved);
+  await settled();
+  assert.deepEqual(protector.locality(), saved);
 });
 
 test("an edge of a cage is split, and control points are merged", () => {

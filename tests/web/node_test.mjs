@@ -164,6 +164,18 @@ assert.equal(relaxed.conflict, undefined);
 assert.deepEqual(relaxed.freed, conflict.controlPoints);
 await assert.rejects(flbc.protect([{ control_points: [999], region: [0] }]), { name: "InputError", message: /^locality.json: .*control point 999/ });
 
+// A larger reach extends the weights of its control points.
+const meanWith = async (factor) => {
+  const { reach } = await flbc.protect({ reach: [{ control_points: controlPoints, factor }] });
+  assert.deepEqual([...reach.keys()].filter((i) => reach[i] === factor), controlPoints);
+  let reply;
+  do reply = await flbc.move({ refine: true }); while (!reply.converged);
+  return reply.weights.values.reduce((sum, value, k) => sum + (controlPoints.includes(reply.weights.controlPoints[k]) ? value : 0), 0);
+};
+const near = await meanWith(0.25);
+assert.ok(await meanWith(4) > 1.02 * near);
+await flbc.protect([]);
+
 // Arrays instead of files.
 const cage = await flbc.cage();
 const mesh = { points: [0.1, 0.1, 0.1, 0.2, 0.1, 0.1, 0.1, 0.2, 0.1], triangles: [0, 1, 2] };

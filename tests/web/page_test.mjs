@@ -440,6 +440,20 @@ async function testProtecting() {
   assert.ok((await masks()).length > 0);
   await app.shot("protect_released");
 
+  // The slider shows and sets the reach of the selection.
+  await app.ask("select", [0]);
+  await tab.$eval("#reach", (slider) => {
+    slider.value = -2;
+    for (const kind of ["input", "change"]) slider.dispatchEvent(new Event(kind));
+  });
+  assert.match(await app.text("reachFactor"), /0\.25/);
+  await settled();
+  const factors = await tab.evaluate(() => globalThis.flbcApp.protector.accepted.reach);
+  assert.deepEqual(factors, [{ control_points: [0], factor: 0.25 }]);
+  await app.ask("select", [1]);
+  assert.match(await app.text("reachFactor"), /× 1$/);
+  await app.shot("protect_reach");
+
   // Another worker, which a new model that is refused starts, knows the region.
   const bad = join(work, "bad.obj");
   writeFileSync(bad, "v 0 0 zero\n");
@@ -450,7 +464,7 @@ async function testProtecting() {
     await prepared;
     const { starts, controlPoints, values } = await flbc.weights();
     const isMoved = (v, i) => { for (let k = starts[v]; k < starts[v + 1]; ++k) if (controlPoints[k] === i && values[k] !== 0) return true; return false; };
-    return { starts: starts.length, accepted: protector.accepted.every(({ control_points: list, region }) =>
+    return { starts: starts.length, accepted: protector.accepted.masks.every(({ control_points: list, region }) =>
       list.every((i) => region.vertices.every((v) => !isMoved(v, i)))) };
   });
   assert.ok(accepted && starts > 1);

@@ -33,7 +33,13 @@ export interface Solution {
 }
 
 /** The content of a locality file: docs/how-to/locality.md. Control points must not move vertices of the region. */
-export type Locality = LocalityMask[] | { masks: LocalityMask[]; conflicts?: "fail" | "relax" };
+export type Locality = LocalityMask[] | {
+  /** Required without `reach`. */
+  masks?: LocalityMask[];
+  conflicts?: "fail" | "relax";
+  /** Factors from 1/16 to 16; weights extend farther with a larger one. */
+  reach?: { control_points: LocalityMask["control_points"]; factor: number }[];
+};
 export interface LocalityMask {
   control_points: number[] | { vertices: number[] } | { box: [number[], number[]] };
   region: number[] | { vertices: number[] } | { box: [number[], number[]] } | { group: string };
@@ -41,6 +47,8 @@ export interface LocalityMask {
 
 export interface Protection {
   masks: { controlPoints: number[]; vertices: number[] }[];
+  /** The factor of each control point; empty if none are given. */
+  reach: number[];
   /** Vertices on facets of masked control points, which still move them. */
   onFacets: number;
   /** Control points that "relax" removed from the masks. */
@@ -94,7 +102,7 @@ export class Flbc {
   setMesh(points: Numbers, cells: Indices): Promise<void>;
 
   solve(options?: SolveOptions, onProgress?: OnProgress): Promise<{ iterations: number; objective: number; converged: boolean }>;
-  /** Regions of the model that control points must not move, for the next solve() or move({ refine: true }). */
+  /** Regions of the model that control points must not move, and their reach, for the next solve() or move({ refine: true }). */
   protect(locality: Locality | ArrayBuffer | Uint8Array): Promise<Protection>;
   /** What makeMesh() and solve() have computed. */
   solution(): Promise<Solution>;

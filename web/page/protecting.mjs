@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Regions of the model that control points must not move, painted by a brush. Weights are solved for
-// the latest stroke, one at a time.
+// Regions of the model that control points must not move, painted by a brush, and the reach of
+// control points. Weights are solved for the latest stroke, one at a time.
 import { element, tell } from "../../apps/view/page/panel.mjs";
 import { download } from "../../apps/view/page/saving.mjs";
 import { add, length, pointAt } from "../../apps/view/page/vectors.mjs";
@@ -38,8 +38,9 @@ export class Protector {
     this.viewer = viewer;
     this.ask = ask;
     this.masked = new Map();  // by vertex: the control points that must not move it, as text
-    this.sent = null;         // the last of these that were sent
-    this.accepted = [];       // the masks that the weights obey
+    this.reach = new Map();   // by control point: a factor other than 1
+    this.sent = null;         // the last regions that were sent; another reach makes others
+    this.accepted = [];       // the locality that the weights obey
     this.done = [];
     this.undone = [];
     this.radius = 30;         // pixels
@@ -69,6 +70,28 @@ export class Protector {
     return [...regions].map(([key, vertices]) => ({ control_points: listed(key), region: { vertices } }));
   }
 
+  factors() {
+    return [...this.reach].map(([i, factor]) => ({ control_points: [i], factor }));
+  }
+
+  locality() {
+    return this.reach.size > 0 ? { masks: this.masks(), reach: this.factors() } : this.masks();
+  }
+
+  get state() { return { masked: this.masked, reach: this.reach }; }
+
+  // \param factor  of phi of the selection is divided; more lets weights extend farther
+  setReach(factor) {
+    const before = this.state;
+    this.masked = new Map(this.masked);
+    this.reach = new Map(this.reach);
+    for (const i of this.viewer.editor.selection) {
+      if (factor === 1) this.reach.delete(i);
+      else this.reach.set(i, factor);
+    }
+    this.keep(before);
+  }
+
   // ------------------------------------------------------------------------------------- strokes
 
   // \return whether the pointer is on the model
@@ -80,7 +103,7 @@ export class Protector {
       this.tell("First select the control points that must not move the region");
       return true;
     }
-    this.stroke = { spot, before: this.masked, selection, erases: erases || this.erases, after: new Map() };
+    this.stroke = { spot, before: this.state, selection, erases: erases || this.erases, after: new Map() };
     this.masked = new Map(this.masked);
     this.to(spot);
     return true;
@@ -103,7 +126,7 @@ export class Protector {
 
   cancel() {
     if (!this.stroke) return;
-    this.masked = this.stroke.before;
+    Object.assign(this, this.stroke.before);
     this.stroke = this.sent = null;
     this.solve();
   }
@@ -161,17 +184,18 @@ export class Protector {
   swap(from, to) {
     this.cancel();
     if (from.length === 0) return;
-    to.push(this.masked);
-    this.masked = from.pop();
+    to.push(this.state);
+    Object.assign(this, from.pop());
     this.solve();
   }
 
-  // Takes the masks of a file. \param locality  its bytes, or its content
+  // Takes a file. \param locality  its bytes, or its content
   async load(locality) {
     try {
-      const { masks } = await this.ask.protect(locality);
-      const before = this.masked;
+      const { masks, reach } = await this.ask.protect(locality);
+      const before = this.state;
       this.masked = new Map();
+      this.reach = new Map([...(reach ?? []).entries()].filter(([, factor]) => factor !== 1));
       for (const { controlPoints, vertices } of masks) {
         for (const vertex of controlPoints.length > 0 ? vertices : []) {
           this.masked.set(vertex, united(this.masked.get(vertex), controlPoints));
@@ -185,7 +209,7 @@ export class Protector {
 
   save() {
     const name = `${this.viewer.content.title}_locality.json`;
-    download(name, new Blob([JSON.stringify(this.masks())]));
+    download(name, new Blob([JSON.stringify(this.locality())]));
     this.tell(`Saved ${name}`);
   }
 
@@ -198,11 +222,11 @@ export class Protector {
     if (isBusy) return;
     while (!this.stroke && this.sent !== this.masked) {
       const masked = this.sent = this.masked;
-      const masks = this.masks();
+      const locality = this.locality();
       try {
-        this.reply = await this.ask.protect(masks);
+        this.reply = await this.ask.protect(locality);
         if (this.reply.conflict) continue;
-        this.accepted = masks;
+        this.accepted = locality;
         let reply = await this.ask.refine();
         while (this.viewer.reshaper.take(reply) && !reply.converged && this.masked === masked) reply = await this.ask.refine();
       } catch (error) {
@@ -259,6 +283,9 @@ export function bindProtecting(protector) {
   const { onPivot, onState } = viewer;
   const onClick = (id, action) => element(id).addEventListener("click", action);
   protector.tell = tell;
+  const reach = element("reach");
+  const showReach = () => { element("reachFactor").textContent = `× ${Number((2 ** reach.value).toPrecision(2))}`; };
+  let shown = null;
   element("outline").insertAdjacentHTML("afterend", '<svg id="marks"></svg>');
   viewer.onPivot = (spot) => { onPivot(spot); protector.drawOver(); };
   viewer.onState = () => {
@@ -267,13 +294,23 @@ export function bindProtecting(protector) {
     element("erase").setAttribute("aria-pressed", String(protector.erases));
     element("release").hidden = !protector.reply.conflict;
     element("protected").textContent = protector.describe();
+    // Not while the slider is dragged.
+    const { reach: factors, viewer: { editor: { selection } } } = protector;
+    const state = [...selection].map((i) => [i, factors.get(i)]).join();
+    if (state === shown) return;
+    shown = state;
+    reach.disabled = selection.size === 0;
+    reach.value = Math.log2(factors.get([...selection][0]) ?? 1);
+    showReach();
   };
   onClick("paint", () => protector.toggle());
   onClick("erase", () => { protector.erases = !protector.erases; viewer.changed(); });
-  onClick("release", () => protector.load({ masks: protector.masks(), conflicts: "relax" }));
+  onClick("release", () => protector.load({ masks: protector.masks(), reach: protector.factors(), conflicts: "relax" }));
   onClick("saveLocality", () => protector.save());
   onClick("loadLocality", () => element("localityFile").click());
   element("brush").addEventListener("input", ({ target }) => { protector.radius = Number(target.value); });
+  reach.addEventListener("input", showReach);
+  reach.addEventListener("change", () => protector.setReach(2 ** Number(reach.value)));
   element("localityFile").addEventListener("change", async ({ target }) => {
     if (target.files.length > 0) protector.load(await target.files[0].arrayBuffer());
     target.value = "";

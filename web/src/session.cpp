@@ -390,7 +390,9 @@ class Work {
 
   val solve(const Json& options) {
     auto binding = rig().options();
+    auto reach = std::move(binding.solver.reach);
     binding.solver = solver_options(options);
+    binding.solver.reach = std::move(reach);
     rig_->set_options(binding);
     solver_given_ = options;
     const auto& of = rig_->solve().report;
@@ -400,18 +402,18 @@ class Work {
                       {"converged", of.status == SolveStatus::kConverged}});
   }
 
-  // Takes the masks of a locality file for the next solve, unless vertices cannot obey.
+  // Takes masks and reach of a locality file for the next solve, unless vertices cannot obey.
   val protect() {
     auto binding = rig().options();
     const auto locality = app::load_locality(kLocalityFile, cage_, points(), file_);
-    if (locality.reach.size() > 0) {
-      throw InputError(std::string(kLocalityFile) +
-                       ": the page has no reach; remove \"reach\" to use the masks");
-    }
     binding.masks = locality.masks;
+    binding.solver.reach = locality.reach;
     Index on_facets = 0;
     end_at_facets(cage_, points(), binding.masks, &on_facets);
-    Json reply{{"masks", Json::array()}, {"freed", locality.freed}, {"onFacets", on_facets}};
+    Json reply{{"masks", Json::array()},
+               {"reach", locality.reach},
+               {"freed", locality.freed},
+               {"onFacets", on_facets}};
     for (const auto& [control_points, region] : binding.masks) {
       reply["masks"].push_back({{"controlPoints", control_points}, {"vertices", region}});
     }

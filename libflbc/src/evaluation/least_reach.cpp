@@ -38,11 +38,11 @@ Index last_needed(const PointList<Dim>& control_points, const Vector<Dim>& point
 
 template <int Dim>
 LeastReach<Dim> least_reach(const Cage<Dim>& cage, const PointList<Dim>& points) {
-  constexpr double kCoincidence = 1e-10;  // of the cage size
+  constexpr double kOnHull = 1e-10;  // of the cage size
   const double size = bounding_box_diagonal(cage.points);
   std::vector<Index> needed(points.cols());
   parallel_for(points.cols(), [&](Eigen::Index p) {
-    needed[p] = last_needed<Dim>(cage.points, points.col(p), kCoincidence * size);
+    needed[p] = last_needed<Dim>(cage.points, points.col(p), kOnHull * size);
   });
   LeastReach<Dim> reach;
   std::vector<double> all;
