@@ -4,11 +4,12 @@
 #include <memory>
 
 #include "commands/commands.h"
+#include "files/gltf_facts.h"
 #include "files/load.h"
 #include "files/movable_model.h"
 #include "flbc/errors.h"
 #include "flbc/io/weights_io.h"
-#include "solve/weights_of_model.h"
+#include "model/gltf_edit.h"
 #include "system/held_signals.h"
 
 namespace flbc::app {
@@ -17,9 +18,8 @@ namespace {
 struct ConvertArguments {
   std::string input;
   std::string output;
-  std::string cage;        // of weights; empty = not known
-  std::string points;      // model or mesh of weights; empty = not known
-  bool transpose = false;  // the input has control points as rows
+  bool transpose = false;   // the input has control points as rows
+  bool is_unposed = false;  // the input loses its skins
   bool quiet = false;
 };
 
@@ -44,39 +44,30 @@ void check_mesh_arguments(const ConvertArguments& files) {
     throw OptionError(files.output + ": a mesh cannot be written as weights; choose from " +
                       io::extensions_of(kMeshFiles));
   require_formats({files.input, files.output, false, true});
-  if (files.transpose || !files.cage.empty() || !files.points.empty()) {
-    throw OptionError("--cage, --points, and --transpose are for weights, but " + files.input +
-                      " is a mesh");
+  if (files.transpose) {
+    throw OptionError("--transpose is for weights, but " + files.input + " is a mesh");
   }
 }
 
 void check_arguments(const ConvertArguments& files) {
+  if (files.is_unposed && !is_gltf_file(files.input)) {
+    throw OptionError("--bind-pose is for .glb, .gltf, and .vrm, not for " + files.input);
+  }
+  if (files.is_unposed && io::extension_of(files.output) != "glb") {
+    throw OptionError("--bind-pose writes .glb, not " + files.output +
+                      "; convert the .glb file in a second step");
+  }
   if (is_weight_file(files.input)) {
     check_weight_arguments(files);
   } else {
     check_mesh_arguments(files);
   }
-  require_distinct({files.input, files.cage, files.points}, {files.output});
-}
-
-SparseWeights load_weights(const ConvertArguments& files) {
-  auto weights = io::read_weights(files.input);
-  if (files.transpose) weights = WeightMatrix(weights.dense().transpose());
-  const Index given_controls = weights.num_control_points(), given_points = weights.num_points();
-  const Index num_controls = files.cage.empty() ? given_controls : count_vertices(files.cage);
-  const Index num_points = files.points.empty() ? given_points : count_vertices(files.points);
-  const bool is_turned = num_controls == given_points && num_points == given_controls;
-  if (is_turned && num_controls != num_points) {
-    throw InputError(files.input + (files.transpose
-                                        ? ": has points as rows; leave out --transpose"
-                                        : ": has control points as rows; give --transpose"));
-  }
-  check_sizes(weights, num_controls, num_points, {files.input, files.cage, files.points});
-  return weights;
+  require_distinct({files.input}, {files.output});
 }
 
 void convert_weights(const ConvertArguments& files) {
-  const auto weights = load_weights(files);
+  auto weights = io::read_weights(files.input);
+  if (files.transpose) weights = WeightMatrix(weights.dense().transpose());
   naming(files.input, [&] {
     const HeldSignals held;
     io::write_weights(files.output, weights);
@@ -100,6 +91,11 @@ void convert_mesh(const ConvertArguments& files) {
   std::visit(convert, load_any_model({files.input, files.output, false, true}));
 }
 
+void convert_to_bind_pose(const ConvertArguments& files) {
+  write_text(files.output, io::unposed_gltf(files.input));
+  if (!files.quiet) std::cerr << files.output << ": " << files.input << " as it was bound\n";
+}
+
 }  // namespace
 
 void add_convert_command(CLI::App& app, int&) {
@@ -117,15 +113,16 @@ void add_convert_command(CLI::App& app, int&) {
   command->add_option("IN", a.input, "file to convert")->required();
   command->add_option("-o,--output", a.output, "converted file, of the same kind as IN")
       ->required();
-  command->add_option("--cage", a.cage,
-                      "cage of the weights, to check the number of control points");
-  command->add_option("--points", a.points,
-                      "model or mesh of the weights, to check the number of vertices");
   command->add_flag("--transpose", a.transpose, "read control points as rows");
+  command->add_flag("--bind-pose", a.is_unposed,
+                    "write a glTF model as its skins were bound, without these");
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);
-    is_weight_file(arguments->input) ? convert_weights(*arguments) : convert_mesh(*arguments);
+    const auto convert = arguments->is_unposed              ? convert_to_bind_pose
+                         : is_weight_file(arguments->input) ? convert_weights
+                                                            : convert_mesh;
+    convert(*arguments);
   });
 }
 

@@ -192,14 +192,6 @@ AnyModel load_any_model(const MovedFile& file) {
   return MovableModel<2>(file);  // .vtu: refuses with the way out
 }
 
-Index count_vertices(const std::string& path) {
-  if (is_point_file(path)) return io::read_weights(path).num_points();
-  if (is_model_file(path)) return static_cast<Index>(io::read_polygons(path).points.size());
-  require_mesh_readable(path);
-  return std::visit([](const auto& any) { return static_cast<Index>(any.points().cols()); },
-                    load_any_model({path, path}));
-}
-
 template void require_formats_of<2>(const MovedFile&);
 template void require_formats_of<3>(const MovedFile&);
 template class MovableModel<2>;

@@ -98,7 +98,4 @@ using AnyModel = std::variant<MovableModel<2>, MovableModel<3>>;
 //! \throws OptionError, IoError, InputError
 AnyModel load_any_model(const MovedFile& file);
 
-//! The number of vertices of a model or a mesh of the interior. \throws IoError, InputError
-Index count_vertices(const std::string& path);
-
 }  // namespace flbc::app

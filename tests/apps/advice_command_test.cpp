@@ -145,12 +145,6 @@ flbc sparsify w.npy --cage square.obj --points model.obj -k 3 --threshold 0.1 -o
 2 flbc sparsify w.npy --cage square.obj --points points.obj -k 3 --reduction poisson -o x.npy
 flbc sparsify w.npy --cage square.obj --points model.obj -k 3 --reduction poisson -o x.npy
 flbc sparsify w.npy --cage square.obj --points points.obj -k 3 --reduction quadratic -o x.npy
-# : has control points as rows; give --transpose
-2 flbc convert w.npy --transpose -o x.npy; flbc convert x.npy --cage square.obj --points model.obj -o y.npy
-flbc convert x.npy --cage square.obj --points model.obj --transpose -o y.npy
-# : has points as rows; leave out --transpose
-2 flbc convert w.npy --cage square.obj --points model.obj --transpose -o x.npy
-flbc convert w.npy --cage square.obj --points model.obj -o x.npy
 # save the array with astype('<f8')
 2 sed 's/<f8/>f8/' w.npy >x.npy; flbc info x.npy
 flbc info w.npy

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc convert as its users and their scripts see it.
+#include "flbc/io/cage_io.h"
 #include "flbc/io/mesh_io.h"
 #include "support/command_line.h"
 #include "support/io_files.h"
+#include "support/new_glb.h"
 
 namespace flbc::testing {
 namespace {
@@ -48,27 +50,11 @@ TEST_F(ConvertCommand, WeightsBetweenAllFormats) {
   EXPECT_EQ(run("convert -q a.npy -o d.csv").errors, "");
 }
 
-TEST_F(ConvertCommand, SizesAreThoseOfTheFiles) {
-  write_weights("a.npy");
-  const auto few = file("few.obj", "v 0 0\nv 1 0\n");
-  expect_refused("a.npy -o b.npy --cage " + few, 2,
-                 "a.npy: has weights for 3 control points, but few.obj has 2");
-  expect_refused("a.npy -o b.npy --points " + few, 2,
-                 "a.npy: has weights of 5 points, but few.obj has 2 vertices");
-}
-
 TEST_F(ConvertCommand, Transpose) {
-  const auto cage = file("cage.obj", "v 0 0\nv 1 0\nv 0 1\n");
   const auto weights = write_weights("a.npy");
   io::write_weights("t.npy", weights.transpose());
   expect_converted("t.npy --transpose -o b.npy");
   EXPECT_TRUE(bit_equal(read("b.npy"), weights));
-
-  const auto points = file("points.obj", "v 0 0\nv 0 0\nv 0 0\nv 0 0\nv 0 0\n");
-  const auto files = " --cage " + cage + " --points " + points + " -o d.npy";
-  expect_refused("t.npy" + files, 2, "t.npy: has control points as rows; give --transpose");
-  expect_refused("a.npy" + files + " --transpose", 2, "leave out --transpose");
-  expect_converted("t.npy" + files + " --transpose");
 }
 
 TEST_F(ConvertCommand, WhatModelsLoseIsTold) {
@@ -84,6 +70,35 @@ TEST_F(ConvertCommand, WhatModelsLoseIsTold) {
   const auto flat = file("flat.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n# a\n");
   expect_converted(flat + " -o b.vtu", "flat.obj; lost: comments, colors\n");
   expect_piece(slurp("b.vtu"), "NumberOfCells=\"1\"");
+}
+
+// A triangle that its joint has moved by 5, in a node that is moved by 2.
+TEST_F(ConvertCommand, SkinnedModelsGoBackToTheirBindPose) {
+  NewGlb skinned(R"({"scene":0,"scenes":[{"nodes":[0,1]}],"nodes":[
+    {"mesh":0,"skin":0,"translation":[2,0,0],"name":"body"},{"translation":[5,0,0]}],
+    "meshes":[{"primitives":[{}]}],"skins":[{"joints":[1]}],"materials":[{"name":"cloth"}]})");
+  const Eigen::Matrix3d corners = Eigen::Matrix3d::Identity();
+  const NewGlb::Json attributes = {
+      {"POSITION", skinned.add<float>(corners)},
+      {"JOINTS_0", skinned.add<std::uint8_t>(Eigen::MatrixXd::Zero(4, 3))},
+      {"WEIGHTS_0", skinned.add<float>(Eigen::MatrixXd::Identity(4, 3))}};
+  skinned.primitive(0) = {{"attributes", attributes}, {"material", 0}};
+  const auto posed = file("posed.glb", skinned.glb());
+  expect_converted(posed + " --bind-pose -o rest.glb", "rest.glb");
+  const auto points = [](const std::string& path) {
+    return io::to_points<3>(io::read_polygons(path), path);
+  };
+  EXPECT_EQ(points(posed), (corners.colwise() + Vector<3>(5, 0, 0)).eval());
+  EXPECT_EQ(points("rest.glb"), (corners.colwise() + Vector<3>(2, 0, 0)).eval());
+  const auto json = GlbChunks(slurp("rest.glb")).json;
+  EXPECT_FALSE(json.contains("skins"));
+  EXPECT_EQ(json["materials"], skinned.json["materials"]);
+  EXPECT_EQ(json["meshes"][0]["primitives"][0]["attributes"].size(), 1);
+
+  expect_refused("rest.glb --bind-pose -o b.glb", 2, "rest.glb: the file has no skin");
+  expect_refused(posed + " --bind-pose -o b.obj", 1, "b.obj; convert the .glb file in a second");
+  write_weights("a.npy");
+  expect_refused("a.npy --bind-pose -o b.glb", 1, "not for a.npy");
 }
 
 TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {

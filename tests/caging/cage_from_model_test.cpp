@@ -313,6 +313,44 @@ TEST(CageLimitsTest, ConvexModelsGetLittleMoreThanTheirHull) {
   EXPECT_LE(make(rod, {}).volume_ratio, 1.1);
 }
 
+// Rounding puts vertices of faces above or below them, as in files of single precision.
+TEST(CageLimitsTest, RoundedFacesOfConvexModelsAreFlat) {
+  const Eigen::AngleAxisd turn(0.6, Vector<3>(1, 2, 0.5).normalized());
+  for (const double thickness : {1.0, 0.02}) {
+    SCOPED_TRACE(thickness);
+    auto plate = subdivided(box_cage<3>(Vector<3>(5, 5, 5), Vector<3>(8, 6.4, 5 + thickness)), 2);
+    plate.points = turn.toRotationMatrix() * plate.points;
+    for (const bool is_single : {false, true}) {
+      if (is_single) plate.points = plate.points.cast<float>().cast<double>().eval();
+      const auto made = make(plate, {});
+      EXPECT_LE(made.cage.size(), 30);
+      EXPECT_LE(made.volume_ratio, 1.1);
+    }
+  }
+}
+
+// A globe has vertices that are their own mirror images but for rounding.
+TEST(CageLimitsTest, GlobesGetLittleMoreThanTheirHull) {
+  constexpr int kMeridians = 24, kBands = 12;
+  const double step = 2 * std::acos(-1.0) / kMeridians;
+  PointList<3> points(3, kMeridians * (kBands + 1));
+  std::vector<Index> corners;
+  for (int v = 0; v < points.cols(); ++v) {
+    const int band = v / kMeridians, east = band * kMeridians + (v + 1) % kMeridians;
+    const double radius = std::sin(band * step);
+    points.col(v) << radius * std::cos(v * step), radius * std::sin(v * step),
+        std::cos(band * step);
+    if (band == kBands) continue;
+    // Poles have one triangle per meridian.
+    if (band > 0) corners.insert(corners.end(), {v, east + kMeridians, east});
+    if (band + 1 < kBands) corners.insert(corners.end(), {v, v + kMeridians, east + kMeridians});
+  }
+  const FacetList<3> facets = Eigen::Map<const Eigen::Matrix<Index, 3, Eigen::Dynamic>>(
+      corners.data(), 3, static_cast<Eigen::Index>(corners.size() / 3));
+  const double volume = measure_cage(make(Cage<3>{points, facets}, {}).cage).measure;
+  EXPECT_LE(volume, 1.1 * 4 / 3 * std::acos(-1.0));
+}
+
 // Points on a ball, and the triangles of their hull are not given.
 TEST(CageLimitsTest, RoundModelsGetLittleMoreThanTheirHull) {
   std::mt19937 random(5);

@@ -166,6 +166,8 @@ TEST_F(GltfDocumentTest, DamagedSkinsAreRefused) {
   refuse(skinned.file, "a joint that is out of range");
   skinned.file.json["skins"][0]["joints"] = Json::array();
   refuse(skinned.file, "has no joints");
+  skinned.file.json["skins"][0]["joints"] = {1, 7};
+  refuse(skinned.file, "array index 7 is out of range");
   skinned.file.json["skins"][0]["joints"] = {1, 2, 0};
   refuse(skinned.file, "fewer inverse bind matrices");
 }
@@ -252,6 +254,13 @@ TEST_F(GltfDocumentTest, AddressesAreDecoded) {
 
 // --------------------------------------------------------------------------- what is not
 // understood
+
+TEST_F(GltfDocumentTest, FilesWithoutTheirBuffersAreNamed) {
+  auto file = tetrahedron();
+  file.json["buffers"][0]["uri"] = "gone%21.bin";
+  make("lost.glb", file.glb());
+  expect_error<IoError>([&] { ModelFile(path("lost.glb")); }, {"lost.glb: ", "gone!.bin"});
+}
 
 TEST_F(GltfDocumentTest, ExtensionsAreRefusedOrNoted) {
   auto file = tetrahedron();

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -39,6 +40,39 @@ Vector<3> centroid(const Cage<3>& surface) {
     sum += corners.determinant() * corners.rowwise().sum() / 4;
   }
   return origin + sum / volume;
+}
+
+// The hull without points that only rounding, as in files of single precision, has made corners.
+// They are in a face, on an edge, or at another point. \param size  of the points
+Cage<3> hull_of_corners(const PointList<3>& points, double size) {
+  const double tolerance = 1.618e-6 * size;  // round places are at no border of cells
+  auto hull = convex_hull(simplified<3>(points, {}, tolerance).points);
+  for (Index before = hull.size() + 1; hull.size() < before;) {
+    before = hull.size();
+    PointList<3> normals = PointList<3>::Zero(3, hull.size());
+    for (const auto& facet : hull.facets.colwise()) {
+      const Eigen::Matrix3d corners = hull.points(Eigen::all, facet);
+      const Vector<3> normal = facet_normal<3>(corners);
+      const double length = (corners.colwise() - corners.col(0)).colwise().norm().maxCoeff();
+      if (!(normal.norm() > tolerance * length)) continue;
+      for (const Index v : facet) normals.col(v) += normal.normalized();
+    }
+    std::vector<bool> is_flat(hull.size(), false);
+    for (const auto& facet : hull.facets.colwise()) {
+      for (int k = 0; k < 3; ++k) {
+        // By convexity, all neighbors of a corner are below it.
+        const Index v = facet(k), next = facet((k + 1) % 3);
+        const Vector<3> edge = hull.points.col(v) - hull.points.col(next);
+        is_flat[v] = is_flat[v] || (!is_flat[next] && normals.col(v).dot(edge) < tolerance);
+      }
+    }
+    std::vector<Index> corners;
+    for (Index v = 0; v < hull.size(); ++v) {
+      if (!is_flat[v]) corners.push_back(v);
+    }
+    hull = convex_hull(hull.points(Eigen::all, corners));
+  }
+  return hull;
 }
 
 // A hull of fewer points, enlarged to enclose the hull; round models have thousands. \param center
@@ -80,7 +114,7 @@ ConvexSurface convex_surface(const PointList<3>& points, double thickness) {
     solid << points.colwise() + thickness / 2 * frame.axes.col(0),
         points.colwise() - thickness / 2 * frame.axes.col(0);
   }
-  ConvexSurface result{convex_hull(solid), 0, kNoLimit, 0};
+  ConvexSurface result{hull_of_corners(solid, extent.z()), 0, kNoLimit, 0};
   auto& surface = result.surface;
   const Vector<3> center = centroid(surface);
   result.hull_volume = signed_measure<3>(surface, center);

@@ -17,16 +17,13 @@ namespace {
 
 using Json = io::GltfJson;
 using io::GltfPart;
+using io::is_about_influences;
 
 // Length of joints drawn as bones, relative to cage size.
 constexpr float kBoneLength = 0.02F;
 
 Json list_of(const Eigen::Vector3d& point) {
   return {point.x(), point.y(), point.z()};
-}
-
-bool is_about_influences(const std::string& attribute) {
-  return attribute.compare(0, 7, "JOINTS_") == 0 || attribute.compare(0, 8, "WEIGHTS_") == 0;
 }
 
 // Adds skin, joints, and animation to a document.

@@ -161,6 +161,10 @@ template <class Action>
 auto refusing_damage(const std::string& path, const Action& action) {
   try {
     return action();
+  } catch (const GltfJson::out_of_range& error) {
+    const std::string_view reason = error.what();
+    throw InputError(path + ": not a glTF file, or damaged:" +
+                     std::string(reason.substr(reason.find(']') + 1)) + "; export it again");
   } catch (const GltfJson::exception&) {
     throw InputError(path + ": not a glTF file, or damaged");
   } catch (const std::out_of_range&) {

@@ -123,6 +123,10 @@ std::string media_type_of(const std::string& picture) {
                                                                                   : "";
 }
 
+bool is_about_influences(const std::string& attribute) {
+  return attribute.compare(0, 7, "JOINTS_") == 0 || attribute.compare(0, 8, "WEIGHTS_") == 0;
+}
+
 GltfEdit::GltfEdit(const GltfSource& source) : document(source.path, read_file(source.path)) {
   accessors_ = numbers_at(document.json, kToAccessors);
   views_ = numbers_at(document.json, kToViews);
@@ -315,6 +319,29 @@ std::string moved_gltf(const Model& model) {
       const auto motion = motion_of(edit, part, model, before, changes);
       if (std::count(motion.moves.begin(), motion.moves.end(), true) > 0) edit.move(part, motion);
     }
+    return edit.glb();
+  });
+}
+
+std::string unposed_gltf(const std::string& path) {
+  return refusing_damage(path, [&] {
+    GltfEdit edit(GltfSource{path, {}});
+    auto& json = edit.document.json;
+    const GltfPaths to_skins{"nodes/*/skin"};
+    const auto skins = numbers_at(json, to_skins);
+    if (skins.empty()) edit.document.fail("the file has no skin, so nothing is posed");
+    for (auto& node : json["nodes"]) node.erase("skin");
+    drop_unused(json, "skins", to_skins, skins);
+    for (auto& mesh : json["meshes"]) {
+      for (auto& primitive : mesh.at("primitives")) {
+        auto kept = GltfJson::object();
+        for (const auto& [name, accessor] : primitive.at("attributes").items()) {
+          if (!is_about_influences(name)) kept[name] = accessor;
+        }
+        primitive["attributes"] = std::move(kept);
+      }
+    }
+    if (extension_of(path) == "gltf") edit.embed_pictures();
     return edit.glb();
   });
 }

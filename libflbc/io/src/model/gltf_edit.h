@@ -66,6 +66,13 @@ class GltfEdit {
 //! The .glb file of a model that was read from such a file, with its vertices and normals moved.
 std::string moved_gltf(const Model& model);
 
+//! The .glb file of a model without skins: each mesh is where its node is, as it was bound.
+//! \throws InputError if there are none; IoError
+std::string unposed_gltf(const std::string& path);
+
+//! Whether an attribute of vertices belongs to a skin.
+bool is_about_influences(const std::string& attribute);
+
 //! "image/png", "image/jpeg", "image/webp", or "image/ktx2"; empty for other bytes.
 std::string media_type_of(const std::string& picture);
 

@@ -31,7 +31,7 @@ void remove_commas(const std::string& path, std::string& content) {
     } else if (c == ',') {
       if (is_empty) {
         throw InputError(path + ":" + std::to_string(line) + ": column " + std::to_string(column) +
-                         " is empty; a missing weight is written as 0");
+                         " is empty; write 0 for a missing number");
       }
       c = ' ';
       ++column;
