@@ -19,7 +19,7 @@ function joined(paths) {
   return paths.map(read).join("").replace(/(^|\n)import [^\n]*/g, "$1").replace(/(^|\n)export /g, "$1");
 }
 
-const packed = (bytes) => gzipSync(bytes, { level: 9 }).toString("base64");
+const packed = (bytes) => gzipSync(bytes, { level: 9, memLevel: 7 }).toString("base64");  // 8 and 9 make more bytes
 
 function assetsOf(name) {
   return {
@@ -35,8 +35,8 @@ function module(assets, license) {
 
 function page(assets) {
   const names = /set\(page_modules\s+([^)]*)\)/.exec(read("../apps/view/CMakeLists.txt"))[1].trim().split(/\s+/);
-  const script = joined([...names.map((name) => `${view}${name}.mjs`), "js/flbc.mjs", "page/reshaping.mjs",
-                         "page/protecting.mjs", "page/shapes.mjs", "page/cage_edits.mjs", "page/app.mjs"]);
+  const program = packed(joined([...names.map((name) => `${view}${name}.mjs`), "js/flbc.mjs", "page/reshaping.mjs",
+                                 "page/protecting.mjs", "page/shapes.mjs", "page/cage_edits.mjs", "page/app.mjs"]));
   const kSamples = { Character: "3d/character", Limb: "3d/limb", Torus: "3d/torus", "Figure, in 2D": "2d/figure" };
   const samples = {};
   let buttons = "";
@@ -50,8 +50,10 @@ function page(assets) {
   const app = read("page/app.html").replace("{{version}}", version).replace("{{source}}", source)
     .replace("{{samples}}", buttons).replace("{{moving}}", read("../meshes/pictures/figure_moving.svg"));
   // Base64 has no "<". It comes last, and is read after the page has been drawn.
-  const late = `<script type="application/json" id="assets">${JSON.stringify({ ...assets, samples })}</script>\n`;
-  const parts = { style: read(`${view}page.css`) + read("page/app.css"), data: "null", script };
+  const late = `<script type="application/json" id="assets">${JSON.stringify({ program, ...assets, samples })}</script>\n`;
+  const [, unpacked] = /export (async function unpacked[^]*?\n}\n)/.exec(read("js/flbc.mjs"));
+  const parts = { style: read(`${view}page.css`) + read("page/app.css"), data: "null",
+                  script: unpacked + joined(["page/loading.mjs"]) };
   return read(`${view}page.html`)
     .replace("<!-- SPDX-License-Identifier: BSD-3-Clause -->", `<!-- ${kLicense} -->`)
     .replace('<script type="application/json"', () => `${app}<script type="application/json"`)

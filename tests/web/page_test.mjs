@@ -19,7 +19,7 @@ mkdirSync(downloads, { recursive: true });
 
 class App extends Page {
   async loaded() {
-    await this.tab.waitForSelector("#drop");
+    await this.tab.waitForFunction(() => globalThis.flbcApp);
     const session = await this.tab.createCDPSession();
     await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: downloads });
     await sleep(this.warmUp ?? 0);
@@ -72,8 +72,8 @@ class App extends Page {
   }
 }
 
-// From opening the page to its start screen, in seconds, the median of five times.
-async function startTime() {
+// From opening the page to its start screen, in seconds: the least and the median of five times.
+async function startTimes() {
   const times = [];
   for (let k = 0; k < 5; ++k) {
     const app = await new App().open(browser, url);
@@ -81,11 +81,13 @@ async function startTime() {
     times.push(await paint.jsonValue() / 1000);
     await app.tab.close();
   }
-  return times.sort((a, b) => a - b)[2];
+  times.sort((a, b) => a - b);
+  return [times[0], times[2]];
 }
 
 async function measure() {
-  console.log(`start screen: ${(await startTime()).toFixed(2)} s`);
+  const [least, median] = await startTimes();
+  console.log(`start screen: ${least.toFixed(2)} s, median ${median.toFixed(2)} s`);
   for (const file of measured) {
     const app = new App();
     app.warmUp = 3000;
@@ -98,6 +100,17 @@ async function measure() {
     console.log(`  memory of the module: ${Math.round(bytes / 1e6)} MB`);
     await app.tab.close();
   }
+}
+
+// The start screen needs nothing of what is unpacked after its first frame, which is never reported here.
+async function testStart() {
+  const tab = await browser.newPage();
+  await tab.evaluateOnNewDocument(() => { globalThis.PerformanceObserver = class { observe() {} }; });
+  await tab.goto(url);
+  await tab.waitForFunction(() => performance.getEntriesByName("first-contentful-paint").length > 0);
+  assert.ok(await tab.$eval("#drop", (zone) => zone.getClientRects().length > 0));
+  assert.equal(await tab.evaluate(() => typeof globalThis.flbcApp), "undefined");
+  await tab.close();
 }
 
 // The pose that the page saves moves the model as flbc deform does.
@@ -150,6 +163,7 @@ async function testModel(sample, file, dim) {
 
   // The rest cage is reshaped; the model stays.
   await app.press("resetAll");
+  await sleep(300);  // until the shares have changed, which moves the buttons
   await app.unfold("reshapeSection");
   await app.press("reshape");
   await app.moveOne(12, -8);
@@ -556,6 +570,7 @@ async function testGltf() {
 if (measured.length > 0) {
   await measure();
 } else {
+  await testStart();
   await testModel("Figure, in 2D", join(meshes, "2d/figure_model.obj"), 2);
   await testModel("Limb", join(meshes, "3d/limb_model.obj"), 3);
   await testElbow();

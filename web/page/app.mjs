@@ -33,21 +33,11 @@ class App {
     this.goTo("start");
   }
 
-  // After the page has been drawn.
   async start() {
-    await new Promise((done) => { new PerformanceObserver(done).observe({ type: "paint", buffered: true }); });
-    const { wasm, worker, samples } = JSON.parse(element("assets").textContent);
-    element("assets").remove();
-    this.samples = samples;
+    const { wasm, worker, samples } = globalThis.flbcAssets;
     this.flbc = await Flbc.start({ wasm: wasm ? await unpacked(wasm) : "flbc.wasm", worker: await unpacked(worker) });
-    this.warmUp();
-  }
-
-  // While the visitor looks for a file, the browser compiles what it will need.
-  async warmUp() {
-    try {
-      await this.flbc.warmUp("limb.obj", await unpacked(this.samples["limb.obj"]));
-    } catch { /* a visitor was faster */ }
+    // While the visitor looks for a file, the browser compiles what it will need.
+    unpacked(samples["limb.obj"]).then((limb) => this.flbc.warmUp("limb.obj", limb)).catch(() => { /* a visitor was faster */ });
   }
 
   goTo(screen) {
@@ -130,8 +120,7 @@ class App {
   }
 
   async openSample(name) {
-    if (!this.samples) await this.started;
-    await this.open([new File([await unpacked(this.samples[name])], name)]);
+    await this.open([new File([await unpacked(globalThis.flbcAssets.samples[name])], name)]);
   }
 
   // What the module reads, of files that were dropped together.

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loads the program of the page once the start screen has been painted.
+import { unpacked } from "../js/flbc.mjs";
+
+const loaded = new Promise((done) => { new PerformanceObserver(done).observe({ type: "paint", buffered: true }); }).then(async () => {
+  const { program, ...assets } = JSON.parse(document.getElementById("assets").textContent);
+  globalThis.flbcAssets = assets;
+  const text = new TextDecoder().decode(await unpacked(program));
+  document.getElementById("assets").replaceWith(Object.assign(document.createElement("script"), { type: "module", text }));
+});
+loaded.catch(({ message }) => {
+  Object.assign(document.getElementById("problem"), { textContent: `This browser cannot unpack this page: ${message}`, hidden: false });
+});
