@@ -20,7 +20,7 @@ from conftest import MESHES
 
 @pytest.mark.parametrize("name, vertices", [("2d/figure", 800), ("3d/limb", 800)])
 @pytest.mark.parametrize(
-    "options", [{}, {"active_set": "on"}, {"smoothness": 0}, {"method": "gradient"}]
+    "options", [{}, {"distances": "exact"}, {"smoothness": 0}, {"method": "gradient"}]
 )
 def test_weights_equal_those_of_the_program(program, tmp_path, name, vertices, options):
     cage_file, model_file = MESHES / f"{name}_cage.obj", MESHES / f"{name}_model.obj"
@@ -28,7 +28,7 @@ def test_weights_equal_those_of_the_program(program, tmp_path, name, vertices, o
     mesh = flbc.mesh(cage, vertices=vertices)
     flags = []
     for option, value in options.items():
-        flags += [f"--{option.replace('_set', '')}", value]
+        flags += [f"--{option}", value]
     common = [cage_file, "--vertices", vertices, "-q", *flags]
     program("solve", *common, "-o", tmp_path / "mesh.npy")
     program("solve", *common, "--model", model_file, "-o", tmp_path / "model.npy")
