@@ -305,7 +305,6 @@ TEST_F(CommandLine, PointsAsNumbersAndFunctionsAsFields) {
     EXPECT_EQ(io::read_weights("w.npy").dense(), expected) << list;
     expect("check " + cage + " --model " + list + " --weights w.npy");
     expect("sparsify w.npy --cage " + cage + " --points " + list + " -k 4 -q -o s.mtx");
-    expect("convert w.npy -q --points " + list + " -o w.mtx");
   }
   expect(solve + "w.npy --model " + file("q.csv", "1,2,3\n"), 2,
          "q.csv: holds 1 rows of 3 numbers; points need 2 coordinates");
