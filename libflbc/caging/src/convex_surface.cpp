@@ -47,8 +47,7 @@ Vector<3> centroid(const Cage<3>& surface) {
 Cage<3> hull_of_corners(const PointList<3>& points, double size) {
   const double tolerance = 1.618e-6 * size;  // round places are at no border of cells
   auto hull = convex_hull(simplified<3>(points, {}, tolerance).points);
-  for (Index before = hull.size() + 1; hull.size() < before;) {
-    before = hull.size();
+  for (;;) {
     PointList<3> normals = PointList<3>::Zero(3, hull.size());
     for (const auto& facet : hull.facets.colwise()) {
       const Eigen::Matrix3d corners = hull.points(Eigen::all, facet);
@@ -70,9 +69,9 @@ Cage<3> hull_of_corners(const PointList<3>& points, double size) {
     for (Index v = 0; v < hull.size(); ++v) {
       if (!is_flat[v]) corners.push_back(v);
     }
+    if (static_cast<Index>(corners.size()) == hull.size()) return hull;
     hull = convex_hull(hull.points(Eigen::all, corners));
   }
-  return hull;
 }
 
 // A hull of fewer points, enlarged to enclose the hull; round models have thousands. \param center

@@ -188,7 +188,9 @@ std::string GltfDocument::file_of(const std::string& uri) const {
 }
 
 std::string GltfDocument::content_of(const std::string& uri) const {
-  if (is_data(uri)) return from_base64(uri.substr(std::min(uri.find(','), uri.size())));
+  if (is_data(uri)) {
+    return from_base64(std::string_view(uri).substr(std::min(uri.find(','), uri.size())));
+  }
   try {
     return read_file(file_of(uri));
   } catch (const IoError& error) {
