@@ -29,14 +29,14 @@ function assetsOf(name) {
 }
 
 function module(assets, license) {
-  const text = `// ${license}\n${read("js/flbc.mjs")}`;
+  const text = `// ${license}\n${joined(["js/unpacked.mjs"])}${read("js/flbc.mjs").replace(/import [^\n]*\n/, "")}`;
   return text.replace("/*{{assets}}*/ {}", () => JSON.stringify(assets));
 }
 
 function page(assets) {
   const names = /set\(page_modules\s+([^)]*)\)/.exec(read("../apps/view/CMakeLists.txt"))[1].trim().split(/\s+/);
-  const program = packed(joined([...names.map((name) => `${view}${name}.mjs`), "js/flbc.mjs", "page/reshaping.mjs",
-                                 "page/protecting.mjs", "page/shapes.mjs", "page/cage_edits.mjs", "page/app.mjs"]));
+  const program = packed(joined([...names.map((name) => `${view}${name}.mjs`), "js/unpacked.mjs", "js/flbc.mjs",
+                                 "page/reshaping.mjs", "page/protecting.mjs", "page/shapes.mjs", "page/cage_edits.mjs", "page/app.mjs"]));
   const kSamples = { Character: "3d/character", Limb: "3d/limb", Torus: "3d/torus", "Figure, in 2D": "2d/figure" };
   const samples = {};
   let buttons = "";
@@ -51,9 +51,8 @@ function page(assets) {
     .replace("{{samples}}", buttons).replace("{{moving}}", read("../meshes/pictures/figure_moving.svg"));
   // Base64 has no "<". It comes last, and is read after the page has been drawn.
   const late = `<script type="application/json" id="assets">${JSON.stringify({ program, ...assets, samples })}</script>\n`;
-  const [, unpacked] = /export (async function unpacked[^]*?\n}\n)/.exec(read("js/flbc.mjs"));
   const parts = { style: read(`${view}page.css`) + read("page/app.css"), data: "null",
-                  script: unpacked + joined(["page/loading.mjs"]) };
+                  script: joined(["js/unpacked.mjs", "page/loading.mjs"]) };
   return read(`${view}page.html`)
     .replace("<!-- SPDX-License-Identifier: BSD-3-Clause -->", `<!-- ${kLicense} -->`)
     .replace('<script type="application/json"', () => `${app}<script type="application/json"`)

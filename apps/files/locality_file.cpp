@@ -138,8 +138,9 @@ bool relaxes(const LocalityJson& json) {
 
 CLI::Option* add_locality_option(CLI::App& command, std::string& path) {
   return command.add_option("--locality", path,
-                            "masks: a .json list of control points and the regions that they must "
-                            "not move, where their weights become exactly 0");
+                            "a .json file of masks, which are control points and the regions that "
+                            "they must not move (their weights there become exactly 0), and of "
+                            "reach, how far weights extend");
 }
 
 std::string Locality::note() const {

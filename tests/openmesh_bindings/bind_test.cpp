@@ -92,6 +92,32 @@ TYPED_TEST(Bind, LeavesTheWeightsThatTheStepsGive) {
   EXPECT_EQ(openmesh::get_weights(this->model_), all);
 }
 
+TYPED_TEST(Bind, MasksHoldExactlyAndReachExtendsWeights) {
+  const auto& [cage, domain, name] = this->sample_;
+  const auto mean_weight = [&](double reach) {
+    auto options = this->options_;
+    options.solver.reach.assign(cage.size(), 1);
+    options.solver.reach[0] = reach;
+    openmesh::bind(this->model_, cage, domain, options);
+    return openmesh::get_weights(this->model_).row(0).mean();
+  };
+  EXPECT_GT(mean_weight(4), 1.1 * mean_weight(0.25));
+
+  const Eigen::VectorXd distances =
+      (this->rest_.colwise() - cage.points.col(0)).colwise().norm();
+  const double far = distances.mean();
+  std::vector<Index> region;
+  for (Index v = 0; v < static_cast<Index>(distances.size()); ++v) {
+    if (distances[v] > far) region.push_back(v);
+  }
+  this->options_.masks = {{{0}, region}};
+  const auto report = openmesh::bind(this->model_, cage, domain, this->options_);
+  const auto weights = openmesh::get_weights(this->model_);
+  for (const Index v : region) EXPECT_EQ(weights(0, v), 0) << v;
+  EXPECT_GT(weights.row(0).maxCoeff(), 0);
+  EXPECT_LT(report.quality.max_reproduction_error, 1e-12);
+}
+
 TYPED_TEST(Bind, TheObserverSeesTheSolveAndMayCancelIt) {
   const auto& [cage, domain, name] = this->sample_;
   auto options = this->options_;

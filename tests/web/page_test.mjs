@@ -113,6 +113,25 @@ async function testStart() {
   await tab.close();
 }
 
+// Files that are dropped as soon as the start screen is there, before the program.
+async function testEarlyDrop(file) {
+  const tab = await browser.newPage();
+  await tab.evaluateOnNewDocument((name, text) => {
+    addEventListener("DOMContentLoaded", () => {
+      const dataTransfer = new DataTransfer();
+      dataTransfer.items.add(new File([text], name));
+      const event = new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true });
+      globalThis.early = { isRefused: !document.getElementById("drop").dispatchEvent(event), hasProgram: "flbcApp" in globalThis };
+    });
+  }, basename(file), readFileSync(file, "utf8"));
+  await tab.goto(url);
+  await tab.waitForFunction(() => globalThis.flbcApp && document.getElementById("app").hidden && window.flbc?.milliseconds() >= 0,
+                            { timeout: 120000 });
+  assert.deepEqual(await tab.evaluate(() => globalThis.early), { isRefused: true, hasProgram: false });
+  assert.ok((await tab.title()).includes(basename(file, ".obj")));
+  await tab.close();
+}
+
 // The pose that the page saves moves the model as flbc deform does.
 async function testModel(sample, file, dim) {
   const app = await new App().open(browser, url);
@@ -571,6 +590,7 @@ if (measured.length > 0) {
   await measure();
 } else {
   await testStart();
+  await testEarlyDrop(join(meshes, "3d/limb_model.obj"));
   await testModel("Figure, in 2D", join(meshes, "2d/figure_model.obj"), 2);
   await testModel("Limb", join(meshes, "3d/limb_model.obj"), 3);
   await testElbow();

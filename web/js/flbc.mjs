@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A model, its cage and its weights, computed in a worker. See flbc.d.ts.
+import { unpacked } from "./unpacked.mjs";
 
 // The module and the worker, which the build puts into this file.
 const assets = /*{{assets}}*/ {};
@@ -10,14 +11,6 @@ export class FlbcError extends Error {
     this.name = kind;
     this.controlPoints = controlPoints ?? [];
   }
-}
-
-export async function unpacked(base64) {
-  const binary = atob(base64);
-  const bytes = new Uint8Array(binary.length);
-  for (let k = 0; k < bytes.length; ++k) bytes[k] = binary.charCodeAt(k);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
 async function makeWorker(script) {

@@ -6,7 +6,8 @@ import { Deformer } from "../../apps/view/page/deformer.mjs";
 import { show } from "../../apps/view/page/main.mjs";
 import { element, setTheme, tell } from "../../apps/view/page/panel.mjs";
 import { download } from "../../apps/view/page/saving.mjs";
-import { Flbc, unpacked } from "../js/flbc.mjs";
+import { Flbc } from "../js/flbc.mjs";
+import { unpacked } from "../js/unpacked.mjs";
 import { cageToObj, mergePoints, splitEdge } from "./cage_edits.mjs";
 import { bindProtecting, Protector } from "./protecting.mjs";
 import { bindReshaping, Reshaper } from "./reshaping.mjs";
@@ -30,7 +31,9 @@ class App {
     this.started = this.start();
     this.started.catch((error) => this.fail(`This browser cannot run WebAssembly as this page needs it: ${error.message}`));
     this.bind();
+    const early = [...globalThis.flbcDropped ?? element("model").files];
     this.goTo("start");
+    if (early.length > 0) this.open(early);
   }
 
   async start() {

@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loads the program of the page once the start screen has been painted.
-import { unpacked } from "../js/flbc.mjs";
+import { unpacked } from "../js/unpacked.mjs";
+
+// The browser would open files that are dropped before the program is there; app.mjs takes them.
+for (const name of ["dragover", "drop"]) {
+  addEventListener(name, (event) => {
+    event.preventDefault();
+    if (name === "drop") globalThis.flbcDropped = event.dataTransfer.files;
+  });
+}
 
 const loaded = new Promise((done) => { new PerformanceObserver(done).observe({ type: "paint", buffered: true }); }).then(async () => {
   const { program, ...assets } = JSON.parse(document.getElementById("assets").textContent);

@@ -59,8 +59,8 @@ class ByteSource {
 
 //! How a parent waits.
 struct Patience {
-  Patience(double seconds, std::function<void()> poll = {})  // NOLINT: a time limit alone is one
-      : seconds(seconds), poll(std::move(poll)) {}
+  Patience(double limit, std::function<void()> function = {})  // NOLINT: a time limit alone is one
+      : seconds(limit), poll(std::move(function)) {}
 
   double seconds;              //!< time limit, > 0
   std::function<void()> poll;  //!< called every 0.1 s; what it throws ends child and wait
