@@ -368,7 +368,8 @@ test("indices are read in the width they are written", () => {
 
 test("of a resting cage the last shape is solved, one at a time, and refused shapes go back", async () => {
   const editor = new Editor(Float64Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0), 2);
-  const viewer = { editor, content: { dim: 2, rest: editor.rest },
+  const poses = [0, 0.25].map((step) => ({ points: editor.rest.map((place) => place + step) }));
+  const viewer = { editor, content: { dim: 2, rest: editor.rest, poses },
                    deformer: { rest: editor.rest }, changed: () => {} };
   const asked = [];
   let atOnce = 0;
@@ -391,11 +392,15 @@ test("of a resting cage the last shape is solved, one at a time, and refused sha
   assert.deepEqual(asked, [], "posing asks for nothing");
   editor.undo();
   reshaper.toggle();
+  await reshaper.refine();
+  assert.deepEqual(asked.splice(0), ["refine"]);
   for (const x of [1, 2, 3]) editor.change([0], (start, listed, result) => { result[0] = x; });
   editor.end();
   await settled();
   assert.deepEqual(asked, [1, 3, "refine"], "shapes in between are left out");
   assert.equal(viewer.deformer.rest[0], 3);
+  near(poses.map(({ points }) => points[0]), [3, 3.25], 0);
+  near(poses[1].points.slice(1), editor.rest.slice(1).map((place) => place + 0.25), 0);
   editor.place(0, [7, 0, 0]);
   await settled();
   assert.equal(editor.points[0], 3);
@@ -461,6 +466,9 @@ test("a region is painted on the front of the model, and weights obey the latest
   assert.ok(protector.masked.size > 20);
   assert.deepEqual(asked.at(-2), protector.masks());
   assert.deepEqual(protector.masks().map((mask) => mask.control_points), [[3, 5]]);
+  const { vertices } = protector.masks()[0].region;
+  assert.deepEqual(protector.renumbered([0, 1, 2, 9, 4, 9, 6, 7]), { masks: [{ control_points: [9], region: { vertices } }], reach: [] });
+  assert.deepEqual(protector.renumbered([]), { masks: [], reach: [] });
 
   // Regions of other control points overlap; erasing takes away those of the selection only.
   const before = protector.masked.size;
@@ -542,6 +550,9 @@ test("an edge of a cage is split, and control points are merged", () => {
   assert.ok(Math.abs(volume(split) - 1 / 6) < 1e-15);
   assert.equal(splitEdge(split, [0, 1]), null, "that edge is gone");
   const merged = mergePoints(split, [0, 4]);
+  assert.deepEqual(split.numbers, [0, 1, 2, 3]);
+  for (const [i, place] of split.numbers.entries()) near(split.points.slice(3 * place, 3 * place + 3), cube.points.slice(3 * i, 3 * i + 3), 0);
+  assert.equal(merged.numbers[0], merged.numbers[4]);
   assert.equal(merged.points.length, 12);
   assert.equal(merged.facets.length, 12);
   near(merged.points.slice(0, 3), [0.25, 0, 0]);

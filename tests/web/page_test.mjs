@@ -501,6 +501,58 @@ async function testProtecting() {
       list.every((i) => region.vertices.every((v) => !isMoved(v, i)))) };
   });
   assert.ok(accepted && starts > 1);
+
+  // The start screen leads back. Regions and reach stay when an edge is split, and a timeline ends with its view.
+  await app.press("back");
+  await app.shown();
+  await app.type("k");
+  await app.press("play");
+  const [kept, reached] = [await masks(), await tab.evaluate(() => globalThis.flbcApp.protector.factors())];
+  const edge = await tab.evaluate(() => {
+    globalThis.lastViewer = window.flbc.viewer;
+    return [...window.flbc.viewer.content.edges.slice(0, 2)];
+  });
+  const click = (selector) => tab.$eval(selector, (button) => button.click());
+  await app.ask("select", edge);
+  await click("[data-do=split]");
+  await tab.waitForFunction((size) => window.flbc.viewer.editor.size === size && globalThis.flbcApp.protector?.isUsed,
+                            { timeout: 60000 }, cage.length + 1);
+  await settled();
+  assert.deepEqual(await masks(), kept);
+  assert.deepEqual(await tab.evaluate(() => globalThis.flbcApp.protector.factors()), reached);
+  assert.equal(await tab.evaluate(() => globalThis.lastViewer.playing), null);
+  assert.equal(await tab.$eval("#timeline", (line) => line.hidden), true);
+
+  // Weights of another problem are local ones.
+  await app.unfold("compareSection");
+  await app.press("harmonic");
+  await tab.waitForFunction(() => document.getElementById("harmonic").getAttribute("aria-pressed") === "true");
+  await app.ask("select", [2]);
+  await tab.$eval("#reach", (slider) => {
+    slider.value = -2;
+    slider.dispatchEvent(new Event("change"));
+  });
+  await settled();
+  await tab.waitForFunction(() => document.getElementById("local").getAttribute("aria-pressed") === "true");
+  assert.ok(await tab.evaluate(() => {
+    const { view: { deformer }, weights } = globalThis.flbcApp;
+    return deformer.weights === weights.local;
+  }));
+
+  // What is cancelled at the last moment leaves everything as it was.
+  await tab.evaluate(() => {
+    const { flbc } = globalThis.flbcApp;
+    flbc.content = async () => {
+      delete flbc.content;
+      throw Object.assign(new Error("cancelled"), { name: "Cancelled" });
+    };
+  });
+  await app.ask("select", edge);
+  await click("[data-do=merge]");
+  await app.shown();
+  assert.deepEqual(await masks(), kept);
+  const npy = readFileSync(await app.saved("[data-save=npy]", "limb_model_weights.npy"));
+  assert.match(npy.toString("latin1", 0, 128), new RegExp(`, ${cage.length + 1}\\)`));
   await app.close();
 }
 

@@ -47,6 +47,7 @@ class App {
     element("app").hidden = !screen;
     for (const id of kScreens) element(id).hidden = id !== screen;
     element("license").hidden = screen === "busy";
+    element("back").hidden = !this.view;
     if (screen === "start") element("model").value = "";
   }
 
@@ -54,6 +55,7 @@ class App {
 
   // Runs steps that take long, with their progress. \return whether they were done
   async work(title, steps) {
+    this.view?.stopPlaying();
     element("busyTitle").textContent = title;
     element("stages").replaceChildren();
     element("remaining").textContent = "";
@@ -98,8 +100,7 @@ class App {
   async open(files) {
     element("problem").hidden = true;
     await this.keepReshaped();
-    const { model: oldModel, cage, solution, view } = this;
-    const restore = () => Object.assign(this, { model: oldModel, cage, solution, view });
+    const before = this.state;
     try {
       const model = await this.modelOf([...files]);
       const isDone = await this.work(model.name, async (onProgress) => {
@@ -113,13 +114,21 @@ class App {
         await this.solve(onProgress);
       });
       if (isDone) return;
-      restore();
-      this.back();
+      Object.assign(this, before);
+      if (!this.model) return this.goTo("start");
+      this.prepare();
+      this.goTo(null);
     } catch (error) {
-      restore();
-      if (oldModel) this.prepare();
+      Object.assign(this, before);
+      if (this.model) this.prepare();
       this.fail(error.message);
     }
+  }
+
+  // What a step that fails or is cancelled leaves as it was.
+  get state() {
+    const { model, cage, solution, view, protector } = this;
+    return { model, cage, solution, view, protector };
   }
 
   async openSample(name) {
@@ -148,9 +157,10 @@ class App {
   }
 
   // Another cage for the model. \param make  makes it \param file  it, where it is a file
-  async remake(title, make, file = null) {
+  // \param numbers  its control points, by those of before, where these stay
+  async remake(title, make, { file = null, numbers = null } = {}) {
     await this.keepReshaped();
-    const before = this.cage;
+    const before = this.state;
     element("cageProblem").hidden = true;
     element("repair").hidden = true;
     try {
@@ -160,13 +170,24 @@ class App {
         this.cage = file ?? await this.cageFile();
         await this.solve(onProgress);
       });
-      if (isDone) return;
-      this.cage = before;
-      this.prepare();
-      this.goTo(null);
+      if (!isDone) return await this.goBack(before);
     } catch (error) {
-      await this.refuse(error, before);
+      return await this.refuse(error, before);
     }
+    if (!before.protector?.isUsed) return;
+    if (numbers) await this.protector.load(before.protector.renumbered(numbers));
+    else tell("Protected regions and reach are gone: they were of control points of the old cage");
+  }
+
+  // To the cage that was solved last, also where a defective one is shown.
+  async goBack(before) {
+    Object.assign(this, before);
+    this.prepare();
+    if (this.view.deformer.weights.values.length === 0) {
+      await this.prepared;
+      await this.display();
+    }
+    this.goTo(null);
   }
 
   // A cage that does not do. Its defects are shown at their places; dragging goes on with the old one.
@@ -175,11 +196,10 @@ class App {
       await this.display();
       this.view.editor.select(error.controlPoints);
       element("repair").hidden = false;
+      this.goTo(null);
     } else {
-      this.cage = before;
-      this.prepare();
+      await this.goBack(before);
     }
-    this.goTo(null);
     element("cageSection").open = true;
     Object.assign(element("cageProblem"), { textContent: error.message, hidden: false });
   }
@@ -206,12 +226,6 @@ class App {
     const masks = this.protector?.accepted ?? [];
     this.prepared = this.renew().then(() => this.flbc.setSolution(this.solution)).then(() => this.flbc.protect(masks));
     this.prepared.catch(() => {});
-  }
-
-  back() {
-    if (!this.model) return this.goTo("start");
-    this.prepare();
-    this.goTo(null);
   }
 
   fail(message) {
@@ -254,18 +268,31 @@ class App {
     element("savePose").closest("section").append(element("files").content.cloneNode(true));
     element("copyCommand").closest(".row").remove();
     for (const section of document.querySelectorAll(".solved")) section.hidden = !isSolved;
-    element("cageFile").addEventListener("change", ({ target }) => this.takeCage(target.files[0]));
-    const reshaper = new Reshaper(this.view, async (request) => {
-      await this.prepared;
-      return this.flbc.move(request).catch((error) => ({ refused: error.message }));
+    element("cageFile").addEventListener("change", ({ target }) => {
+      const [file] = target.files;
+      target.value = "";  // or the same file, mended, would be no change
+      this.takeCage(file);
     });
+    const move = async (request) => {
+      try {
+        await this.prepared;
+        return await this.flbc.move(request);
+      } catch (error) {
+        return { refused: error.message };
+      }
+    };
+    const reshaper = new Reshaper(this.view, move);
     reshaper.onRefusal = tell;
+    reshaper.onWeights = () => {
+      this.showsHarmonic = false;
+      this.weights = { local: reshaper.viewer.deformer.weights };
+    };
     bindReshaping(reshaper);
     this.kept = reshaper.solved;
     const protector = new Protector(this.view, {
       protect: async (locality) => { await this.prepared; return this.flbc.protect(locality); },
       // Another start takes longer than its iterations.
-      refine: () => this.flbc.move({ refine: true, seconds: 1 }).catch((error) => ({ refused: error.message })),
+      refine: () => move({ refine: true, seconds: 1 }),
     });
     this.protector = protector;
     bindProtecting(protector);
@@ -277,7 +304,7 @@ class App {
     // While the visitor takes aim, a new worker sets up its solver.
     element("reshape").addEventListener("click", () => {
       if (protector.isOn) protector.toggle();
-      if (reshaper.isOn) this.flbc.move({ refine: true }).catch(() => {});
+      if (reshaper.isOn) reshaper.refine();
     });
     this.weights = { local: this.view.deformer.weights };
     this.showsHarmonic = false;
@@ -344,6 +371,8 @@ class App {
     };
     try {
       await this.prepared;
+      const { reshaper } = this.view;
+      while (reshaper.isBusy || this.protector.isBusy) await new Promise((done) => { setTimeout(done, 100); });
       const [name, bytes] = await kinds[kind]();
       download(name, new Blob([bytes]));
       tell(`Saved ${name}`);
@@ -358,10 +387,10 @@ class App {
     if (!file) return;
     const bytes = await file.arrayBuffer();
     const cage = { name: file.name, bytes };
-    await this.remake(`The cage ${file.name}`, () => this.flbc.readCage(cage.name, cage.bytes), cage);
+    await this.remake(`The cage ${file.name}`, () => this.flbc.readCage(cage.name, cage.bytes), { file: cage });
   }
 
-  // More or fewer control points, of those that are selected.
+  // More or fewer control points, of those that are selected. Regions and reach stay.
   edit(change, wanted = null) {
     const { editor, content, deformer } = this.view;
     const selected = [...editor.selection];
@@ -370,7 +399,7 @@ class App {
     const cage = isRight ? change({ points, facets: content.facets, dim: content.dim }, selected) : null;
     if (!cage) return tell(wanted ? "Select two control points with an edge between them" : "Select at least two control points");
     const bytes = new TextEncoder().encode(cageToObj(cage));
-    return this.remake("Another cage", () => this.flbc.readCage("cage.obj", bytes));
+    return this.remake("Another cage", () => this.flbc.readCage("cage.obj", bytes), { numbers: cage.numbers });
   }
 
   makeCage() {
@@ -390,7 +419,7 @@ class App {
 
   bind() {
     const actions = {
-      home: () => this.goTo("start"), cancel: () => this.cancel(), makeCage: () => this.makeCage(),
+      home: () => this.goTo("start"), back: () => this.goTo(null), cancel: () => this.cancel(), makeCage: () => this.makeCage(),
       chooseCage: () => element("cageFile").click(),
       repairCage: () => this.remake("Repairing the cage", () => this.flbc.repairCage()),
       split: () => this.edit(splitEdge, 2), merge: () => this.edit(mergePoints),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // More and fewer control points: cages as points, `dim` numbers each, and facets, `dim` indices each.
+// Edited ones also have `numbers`, the new index of each control point of before, or undefined.
 
 function facetsOf(facets, dim) {
   return Array.from({ length: facets.length / dim }, (_, f) => [...facets.slice(dim * f, dim * f + dim)]);
@@ -13,7 +14,7 @@ export function splitEdge({ points, facets, dim }, [a, b]) {
   if (!all.some(isOn)) return null;
   const replaced = (facet, old) => facet.map((i) => (i === old ? middle : i));
   const place = Array.from({ length: dim }, (_, k) => (points[dim * a + k] + points[dim * b + k]) / 2);
-  return { dim, points: [...points, ...place],
+  return { dim, points: [...points, ...place], numbers: [...Array(middle).keys()],
            facets: all.flatMap((facet) => (isOn(facet) ? [replaced(facet, b), replaced(facet, a)] : [facet])).flat() };
 }
 
@@ -27,7 +28,7 @@ export function mergePoints({ points, facets, dim }, merged) {
     .filter((facet) => new Set(facet).size === dim);
   const kept = [...Array(count).keys()].filter((i) => target[i] === i && left.some((facet) => facet.includes(i)));
   const number = new Map(kept.map((i, k) => [i, k]));
-  return { dim, facets: left.flat().map((i) => number.get(i)),
+  return { dim, facets: left.flat().map((i) => number.get(i)), numbers: target.map((i) => number.get(i)),
            points: kept.flatMap((i) => (i === merged[0] ? middle : [...points.slice(dim * i, dim * i + dim)])) };
 }
 

@@ -22,6 +22,7 @@ export class Reshaper {
     this.isRefused = false;
     this.onState = () => {};
     this.onRefusal = () => {};
+    this.onWeights = () => {};  // there are other weights, those of the problem that is solved
   }
 
   // Between posing the cage and reshaping it at rest. The pose is kept as steps from rest.
@@ -39,11 +40,6 @@ export class Reshaper {
     this.onState();
   }
 
-  // Whether points are to stay where they rest while the cage is moved.
-  get holdsModel() {
-    return this.isOn;
-  }
-
   // To be called whenever the cage may have been moved.
   async edited() {
     const { editor } = this.viewer;
@@ -59,15 +55,33 @@ export class Reshaper {
     this.onState();
   }
 
-  // The present shape, and on until it has converged or there is another one.
+  // The shape that is solved, to its end, unless it is moved meanwhile.
+  async refine() {
+    if (this.isBusy) return;
+    this.isBusy = true;
+    this.onState();
+    await this.solveOn({ refine: true });
+    this.isBusy = false;
+    this.onState();
+    await this.edited();
+  }
+
+  // The present shape.
   async solve() {
     const { editor, content } = this.viewer;
     this.sent = editor.points.slice();
-    let reply = await this.ask({ points: [...this.sent].filter((_, k) => k % 3 < content.dim) });
+    const reply = await this.solveOn({ points: [...this.sent].filter((_, k) => k % 3 < content.dim) });
+    if (reply.refused && areSame(editor.points, this.sent) && !editor.start) this.goBack(this.solved);
+  }
+
+  // On until it has converged or there is another one. \return the last reply
+  async solveOn(request) {
+    const { editor } = this.viewer;
+    let reply = await this.ask(request);
     while (this.take(reply) && !reply.converged && areSame(editor.points, this.sent)) {
       reply = await this.ask({ refine: true });
     }
-    if (reply.refused && areSame(editor.points, this.sent) && !editor.start) this.goBack(this.solved);
+    return reply;
   }
 
   // \return whether the shape was accepted
@@ -79,9 +93,15 @@ export class Reshaper {
     }
     const { viewer } = this;
     const rest = inSpace(reply.rest, viewer.content.dim);
+    const { rest: before, poses } = viewer.content;
+    // Keys are moved with the cage, as the pose is.
+    if (!areSame(rest, before)) {
+      for (const pose of poses) pose.points = pose.points.map((place, k) => place - before[k] + rest[k]);
+    }
     viewer.content.rest = rest;
     viewer.editor.rest = rest;
     Object.assign(viewer.deformer, { rest, weights: reply.weights });
+    this.onWeights();
     this.solved = rest;
     if (reply.converged) this.converged = rest;
     this.residual = reply.residual;

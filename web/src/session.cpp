@@ -491,6 +491,11 @@ class Work {
   }
 
   PointList<Dim> posed(const PointList<Dim>& control_points) {
+    if (control_points.cols() != cage_.size()) {
+      throw InputError("a pose of " + std::to_string(control_points.cols()) +
+                       " control points is not one of this cage, which has " +
+                       std::to_string(cage_.size()));
+    }
     return points() + deform<Dim>(weights(), control_points - cage_.points);
   }
 

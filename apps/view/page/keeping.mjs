@@ -11,6 +11,7 @@ function nameOf({ title, rest }) {
 // \return whether there was a pose to take up
 export function keepPose(viewer) {
   const { content, editor, onState } = viewer;
+  const { rest } = content;  // of the cage that the name is of; it may be reshaped
   const name = nameOf(content);
   const given = content.poses.length;
   let kept = null;
@@ -31,7 +32,7 @@ export function keepPose(viewer) {
   let stored = null, storedKeys = -1;
   viewer.onState = () => {
     onState();
-    if (editor.start || viewer.reshaper?.holdsModel) return;
+    if (editor.start || viewer.holdsModel) return;
     const poses = given === 0 ? content.poses : [];
     if (stored === editor.points && storedKeys === poses.length) return;
     stored = editor.points;
@@ -39,7 +40,8 @@ export function keepPose(viewer) {
     const isAtRest = editor.points.every((place, k) => place === editor.rest[k]);
     try {
       if (isAtRest && poses.length === 0) return localStorage.removeItem(name);
-      const plain = (points) => Array.from(points);
+      const plain = (points) => Array.from(points, (place, k) =>
+        (editor.rest[k] === rest[k] ? place : place - editor.rest[k] + rest[k]));
       localStorage.setItem(name, JSON.stringify({
         points: plain(editor.points), poses: poses.map((pose) => ({ ...pose, points: plain(pose.points) })) }));
     } catch { /* there is no room: nothing is kept */ }

@@ -239,7 +239,8 @@ function showState(viewer) {
   element("removeKey").disabled = content.poses.length === 0;
   element("state").textContent = describeSelection(viewer);
   element("play").textContent = viewer.playing ? "Pause" : "Play";
-  element("timeline").hidden = content.poses.length < 2;
+  element("addKey").disabled = viewer.holdsModel;
+  element("timeline").hidden = content.poses.length < 2 || viewer.holdsModel;
   if (content.poses.length < 2) return;
   Object.assign(element("time"), { min: content.poses[0].time, max: viewer.duration, value: viewer.time });
   element("pose").textContent = nearestPose(content.poses, viewer.time).name;

@@ -83,7 +83,7 @@ export class Viewer {
     if (!this.isStale) return;
     this.isStale = false;
     const { editor, deformer, renderer } = this;
-    deformer.move(this.reshaper?.holdsModel ? deformer.rest : editor.points);
+    deformer.move(this.holdsModel ? deformer.rest : editor.points);
     renderer.setModel(deformer);
     const { values, legend } = this.brush?.colors() ?? colorValues(this.coloring, deformer, editor.selection);
     if (values) renderer.setValues(values);
@@ -144,6 +144,11 @@ export class Viewer {
     this.onState();
   }
 
+  // Whether the cage is reshaped at rest; its poses are for later.
+  get holdsModel() {
+    return Boolean(this.reshaper?.isOn);
+  }
+
   get duration() {
     const { poses } = this.content;
     return poses.length > 0 ? poses[poses.length - 1].time : 0;
@@ -152,6 +157,7 @@ export class Viewer {
   // Takes the cage to a time of its poses, within a stroke that stopPlaying() ends.
   seek(time) {
     const { poses } = this.content;
+    if (this.holdsModel) return;
     this.time = time;
     this.editor.begin();
     this.editor.setPoints(interpolatePoses(poses, time));
@@ -160,6 +166,7 @@ export class Viewer {
   // The pose as it is becomes the last one of the animation, a second after the one before.
   addKey() {
     const { poses, rest } = this.content;
+    if (this.holdsModel) return;
     this.stopPlaying();
     if (poses.length === 0) poses.push({ name: "rest", time: 0, points: rest });
     poses.push({ name: `key ${poses.length}`, time: this.duration + 1, points: this.editor.points.slice() });
@@ -177,7 +184,7 @@ export class Viewer {
   }
 
   play() {
-    if (this.content.poses.length < 2) return;
+    if (this.content.poses.length < 2 || this.holdsModel) return;
     this.playing = { begin: null, from: this.time >= this.duration ? 0 : this.time };
     this.changed();
   }
