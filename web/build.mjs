@@ -14,9 +14,9 @@ mkdirSync(dist, { recursive: true });
 const kLicense = `libflbc ${version}. SPDX-License-Identifier: AGPL-3.0-or-later. Contains TetGen (AGPL-3.0-or-later), `
   + `CGAL (GPL-3), Eigen (MPL-2.0), pugixml, nlohmann/json (MIT), fast_float, Boost; libflbc itself is BSD-3.`;
 
-// The modules in one scope, without import and export.
+// The modules in one scope, without import and export, and without lines of comments.
 function joined(paths) {
-  return paths.map(read).join("").replace(/(^|\n)import [^\n]*/g, "$1").replace(/(^|\n)export /g, "$1");
+  return paths.map(read).join("").replace(/^import .*$/gm, "").replace(/^export /gm, "").replace(/^\s*\/\/.*\n/gm, "");
 }
 
 const packed = (bytes) => gzipSync(bytes, { level: 9, memLevel: 7 }).toString("base64");  // 8 and 9 make more bytes
