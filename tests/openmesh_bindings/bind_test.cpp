@@ -103,8 +103,7 @@ TYPED_TEST(Bind, MasksHoldExactlyAndReachExtendsWeights) {
   };
   EXPECT_GT(mean_weight(4), 1.1 * mean_weight(0.25));
 
-  const Eigen::VectorXd distances =
-      (this->rest_.colwise() - cage.points.col(0)).colwise().norm();
+  const Eigen::VectorXd distances = (this->rest_.colwise() - cage.points.col(0)).colwise().norm();
   const double far = distances.mean();
   std::vector<Index> region;
   for (Index v = 0; v < static_cast<Index>(distances.size()); ++v) {
