@@ -464,7 +464,8 @@ async function testProtecting() {
   await app.ask("select", cage.map((_, i) => i));
   await paint(4, 0);
   assert.match(await app.text("protected"), /\d+ vert.* cannot stay: .*Release the ringed control points/);
-  assert.ok((await tab.$$(".cure")).length >= 4 && (await tab.$$(".vertex")).length > 0);
+  // They are drawn with the next frame.
+  await tab.waitForFunction(() => document.querySelectorAll(".cure").length >= 4 && document.querySelector(".vertex"));
   await app.shot("protect_conflict");
   await app.press("release");
   await tab.waitForFunction(() => document.getElementById("release").hidden);
