@@ -14,7 +14,7 @@ PIECES = 8  # straight edges instead of each
 def with_handles(cage):
     """Control points and handles, a cage of PIECES edges for each, and weights of its control points.
 
-    Handles k and k + 1 = n + 2e of edge e divide it into thirds. The weights are Bernstein polynomials.
+    The handles n + 2e and n + 2e + 1 divide edge e into thirds. The weights are Bernstein polynomials.
     """
     starts, ends = cage.facets.T
     a, b = cage.points[starts], cage.points[ends]
@@ -41,5 +41,5 @@ if __name__ == "__main__":
     weights = flbc.compose(flbc.bind(*model, fine).weights, of_fine)
     along = np.diff(cage.points[cage.facets], axis=1)[:, 0]
     bulge = 0.2 * np.column_stack([along[:, 1], -along[:, 0]])  # outward for a counterclockwise cage
-    posed = controls + np.vstack([0 * cage.points, np.repeat(bulge, 2, axis=0)])
+    posed = controls + np.vstack([np.zeros_like(cage.points), np.repeat(bulge, 2, axis=0)])
     flbc.write_model(sys.argv[3], weights @ posed, source=sys.argv[2])

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+import importlib.util
 import os
 import pathlib
 import subprocess
@@ -9,6 +10,14 @@ import pytest
 
 SOURCE = pathlib.Path(os.environ["FLBC_SOURCE_DIR"])
 MESHES = SOURCE / "meshes"
+
+
+def module_at(path):
+    """A script as a module, without running it as a program."""
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 @pytest.fixture(scope="session")

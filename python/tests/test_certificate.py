@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Certificates are proved by scripts/check_certificate.py, and damaged ones are not."""
-import importlib.util
 import subprocess
 import sys
 
 import flbc
 import numpy as np
 import pytest
-from conftest import MESHES, SOURCE
+from conftest import MESHES, SOURCE, module_at
 
 SCRIPT = SOURCE / "scripts/check_certificate.py"
 CASES = [(2, 0), (2, 0.003), (3, 0), (3, 0.003)]
@@ -16,10 +15,7 @@ MUTATIONS = 1000
 
 @pytest.fixture(scope="module")
 def checker():
-    spec = importlib.util.spec_from_file_location("check_certificate", SCRIPT)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return module_at(SCRIPT)
 
 
 @pytest.fixture(scope="module", params=CASES, ids=lambda case: f"{case[0]}D-{case[1]}")

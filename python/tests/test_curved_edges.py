@@ -1,23 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The example of curved edges reproduces the model, and its edges are the curves of de Casteljau's algorithm."""
-import importlib.util
 import subprocess
 import sys
 
 import flbc
 import numpy as np
 import pytest
-from conftest import MESHES, SOURCE
+from conftest import MESHES, SOURCE, module_at
 
 EXAMPLE = SOURCE / "examples/curved_edges.py"
 
 
 @pytest.fixture(scope="module")
 def example():
-    spec = importlib.util.spec_from_file_location("curved_edges", EXAMPLE)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return module_at(EXAMPLE)
 
 
 def on_curve(corners, t):

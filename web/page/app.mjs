@@ -113,11 +113,7 @@ class App {
         Object.assign(this, { model, cage: await this.cageFile(), view: null });
         await this.solve(onProgress);
       });
-      if (isDone) return;
-      Object.assign(this, before);
-      if (!this.model) return this.goTo("start");
-      this.prepare();
-      this.goTo(null);
+      if (!isDone) await this.goBack(before);
     } catch (error) {
       Object.assign(this, before);
       if (this.model) this.prepare();
@@ -182,6 +178,7 @@ class App {
   // To the cage that was solved last, also where a defective one is shown.
   async goBack(before) {
     Object.assign(this, before);
+    if (!this.model) return this.goTo("start");
     this.prepare();
     if (this.view.deformer.weights.values.length === 0) {
       await this.prepared;

@@ -83,12 +83,10 @@ export class Protector {
 
   // Masks and reach for a cage that has been edited. \param numbers  of its control points, by those of before
   renumbered(numbers) {
-    const known = (list) => [...new Set(list.map((i) => numbers[i]).filter((i) => i !== undefined))];
-    const reach = new Map([...this.reach].map(([i, factor]) => [numbers[i], factor]));
-    reach.delete(undefined);
-    return { masks: this.masks().map(({ control_points, region }) => ({ control_points: known(control_points), region }))
-               .filter(({ control_points }) => control_points.length > 0),
-             reach: [...reach].map(([i, factor]) => ({ control_points: [i], factor })) };
+    const known = (list) => [...new Set(list.map((i) => numbers[i]))].filter((i) => i !== undefined);
+    const renamed = (choices) => choices.map(({ control_points, ...others }) => ({ control_points: known(control_points), ...others }))
+      .filter(({ control_points }) => control_points.length > 0);
+    return { masks: renamed(this.masks()), reach: renamed(this.factors()) };
   }
 
   // \param factor  of phi of the selection is divided; more lets weights extend farther
