@@ -2,6 +2,8 @@
 #include "files/locality_file.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -89,13 +91,26 @@ std::vector<Index> points_in_box(const LocalityJson& box, const PointList<Dim>& 
   return inside;
 }
 
+// Numbers are not rounded and do not wrap around: that would be another mask.
+std::vector<Index> indices_in(const LocalityJson& list) {
+  std::vector<Index> indices;
+  for (const auto& number : list) {
+    const auto index = number.is_number_integer() ? number.get<std::int64_t>() : -1;
+    if (index < 0 || index > std::numeric_limits<Index>::max()) {
+      throw InputError(number.dump() + " is not an index; indices are integers from 0");
+    }
+    indices.push_back(static_cast<Index>(index));
+  }
+  return indices;
+}
+
 template <int Dim>
 std::vector<Index> indices_of(const LocalityJson& chosen, const PointList<Dim>& points,
                               const std::string& model) {
-  if (chosen.is_array()) return chosen.get<std::vector<Index>>();
+  if (chosen.is_array()) return indices_in(chosen);
   require_keys(chosen, {"vertices", "box", "group", "attribute"});
   if (chosen.size() > 1) throw InputError("give one choice for each mask, not several");
-  if (chosen.contains("vertices")) return chosen["vertices"].get<std::vector<Index>>();
+  if (chosen.contains("vertices")) return indices_in(chosen["vertices"]);
   if (chosen.contains("box")) return points_in_box<Dim>(chosen["box"], points);
   if (chosen.contains("group") && !model.empty()) {
     return vertices_of_group(model, chosen["group"].get<std::string>());
@@ -116,7 +131,7 @@ std::vector<double> reach_in(const LocalityJson& json, const PointList<Dim>& con
   reach.assign(control_points.cols(), 1);
   for (const auto& entry : json["reach"]) {
     for (const Index i : indices_of<Dim>(entry.at("control_points"), control_points, "")) {
-      if (i < 0 || i >= control_points.cols()) {
+      if (i >= control_points.cols()) {
         throw InputError("reach: there is no control point " + std::to_string(i));
       }
       reach[i] = entry.at("factor").get<double>();
@@ -153,7 +168,7 @@ std::string Locality::note() const {
 
 template <int Dim>
 Locality load_locality(const std::string& path, const Cage<Dim>& cage, const PointList<Dim>& points,
-                       const std::string& model) {
+                       const std::string& model, int mirror_axis) {
   Locality locality;
   auto& masks = locality.masks;
   if (path.empty()) return locality;
@@ -176,7 +191,7 @@ Locality load_locality(const std::string& path, const Cage<Dim>& cage, const Poi
     }
     entry.clear();
     PointMasks(masks, cage.size(), static_cast<Index>(points.cols()));  // checks the numbers
-    if (relaxes(json)) masks = relax_masks(cage, points, masks, locality.freed);
+    if (relaxes(json)) masks = relax_masks(cage, points, masks, locality.freed, mirror_axis);
   } catch (const LocalityJson::parse_error& error) {
     throw InputError(path + ": not JSON, at byte " + std::to_string(error.byte));
   } catch (const LocalityJson::exception&) {

@@ -31,10 +31,11 @@ struct Locality {
 
 //! Reads a file, for the vertices of a model or mesh. Empty for an empty path.
 //! \param points  Dim x P \param model  file of the points, for groups and attributes; may be empty
+//! \param mirror_axis  BindOptions::mirror_axis
 //! \throws IoError; InputError naming the file and the entry
 template <int Dim>
 Locality load_locality(const std::string& path, const Cage<Dim>& cage, const PointList<Dim>& points,
-                       const std::string& model);
+                       const std::string& model, int mirror_axis = -1);
 
 //! Its masks without those that end at facets, for weights that obey the others.
 template <int Dim>

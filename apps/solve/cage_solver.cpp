@@ -243,7 +243,8 @@ void CageSolver<Dim>::load_masks(bool quiet) {
   rig_->set_options(options);
   if (settings_.locality.empty()) return;
   const auto& points = settings_.model.empty() ? domain().points : model_;
-  locality_ = load_locality(settings_.locality, cage_, points, settings_.model);
+  locality_ =
+      load_locality(settings_.locality, cage_, points, settings_.model, settings_.mirror_axis);
   options.masks = locality_.masks;
   naming(settings_.locality, [&] { rig_->set_options(options); });
   for (const auto& note : {locality_.note(), rig_->masks().note()}) {

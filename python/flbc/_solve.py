@@ -560,8 +560,14 @@ class Solver:
 
     @property
     def options(self) -> Dict[str, Any]:
-        """dict: all options."""
-        return self._core.options()
+        """dict: all options, as `Solver` takes them."""
+        options = self._core.options()
+        if options["mask"] is not None:
+            mask = np.zeros((len(self.mesh), len(self.cage)), bool)
+            for control_points, vertices in options["mask"]:
+                mask[np.ix_(vertices, control_points)] = True
+            options["mask"] = mask
+        return options
 
     @property
     def cage(self) -> Cage:

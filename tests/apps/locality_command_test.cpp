@@ -143,7 +143,11 @@ TEST_F(LocalityCommand, DefectiveFilesAreRefused) {
            words);
   };
   refused("[{\"control_points\": [0]}]", "bad.json: entry 0: not a list of masks");
-  refused("[{\"control_points\": [0], \"region\": [-1]}]", "mask 0 names vertex -1");
+  refused("[{\"control_points\": [0], \"region\": [-1]}]", "entry 0: -1 is not an index");
+  refused("[{\"control_points\": [0], \"region\": {\"vertices\": [22.9]}}]",
+          "22.9 is not an index");
+  refused("[{\"control_points\": [4294967298], \"region\": [0]}]", "4294967298 is not an index");
+  refused("[{\"control_points\": [0], \"region\": [99999]}]", "mask 0 names vertex 99999");
   refused("[{\"control_points\": [0], \"region\": {\"group\": \"arm\"}}]",
           "group \"arm\" is not in");
   refused("[{\"control_points\": [0], \"region\": {\"box\": [[0], [1]]}}]",

@@ -84,6 +84,102 @@ TEST_IN_2D_AND_3D(MirrorTest, MirroredPointsHaveMirroredWeights) {
   EXPECT_LT((free - alike).cwiseAbs().maxCoeff(), 0.1);
 }
 
+// Two mirrored lists of weights, exactly.
+template <int Dim>
+void expect_mirrored(const SparseWeights& weights, Index p, Index q,
+                     const PointList<Dim>& control_points) {
+  const Eigen::VectorXd here = weights.at(p), there = weights.at(q);
+  for (Index i = 0; i < control_points.cols(); ++i) {
+    ASSERT_EQ(here[i], there[image_of<Dim>(control_points, i)]) << p << ' ' << i;
+  }
+}
+
+TEST_IN_2D_AND_3D(MirrorTest, DuplicatesOnOneSideStayTogether) {
+  const auto [cage, mesh, name] = with_fine_cage<Dim>(Shape::kBox, 4, 8);
+  const auto once = mirrored_points<Dim>();
+  const auto count = static_cast<Index>(once.cols());
+  const std::vector<Index> copied{0, 2, 2, 5, 41};
+  PointList<Dim> points(Dim, once.cols() + copied.size());
+  points << once, once(Eigen::all, copied);
+  BindOptions options;
+  options.mirror_axis = 0;
+  for (const bool masked : {false, true}) {
+    if (masked) options.masks = {{{0}, {3, 4}}};
+    for (const Index most : {0, 8}) {
+      options.max_influences = most;
+      const auto binding = bind<Dim>(cage, mesh, points, mirrored_edges(), options);
+      for (std::size_t k = 0; k < copied.size(); ++k) {
+        const Index copy = count + static_cast<Index>(k);
+        EXPECT_TRUE(binding.weights.at(copy) == binding.weights.at(copied[k])) << k;
+        expect_mirrored<Dim>(binding.weights, copy, image_of<Dim>(points, copy), cage.points);
+      }
+    }
+  }
+}
+
+// The boxes of samples have quads that are cut along diagonals without mirror images.
+TEST_IN_2D_AND_3D(MirrorTest, MasksEndAlikeOnFlatQuads) {
+  const auto [cage, mesh, name] = with_fine_cage<Dim>(Shape::kBox, 4, 8);
+  PointList<Dim> points(Dim, 36);
+  for (Index k = 0; k < 18; ++k) {
+    points.col(2 * k).setConstant(0.1 + 0.04 * static_cast<double>((5 * k) % 18));
+    points(0, 2 * k) = 0.025 * static_cast<double>(k + 1);
+    points(Dim - 1, 2 * k) = k % 3 == 0 ? 0.001 : k % 3 == 1 ? 0 : -0.05;
+    points.col(2 * k + 1) = points.col(2 * k);
+    points(0, 2 * k + 1) = 1 - points(0, 2 * k);
+  }
+  BindOptions options;
+  options.mirror_axis = 0;
+  options.max_influences = 0;
+  std::vector<Mask> masks;
+  for (Index p = 0; p < points.cols(); ++p) {
+    if (points(Dim - 1, p) <= 0 && points(0, p) < 0.5) masks.push_back({{}, {p}});
+  }
+  for (const auto policy :
+       {OutsidePoints::kExtend, OutsidePoints::kNearest, OutsidePoints::kKeep}) {
+    options.outside = policy;
+    options.masks.clear();
+    Rig<Dim> rig(cage, mesh, points, {}, options);
+    for (Index i = 0; i < cage.size(); ++i) {
+      for (auto& mask : masks) mask.control_points = {i};
+      options.masks = masks;
+      rig.set_options(options);
+      const auto binding = rig.bind();
+      for (Index p = 0; p < points.cols(); ++p) {
+        expect_mirrored<Dim>(binding.weights, p, p ^ 1, cage.points);
+      }
+      EXPECT_LT((binding.deform(cage.points) - points).cwiseAbs().maxCoeff(), 1e-12);
+    }
+  }
+}
+
+TEST_IN_2D_AND_3D(MirrorTest, PointsOutsideDoNotSpoilTheOthers) {
+  const auto [cage, mesh, name] = with_fine_cage<Dim>(Shape::kBox, 2, 8);
+  auto points = mirrored_points<Dim>();
+  points(Dim - 1, 0) = points(Dim - 1, 1) = -0.02;
+  BindOptions options;
+  options.mirror_axis = 0;
+  options.outside = OutsidePoints::kExtend;
+  Rig<Dim> rig(cage, mesh, points, mirrored_edges(), options);
+  const auto all = rig.weights_of_points();
+  const auto reduced = rig.reduced(SparsifyOptions{2 * cage.size()});  // to no fewer
+  EXPECT_LT((all.dense() - reduced.dense()).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(MirrorTest, QuadsThatAreCutDifferentlyMustBeFlat) {
+  auto [cage, mesh, name] = with_fine_cage<3>(Shape::kBox, 4, 4);
+  const auto points = mirrored_points<3>();
+  MirroredModel<3>(cage, 0, points);
+  for (Index i = 0; i < cage.size(); ++i) {
+    const auto x = cage.points.col(i);
+    if (x[2] == 1 && x[1] == 0.25 && std::abs(x[0] - 0.5) == 0.25) {
+      cage.points(2, i) += 0.1;
+    }
+  }
+  expect_refused("has no mirror image across x = 0.5; cut quads that are not flat alike",
+                 [&, &cage = cage] { MirroredModel<3>(cage, 0, points); });
+}
+
 TEST_IN_2D_AND_3D(MirrorTest, OtherCagesAreRefused) {
   const auto [cage, mesh, name] = with_fine_cage<Dim>(Shape::kBox, 2, 4);
   const auto points = mirrored_points<Dim>();

@@ -165,5 +165,28 @@ TEST_IN_2D_AND_3D(ModelMasksTest, AConflictHasItsPointsAndItsCure) {
   EXPECT_TRUE(freed.empty());
 }
 
+TEST_IN_2D_AND_3D(ModelMasksTest, RelaxedMasksFitTheMirror) {
+  const auto [cage, mesh, name] = box_in_grid<Dim>();
+  const Grid<Dim> grid(0.07);
+  BindOptions options;
+  options.mirror_axis = 0;
+  options.masks = {grid.mask(cage.points, 0.3, 0.4)};
+  options.masks[0].points.resize(3);  // on one side
+  const auto first = options.masks[0].control_points;
+  std::vector<Index> freed;
+  options.masks = relax_masks(cage, grid.points, options.masks, freed, options.mirror_axis);
+  EXPECT_FALSE(freed.empty());
+  for (const Index i : MirroredModel<Dim>(cage, 0, grid.points).images(freed)) {
+    EXPECT_TRUE(std::binary_search(freed.begin(), freed.end(), i)) << i;
+  }
+  const auto binding = bind<Dim>(cage, mesh, grid.points, grid.edges, options);
+  Mask left{{}, {0, 1, 2}};
+  for (const Index i : first) {
+    if (!std::binary_search(freed.begin(), freed.end(), i)) left.control_points.push_back(i);
+  }
+  EXPECT_FALSE(left.control_points.empty());
+  expect_obeyed(binding, cage.points, grid.points, left);
+}
+
 }  // namespace
 }  // namespace flbc::testing

@@ -149,8 +149,90 @@ TEST_IN_2D_AND_3D(RigTest, WithoutAModelThePointsAreTheVerticesOfTheMesh) {
   options.masks = {{{static_cast<Index>(least)}, {inside}}};
   whole.set_options(options);
   EXPECT_EQ(whole.masks().masked, 1);
+  EXPECT_EQ(whole.weights_of_points().at(inside)[least], 0) << "before it is solved";
+  EXPECT_LT((deform<Dim>(whole.weights_of_points(), cage.points) - mesh.points).norm(), 1e-12);
   whole.solve();
   EXPECT_EQ(whole.weights_of_points().at(inside)[least], 0);
+  options.mirror_axis = 0;
+  expect_refused<OptionError>("of a model", [&] { whole.set_options(options); });
+}
+
+// A box with masks on the left for control points on the right, in a cage of many control points.
+template <int Dim>
+struct MaskedBox {
+  Sample<Dim> sample = with_fine_cage<Dim>(Shape::kBox, 4, 8);
+  PointList<Dim> points = model<Dim>(sample.mesh);
+  BindOptions options{};
+
+  MaskedBox() {
+    Mask mask;
+    for (Index i = 0; i < sample.cage.size(); ++i) {
+      if (sample.cage.points(0, i) > 0.7) mask.control_points.push_back(i);
+    }
+    for (Index p = 0; p < points.cols(); ++p) {
+      if (points(0, p) < 0.5) mask.points.push_back(p);
+    }
+    options.masks = {mask};
+  }
+
+  // Only the control points in the left `part` move to the right, `far`.
+  PointList<Dim> squeezed(double part, double far) const {
+    PointList<Dim> moved = sample.cage.points;
+    for (Index i = 0; i < moved.cols(); ++i) {
+      const double x = moved(0, i);
+      moved(0, i) = x < part ? x - far : x - far * (1 - x) / (1 - part);
+    }
+    return moved;
+  }
+};
+
+TEST_IN_2D_AND_3D(RigTest, MasksFollowTheModelInAReshapedCage) {
+  const MaskedBox<Dim> box;
+  Rig<Dim> reshaped(box.sample.cage, box.sample.mesh, box.points, {}, box.options);
+  PointList<Dim> control_points = box.sample.cage.points;
+  control_points.row(Dim - 1) *= 1.4;
+  control_points.row(Dim - 1).array() -= 0.2;
+  reshaped.reshape(control_points);
+  Rig<Dim> made(reshaped.cage(), reshaped.mesh(), box.points, {}, box.options);
+  for (const Index p : box.options.masks[0].points) {
+    for (const Index i : box.options.masks[0].control_points) {
+      ASSERT_EQ(reshaped.weights_of_points().at(p)[i], 0);
+    }
+  }
+  // As a Rig that is made with them, and when more is solved.
+  for (const int more : {0, 1}) {
+    if (more > 0) reshaped.solve();
+    const WeightMatrix difference =
+        reshaped.weights_of_points().dense() - made.weights_of_points().dense();
+    EXPECT_LT(difference.squaredNorm() / static_cast<double>(difference.size()), 2e-6);
+  }
+}
+
+TEST_IN_2D_AND_3D(RigTest, AShapeInWhichMasksCannotBeObeyedIsRefused) {
+  const MaskedBox<Dim> box;
+  Rig<Dim> rig(box.sample.cage, box.sample.mesh, box.points, {}, box.options);
+  const auto weights = rig.weights_of_points();
+  expect_refused("masked vertices cannot follow", [&] { rig.reshape(box.squeezed(0.7, 0.4)); });
+  EXPECT_TRUE(rig.cage().points == box.sample.cage.points);
+  EXPECT_TRUE(rig.weights_of_points() == weights);
+  rig.set_options({});
+  rig.reshape(box.squeezed(0.7, 0.4));
+  expect_reproduces<Dim>(rig, box.points);
+}
+
+TEST_IN_2D_AND_3D(RigTest, AShapeWithoutMirrorImagesIsRefused) {
+  const MaskedBox<Dim> box;
+  BindOptions options;
+  options.mirror_axis = 0;
+  Rig<Dim> rig(box.sample.cage, box.sample.mesh, box.points, {}, options);
+  const auto weights = rig.weights_of_points();
+  const auto control_points = with_one_moved<Dim>(box.sample.cage.points, 0.05);
+  expect_refused("has no mirror image", [&] { rig.reshape(control_points); });
+  EXPECT_TRUE(rig.cage().points == box.sample.cage.points);
+  EXPECT_TRUE(rig.weights_of_points() == weights);
+  rig.set_options({});
+  rig.reshape(control_points);
+  expect_reproduces<Dim>(rig, box.points);
 }
 
 TEST_IN_2D_AND_3D(RigTest, EvaluatesWeightsAsAsked) {

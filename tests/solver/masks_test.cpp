@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Masks of the vertices of a mesh: exact zeros, the optimum of what is left, and refusals whose
 // advice works.
+#include <optional>
 #include <random>
 #include <sstream>
 
@@ -144,6 +145,30 @@ TEST_IN_2D_AND_3D(MasksTest, AMaskEndsAtFacets) {
   }
   const auto weights = solve(sample.cage, sample.mesh, options).weights;
   EXPECT_LT((sample.cage.points * weights.dense() - sample.mesh.points).norm(), 1e-12);
+}
+
+// Weights of the boundary are known, so there is nothing to obey.
+TEST_IN_2D_AND_3D(MasksTest, AMaskOfTheBoundaryChangesNothing) {
+  const auto sample = masked_box<Dim>();
+  const auto on_boundary =
+      boundary_vertices(build_topology(sample.mesh), sample.mesh.num_vertices());
+  Mask mask{{0}, {}};
+  for (Index v = 0; v < sample.mesh.num_vertices(); ++v) {
+    if (on_boundary[v]) mask.points.push_back(v);
+  }
+  for (const std::optional<double> smoothness : {std::optional<double>(), {0.0}}) {
+    SolverOptions options;
+    options.smoothness = smoothness;
+    options.certify = true;
+    const auto free = solve(sample.cage, sample.mesh, options);
+    options.masks = {mask};
+    const auto masked = solve(sample.cage, sample.mesh, options);
+    EXPECT_EQ(masked.report.status, SolveStatus::kConverged);
+    EXPECT_TRUE(masked.weights == free.weights);
+    EXPECT_EQ(masked.report.certificate.lower_bound, free.report.certificate.lower_bound);
+    Solver<Dim> solver(sample.cage, sample.mesh, options);
+    EXPECT_TRUE(solver.solve().weights == free.weights);
+  }
 }
 
 TEST_IN_2D_AND_3D(MasksTest, ConflictsAreNamedAndTheAdviceWorks) {

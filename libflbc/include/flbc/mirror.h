@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "flbc/domain_mesh.h"
-#include "flbc/masks.h"
-#include "flbc/placement.h"
+#include "flbc/place_masks.h"
 
 namespace flbc {
 
@@ -30,12 +29,23 @@ class MirroredModel {
  public:
   //! \param axis  normal to the plane, which is in the middle of the cage
   //! \param points  Dim x P. Two of them are mirror images if they are so up to 1e-12 of cage size
-  //! \throws OptionError if there is no such axis; InputError naming the first control point without
-  //! a mirror image
+  //! \throws OptionError if there is no such axis; InputError naming the first control point or
+  //! facet without a mirror image
   MirroredModel(const Cage<Dim>& cage, int axis, const PointList<Dim>& points);
 
   //! Adds the mirror images of masks of P points.
-  std::vector<Mask> symmetrized(std::vector<Mask> masks) const;
+  std::vector<Mask> symmetrized(const std::vector<Mask>& masks) const;
+
+  //! The mirror images of control points.
+  std::vector<Index> images(const std::vector<Index>& control_points) const;
+
+  //! Frees control points whose image is free at the image of a point. Masks may end at facets on
+  //! one side only, because flat quads may be cut differently.
+  //! \param masks  from symmetrized(), placed
+  void keep_common(PlacedMasks& masks) const;
+
+  //! The masks of points without a mirror image.
+  PlacedMasks of_single_points(PlacedMasks masks) const;
 
   //! Makes weights symmetric. \param at  returns weights at given points \param weights  of P
   //! points

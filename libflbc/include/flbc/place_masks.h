@@ -32,9 +32,11 @@ std::vector<Mask> end_at_facets(const Cage<Dim>& cage, const PointList<Dim>& poi
 //! Removes a few control points from all masks so that all points can obey, outside as with
 //! OutsidePoints::kNearest.
 //! \param freed  output: these control points, ascending
+//! \param mirror_axis  BindOptions::mirror_axis, for which mirror images are added and obey, too
 template <int Dim>
 std::vector<Mask> relax_masks(const Cage<Dim>& cage, const PointList<Dim>& points,
-                              std::vector<Mask> masks, std::vector<Index>& freed);
+                              std::vector<Mask> masks, std::vector<Index>& freed,
+                              int mirror_axis = -1);
 
 //! Prepares masks. Vertices of the mesh that cannot obey are left out, because enforce_masks()
 //! makes weights of the points exactly 0.

@@ -50,10 +50,12 @@ class Rig {
   //! \throws InputError if it is not for V vertices and n control points
   void set_solution(Solution solution);
 
-  //! Moves the rest cage, and the mesh with it, and solves, see Solver::move(). The model stays.
+  //! Moves the rest cage, and the mesh with it, and solves, see Solver::move(). The model stays,
+  //! and its masks with it.
   //! \param control_points  Dim x n
-  //! \throws InputError if the model would be outside (OutsidePoints::kFail), the cage has several
-  //! parts, or as Solver::move(); then nothing has changed
+  //! \throws InputError if the model would be outside (OutsidePoints::kFail), masks could not be
+  //! obeyed, the cage would not be symmetric (mirror_axis), the cage has several parts, or as
+  //! Solver::move(); then nothing has changed
   const Solution& reshape(const PointList<Dim>& control_points, const Budget& budget = {});
 
   //! \throws InputError if the model is outside
@@ -71,10 +73,10 @@ class Rig {
   const Solution& solution() const { return solver_ ? solver_->solution() : solution_; }
 
   //! Where the points are.
-  const Placement<Dim>& placement() { return placed().placement; }
+  const Placement<Dim>& placement() const { return placed_.placement; }
 
   //! BindOptions::masks, at the points and in the mesh.
-  const PlacedMasks& masks() { return placed().masks; }
+  const PlacedMasks& masks() const { return placed_.masks; }
 
   //! Evaluates weights of the points in another way than weights_at(), such as by
   //! pointwise_coordinates().
@@ -108,9 +110,10 @@ class Rig {
   Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindOptions& options);
 
   void take(MadeDomain<Dim> domain);
-  const Placed& placed();
-  Placed place(const PointList<Dim>& points, const BindOptions& options) const;
-  void constrain(Placed& placed, const BindOptions& options) const;
+  static Placed place(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                      const PointList<Dim>& points, const BindOptions& options);
+  static void constrain(Placed& placed, const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                        const BindOptions& options);
   SparseWeights evaluated(const Placement<Dim>& placement) const;
 
   Cage<Dim> cage_;
@@ -122,8 +125,8 @@ class Rig {
   std::unique_ptr<Solver<Dim>> solver_{};  // none for several parts, or before the first solve()
   Solution solution_{};                    // without a Solver
   std::function<SparseWeights(const Placement<Dim>&)> evaluate_{};
-  std::optional<Placed> placed_{};  // none after reshape()
-  SparseWeights weights_{};         // at the placed points
+  Placed placed_{};
+  SparseWeights weights_{};  // at the placed points
 };
 
 }  // namespace flbc

@@ -4,7 +4,9 @@
 //! solve, Solver for repeated solves.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "flbc/lbc_problem.h"
 #include "flbc/observer.h"
@@ -92,15 +94,20 @@ class Solver {
   //! over
   const Solution& solve(const Budget& budget = {}, const Observer& observer = {});
 
+  //! The masks of the vertices of a moved mesh.
+  using MasksIn =
+      std::function<std::vector<Mask>(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh)>;
+
   //! Moves the control points and the mesh, and solves. kWeights starts from the duals of the
   //! previous rest cage, other methods start over. If the current rest cage has no solution, it is
   //! solved first. An exception leaves the object unchanged.
   //! \param control_points  Dim x n, in the units of the cage
-  //! \throws InputError if their number differs, one is not finite, the cage becomes defective, or
-  //! a cell would be inverted, naming the cell and its location; OptionError for an invalid budget;
-  //! SolverError
+  //! \param masks_in  returns SolverOptions::masks of the moved mesh; null: as before
+  //! \throws InputError if their number differs, one is not finite, the cage becomes defective,
+  //! masks cannot be obeyed, or a cell would be inverted, naming the cell and its location;
+  //! OptionError for an invalid budget; SolverError
   const Solution& move(const PointList<Dim>& control_points, const Budget& budget = {},
-                       const Observer& observer = {});
+                       const Observer& observer = {}, const MasksIn& masks_in = {});
 
   //! Changes the options of the following solves. The next solve resumes from the last state if
   //! only tolerance, gap, max_iterations, certify, masks, reach, or threads differ and distances

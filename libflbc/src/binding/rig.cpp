@@ -122,49 +122,47 @@ void Rig<Dim>::take(MadeDomain<Dim> domain) {
   mesh_ = std::move(domain.mesh);
   report_.mesher = std::move(domain.mesher);
   report_.note = std::move(domain.note);
-  placed();
+  placed_ = place(cage_, mesh_, points_, options_);
 }
 
 template <int Dim>
-const typename Rig<Dim>::Placed& Rig<Dim>::placed() {
-  if (!placed_) placed_ = place(points_, options_);
-  return *placed_;
-}
-
-template <int Dim>
-typename Rig<Dim>::Placed Rig<Dim>::place(const PointList<Dim>& points,
-                                          const BindOptions& options) const {
+typename Rig<Dim>::Placed Rig<Dim>::place(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                                          const PointList<Dim>& points,
+                                          const BindOptions& options) {
   const ThreadScope threads(options.solver.threads);
   const Stopwatch watch;
   Placed placed;
   if (points.cols() > 0) {
-    placed.placement = place_points(cage(), mesh(), points, options.outside);
+    placed.placement = place_points(cage, mesh, points, options.outside);
   } else {
-    placed.placement.points = mesh().points;
+    placed.placement.points = mesh.points;
   }
-  constrain(placed, options);
+  constrain(placed, cage, mesh, options);
   placed.seconds = watch.seconds();
   return placed;
 }
 
 template <int Dim>
-void Rig<Dim>::constrain(Placed& placed, const BindOptions& options) const {
+void Rig<Dim>::constrain(Placed& placed, const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                         const BindOptions& options) {
   const auto& points = placed.placement.points;
+  const bool has_model = !placed.placement.places.empty();
   placed.mirror.reset();
-  if (options.mirror_axis >= 0) placed.mirror.emplace(cage(), options.mirror_axis, points);
-  if (options.masks.empty()) {
-    placed.masks = {};
-    return;
+  placed.masks = {};
+  if (options.mirror_axis >= 0) {
+    if (!has_model) throw OptionError("mirror_axis is for weights of a model, not of the mesh");
+    placed.mirror.emplace(cage, options.mirror_axis, points);
   }
+  if (options.masks.empty()) return;
   const auto masks = placed.mirror ? placed.mirror->symmetrized(options.masks) : options.masks;
-  placed.masks = placed.placement.places.empty()
-                     ? masks_of_mesh(cage(), points, masks)
-                     : place_masks(cage(), mesh(), placed.placement, masks);
+  placed.masks = has_model ? place_masks(cage, mesh, placed.placement, masks)
+                           : masks_of_mesh(cage, points, masks);
+  if (placed.mirror) placed.mirror->keep_common(placed.masks);
 }
 
 template <int Dim>
 const Solution& Rig<Dim>::solve(const Budget& budget) {
-  const auto& masks = placed().masks;
+  const auto& masks = placed_.masks;
   const Stopwatch watch;
   if (cage_parts(cage_).size() > 1) {
     solution_ = flbc::solve(cage_, mesh_, solver_options(options_, masks), options_.observer);
@@ -199,12 +197,14 @@ const Solution& Rig<Dim>::reshape(const PointList<Dim>& control_points, const Bu
     throw InputError(
         "a cage with several parts cannot be reshaped; bind the model to the new cage");
   }
-  const Cage<Dim> moved{control_points, cage_.facets};
-  validate(moved);
-  require_inside(moved, points_, options_);
   if (!solver_) solve();
-  solver_->move(control_points, budget, options_.observer);
-  placed_.reset();
+  Placed placed;
+  const auto masks_in = [&](const Cage<Dim>& cage, const DomainMesh<Dim>& mesh) {
+    placed = place(cage, mesh, points_, options_);
+    return solver_options(options_, placed.masks).masks;
+  };
+  solver_->move(control_points, budget, options_.observer, masks_in);
+  placed_ = std::move(placed);
   weights_ = {};
   return solution();
 }
@@ -213,7 +213,7 @@ template <int Dim>
 void Rig<Dim>::set_model(PointList<Dim> points, EdgeList edges) {
   require_points<Dim>(points);
   require_model<Dim>(points, edges);
-  auto placed = place(points, options_);
+  auto placed = place(cage(), mesh(), points, options_);
   if (solver_ && !options_.masks.empty()) {
     solver_->set_options(solver_options(options_, placed.masks));
   }
@@ -228,18 +228,18 @@ void Rig<Dim>::set_options(const BindOptions& options) {
   require_valid<Dim>(options);
   std::optional<Placed> changed;
   if (options.outside != options_.outside) {
-    changed = place(points_, options);
+    changed = place(cage(), mesh(), points_, options);
   } else if (options.masks != options_.masks || options.mirror_axis != options_.mirror_axis) {
-    changed = placed();
-    constrain(*changed, options);
+    changed = placed_;
+    constrain(*changed, cage(), mesh(), options);
   }
   if (solver_) {
-    const auto& masks = changed ? changed->masks : placed().masks;
+    const auto& masks = changed ? changed->masks : placed_.masks;
     solver_->set_options(solver_options(options, masks));
   }
   options_ = options;
   if (!changed) return;
-  placed_ = std::move(changed);
+  placed_ = std::move(*changed);
   weights_ = {};
 }
 
@@ -259,18 +259,22 @@ template <int Dim>
 const SparseWeights& Rig<Dim>::weights_of_points() {
   if (weights_.num_points() > 0) return weights_;
   if (solution().weights.num_points() == 0) solve();
-  if (points_.cols() == 0) return solution().weights;
+  const auto& [placement, mirror, masks, seconds] = placed_;
+  if (points_.cols() == 0 && masks.masked == 0) return solution().weights;
   const ThreadScope threads(options_.solver.threads);
-  const auto& [placement, mirror, masks, seconds] = placed();
   const Stopwatch watch;
-  auto weights = evaluated(placement);
+  auto weights = points_.cols() > 0 ? evaluated(placement) : solution().weights;
   if (masks.masked > 0) weights = enforce_masks(cage(), placement, weights, masks);
   if (mirror) {
+    // Images of points that are inside up to a tolerance may be outside by rounding.
+    const auto policy =
+        options_.outside == OutsidePoints::kFail ? OutsidePoints::kNearest : options_.outside;
     weights = mirror->symmetrized(weights, [&](const PointList<Dim>& points) {
-      return evaluated(place_points(cage(), mesh(), points, options_.outside));
+      return evaluated(place_points(cage(), mesh(), points, policy));
     });
-    // At points without an image.
-    if (masks.masked > 0) weights = enforce_masks(cage(), placement, weights, masks);
+    if (masks.masked > 0) {
+      weights = enforce_masks(cage(), placement, weights, mirror->of_single_points(masks));
+    }
   }
   weights_ = std::move(weights);
   report_.evaluate_seconds = seconds + watch.seconds();
@@ -282,7 +286,7 @@ SparseWeights Rig<Dim>::reduced(const SparsifyOptions& limits,
                                 const std::vector<PointList<Dim>>& poses, Reduction reduction) {
   const ThreadScope threads(options_.solver.threads);
   const auto& weights = weights_of_points();
-  const auto& [placement, mirror, masks, seconds] = placed();
+  const auto& [placement, mirror, masks, seconds] = placed_;
   const auto reduce_part = [&](const ModelPart<Dim>& part, Index most) {
     auto few = limits;
     few.max_influences = most;
@@ -290,34 +294,33 @@ SparseWeights Rig<Dim>::reduced(const SparsifyOptions& limits,
     return reduce_influences<Dim>(cage().points, part.points, part.edges, part.weights, poses, few,
                                   reduction);
   };
-  const auto reduce = [&, &masks = masks](const PointList<Dim>& points, const SparseWeights& given,
-                                          const std::optional<MirroredModel<Dim>>& image) {
+  const auto reduce = [&, &mirror = mirror, &masks = masks](const PointList<Dim>& points,
+                                                            const SparseWeights& given) {
     const ModelPart<Dim> model{points, points_.cols() > 0 ? edges_ : edges_of_cells(mesh()), given,
                                masks.of_points};
     const Index most = limits.max_influences;
-    return image ? image->reduced(model, most, reduce_part) : reduce_part(model, most);
+    return mirror ? mirror->reduced(model, most, reduce_part) : reduce_part(model, most);
   };
-  const auto& outside = placement.outside;
-  if (outside.empty() || options_.outside != OutsidePoints::kExtend) {
-    return reduce(placement.points, weights, mirror);
+  if (placement.outside.empty() || options_.outside != OutsidePoints::kExtend) {
+    return reduce(placement.points, weights);
   }
+  std::vector<bool> is_outside(weights.num_points(), false);
+  for (const auto& vertex : placement.outside) is_outside[vertex.point] = true;
+  // Of two lists of weights, the first at the points outside.
+  const auto joined = [&](const SparseWeights& outside, const SparseWeights& inside) {
+    return SparseWeights::of(
+        weights.num_control_points(), weights.num_points(),
+        [&](Index p) -> Eigen::VectorXd { return is_outside[p] ? outside.at(p) : inside.at(p); });
+  };
   const auto nearest = place_points(cage(), mesh(), points_, OutsidePoints::kNearest);
-  std::optional<MirroredModel<Dim>> image;
-  if (mirror) image.emplace(cage(), options_.mirror_axis, nearest.points);
-  const auto inside = reduce(nearest.points, evaluated(nearest), image);
-  std::vector<bool> is_outside(inside.num_points(), false);
-  for (const auto& vertex : outside) is_outside[vertex.point] = true;
-  return SparseWeights::of(inside.num_control_points(), inside.num_points(),
-                           [&](Index point) -> Eigen::VectorXd {
-                             return is_outside[point] ? weights.at(point) : inside.at(point);
-                           });
+  return joined(weights, reduce(nearest.points, joined(evaluated(nearest), weights)));
 }
 
 template <int Dim>
 Binding<Dim> Rig<Dim>::bind() {
   const ThreadScope threads(options_.solver.threads);
   const auto& weights = weights_of_points();
-  const auto& placement = placed().placement;
+  const auto& placement = placed_.placement;
   Binding<Dim> binding;
   for (const auto& vertex : placement.outside) binding.outside.push_back(vertex.point);
   binding.offsets = offsets_of(points_, placement);
@@ -331,7 +334,7 @@ Binding<Dim> Rig<Dim>::bind() {
     binding.weights = reduced(limits, {}, options_.reduction);
   }
   auto& report = binding.report = report_;
-  if (const auto note = placed().masks.note(); !note.empty()) {
+  if (const auto note = placed_.masks.note(); !note.empty()) {
     report.note += (report.note.empty() ? "" : "; ") + note;
   }
   report.sparsify_seconds = watch.lap();

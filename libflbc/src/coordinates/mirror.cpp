@@ -3,16 +3,35 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <map>
 #include <numeric>
 #include <string>
 
 #include "base/messages.h"
 #include "base/take_points.h"
+#include "cage/facet_locator.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
 
 namespace flbc {
 namespace {
+
+// For points without a partner that have the same position as one with a partner: its partner.
+template <int Dim>
+void find_partners_of_duplicates(const PointList<Dim>& points, std::vector<Index>& partners) {
+  std::map<std::vector<double>, Index> partner_at;
+  const auto position = [&](Index p) {
+    return std::vector<double>(points.col(p).begin(), points.col(p).end());
+  };
+  for (Index p = 0; p < points.cols(); ++p) {
+    if (partners[p] >= 0) partner_at.emplace(position(p), partners[p]);
+  }
+  for (Index p = 0; p < points.cols(); ++p) {
+    if (partners[p] >= 0) continue;
+    const auto found = partner_at.find(position(p));
+    if (found != partner_at.end()) partners[p] = found->second;
+  }
+}
 
 // Numbers of points whose images are the given ones, up to a tolerance; -1 for none.
 template <int Dim>
@@ -41,7 +60,33 @@ std::vector<Index> find_partners(const PointList<Dim>& points, const PointList<D
       break;
     }
   }
+  if (std::find(partners.begin(), partners.end(), -1) != partners.end()) {
+    find_partners_of_duplicates<Dim>(points, partners);
+  }
   return partners;
+}
+
+// Refuses a cage whose surface is not that of its image. Flat quads may be cut differently.
+// \param images  of the control points \param plane  in words
+template <int Dim>
+void require_mirrored_facets(const Cage<Dim>& cage, const PointList<Dim>& images,
+                             const std::string& plane) {
+  constexpr double kNear = 1e-9;
+  const FacetLocator<Dim> locator(cage, kNear * bounding_box_diagonal(cage.points));
+  for (Index f = 0; f < cage.facets.cols(); ++f) {
+    std::string corners;
+    for (int k = 0; k < Dim; ++k)
+      corners += (k > 0 ? ", " : "") + std::to_string(cage.facets(k, f));
+    for (int k = 0; k < Dim; ++k) {
+      const Vector<Dim> middle =
+          (images.col(cage.facets(k, f)) + images.col(cage.facets((k + 1) % Dim, f))) / 2;
+      if (locator.locate(middle).facet >= 0) continue;
+      throw InputError(
+          "facet " + std::to_string(f) + " of the cage, of control points " + corners +
+          ", has no mirror image across " + plane +
+          "; cut quads that are not flat alike on both sides, or leave out the mirror");
+    }
+  }
 }
 
 }  // namespace
@@ -56,14 +101,16 @@ MirroredModel<Dim>::MirroredModel(const Cage<Dim>& cage, int axis, const PointLi
   constexpr double kSame = 1e-12;
   const double tolerance = kSame * bounding_box_diagonal(cage.points);
   place_ = (cage.points.row(axis).minCoeff() + cage.points.row(axis).maxCoeff()) / 2;
+  const auto plane = std::string(1, "xyz"[axis]) + " = " + format_number(place_);
   image_ = find_partners<Dim>(cage.points, mirrored(cage.points), tolerance);
   const auto alone = std::find(image_.begin(), image_.end(), -1);
   if (alone != image_.end()) {
     throw InputError(
         describe_control_point(cage.points, static_cast<Index>(alone - image_.begin())) +
-        " has no mirror image across " + "xyz"[axis] + " = " + format_number(place_) +
+        " has no mirror image across " + plane +
         "; make a symmetric cage, or leave out the mirror");
   }
+  require_mirrored_facets<Dim>(cage, mirrored(cage.points), plane);
   partner_ = find_partners<Dim>(points, mirrored(points), tolerance);
 }
 
@@ -75,17 +122,68 @@ PointList<Dim> MirroredModel<Dim>::mirrored(const PointList<Dim>& points) const 
 }
 
 template <int Dim>
-std::vector<Mask> MirroredModel<Dim>::symmetrized(std::vector<Mask> masks) const {
-  const auto given = masks;
-  PointMasks(given, static_cast<Index>(image_.size()),
-             static_cast<Index>(partner_.size()));  // checks
-  for (const auto& mask : given) {
-    Mask images;
-    for (const Index i : mask.control_points) images.control_points.push_back(image_[i]);
-    for (const Index p : mask.points) {
-      if (partner_[p] >= 0) images.points.push_back(partner_[p]);
+std::vector<Mask> MirroredModel<Dim>::symmetrized(const std::vector<Mask>& masks) const {
+  const auto count = static_cast<Index>(partner_.size());
+  PointMasks(masks, static_cast<Index>(image_.size()), count);  // checks
+  using Flags = std::vector<bool>;
+  // Both ways, because duplicates share a partner.
+  const auto add_partners = [&](const Flags& of, Flags& to) {
+    for (Index p = 0; p < count; ++p) {
+      if (partner_[p] < 0) continue;
+      if (of[p]) to[partner_[p]] = true;
+      if (of[partner_[p]]) to[p] = true;
     }
-    masks.push_back(std::move(images));
+  };
+  const auto add = [&](std::vector<Mask>& list, const std::vector<Index>& control_points,
+                       const Flags& flags) {
+    list.push_back({control_points, {}});
+    for (Index p = 0; p < count; ++p) {
+      if (flags[p]) list.back().points.push_back(p);
+    }
+  };
+  std::vector<Mask> both;
+  for (const auto& [control_points, points] : masks) {
+    Flags here(count, false), there(count, false);
+    for (const Index p : points) here[p] = true;
+    add_partners(here, there);
+    add_partners(there, here);
+    add(both, control_points, here);
+    add(both, images(control_points), there);
+  }
+  return both;
+}
+
+template <int Dim>
+std::vector<Index> MirroredModel<Dim>::images(const std::vector<Index>& control_points) const {
+  std::vector<Index> images;
+  for (const Index i : control_points) images.push_back(image_[i]);
+  return images;
+}
+
+template <int Dim>
+void MirroredModel<Dim>::keep_common(PlacedMasks& masks) const {
+  const auto n = static_cast<Index>(image_.size()), count = static_cast<Index>(partner_.size());
+  auto all = masks.of_points;
+  all.insert(all.end(), masks.of_outside.begin(), masks.of_outside.end());
+  const PointMasks before(all, n, count);
+  for (auto* list : {&masks.of_points, &masks.of_outside}) {
+    const PointMasks own(*list, n, count);
+    std::vector<Mask> kept(n);
+    for (Index i = 0; i < n; ++i) kept[i].control_points = {i};
+    for (const Index p : own.points()) {
+      for (const Index i : own.forbidden(p)) {
+        if (partner_[p] < 0 || before.forbids(partner_[p], image_[i])) kept[i].points.push_back(p);
+      }
+    }
+    *list = std::move(kept);
+  }
+}
+
+template <int Dim>
+PlacedMasks MirroredModel<Dim>::of_single_points(PlacedMasks masks) const {
+  const auto n = static_cast<Index>(image_.size()), count = static_cast<Index>(partner_.size());
+  for (auto* list : {&masks.of_points, &masks.of_outside}) {
+    *list = PointMasks(*list, n, count).list([&](Index p) { return partner_[p] < 0; });
   }
   return masks;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <optional>
 
 #include "base/instantiate.h"
 #include "base/messages.h"
@@ -11,6 +12,7 @@
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
 #include "flbc/mask_conflicts.h"
+#include "flbc/mirror.h"
 #include "flbc/non_negative.h"
 #include "linear/dense.h"
 #include "polytope/mask_conflicts.h"
@@ -158,15 +160,25 @@ std::vector<Mask> end_at_facets(const Cage<Dim>& cage, const PointList<Dim>& poi
 
 template <int Dim>
 std::vector<Mask> relax_masks(const Cage<Dim>& cage, const PointList<Dim>& points,
-                              std::vector<Mask> masks, std::vector<Index>& freed) {
+                              std::vector<Mask> masks, std::vector<Index>& freed, int mirror_axis) {
   freed.clear();
   const auto places = place_points(cage, points, OutsidePoints::kNearest).points;
+  std::optional<MirroredModel<Dim>> mirror;
+  if (mirror_axis >= 0) {
+    mirror.emplace(cage, mirror_axis, places);
+    masks = mirror->symmetrized(masks);
+  }
   const PointMasks inside(end_at_facets(cage, places, masks), cage.size(),
                           static_cast<Index>(places.cols()));
   try {
     refuse_mask_conflicts(cage.points, places, inside);
   } catch (const MaskConflict& conflict) {
     freed = conflict.control_points;
+  }
+  if (mirror) {
+    for (const Index i : mirror->images(freed)) freed.push_back(i);
+    std::sort(freed.begin(), freed.end());
+    freed.erase(std::unique(freed.begin(), freed.end()), freed.end());
   }
   for (auto& [control_points, region] : masks) {
     const auto is_free = [&](Index i) { return std::binary_search(freed.begin(), freed.end(), i); };

@@ -256,7 +256,8 @@ auto fixed_in_a_run(const SolverOptions& options) {
 }  // namespace
 
 bool tries_active_set(int dim, Index control_points, Index vertices, const SolverOptions& options) {
-  return plan::active_set({dim, control_points, vertices}, plan::settings_of(options));
+  return plan::active_set({dim, control_points, vertices, !options.masks.empty()},
+                          plan::settings_of(options));
 }
 
 template <int Dim>
@@ -386,8 +387,10 @@ struct Solver<Dim>::State {
 
   // The mesh moved by the control points, not solved yet.
   // \param by  becomes the present shape if the mesh cannot follow this one
+  // \param masks_in  may be null \param masks  receives those of the moved mesh
   std::unique_ptr<Shape> moved(const PointList<Dim>& control_points, const plan::Settings& settings,
-                               std::shared_ptr<const Reference>& by, const Observer& observer) {
+                               std::shared_ptr<const Reference>& by, const MasksIn& masks_in,
+                               std::vector<Mask>& masks, const Observer& observer) {
     require_points_for(shape->cage, control_points);
     Cage<Dim> cage{control_points, shape->cage.facets};
     validate(cage);
@@ -399,8 +402,9 @@ struct Solver<Dim>::State {
       by = present();
       moved = by->moved(control_points);
     }
+    masks = masks_in ? masks_in(cage, moved) : options.masks;
     auto geometry = make_geometry(cage, moved, shape->problem.topology, shape->problem.boundary);
-    geometry.masks = masks_inside(cage.points, moved.points, geometry.boundary, options.masks);
+    geometry.masks = masks_inside(cage.points, moved.points, geometry.boundary, masks);
     return set_up_shape(std::move(cage), std::move(moved), std::move(geometry), settings, observer);
   }
 
@@ -469,7 +473,7 @@ const Solution& Solver<Dim>::solve(const Budget& budget, const Observer& observe
 
 template <int Dim>
 const Solution& Solver<Dim>::move(const PointList<Dim>& control_points, const Budget& budget,
-                                  const Observer& observer) {
+                                  const Observer& observer, const MasksIn& masks_in) {
   validate(budget);
   auto& state = *state_;
   if (state.solution.weights.num_points() == 0 || state.duals) solve({}, observer);
@@ -478,7 +482,8 @@ const Solution& Solver<Dim>::move(const PointList<Dim>& control_points, const Bu
   const auto settings = plan::settings_of(state.options);
   const ThreadScope threads(num_threads(before.problem, settings));
   auto reference = state.reference ? state.reference : state.present();
-  auto shape = state.moved(control_points, settings, reference, observer);
+  std::vector<Mask> masks;
+  auto shape = state.moved(control_points, settings, reference, masks_in, masks, observer);
   shape->setup_seconds = watch.lap();
   const double spent = shape->setup_seconds;
   if (plan::inherits(settings.method) && before.run->has_duals()) {
@@ -490,6 +495,7 @@ const Solution& Solver<Dim>::move(const PointList<Dim>& control_points, const Bu
   }
   state.shape = std::move(shape);
   state.reference = std::move(reference);
+  state.options.masks = std::move(masks);
   return solution();
 }
 

@@ -148,7 +148,7 @@ bool MethodRun<Dim>::begin_on_active_set(const plan::Settings& settings,
                 : cold ? std::move(harmonic.active)
                        : active_set::active_from(*problem_, *start.from,
                                                  active_set::threshold_for(*settings.tolerance));
-  if (!plan::active_set_pays(active_set::density(*problem_, active), settings)) return false;
+  if (!plan::active_set_pays(active_set::density(*problem_, active), sizes, settings)) return false;
   const auto from = cold ? harmonic.start : start.from->start();
   const auto parameters = weights_parameters(
       *problem_, settings, cold ? plan::kActivePenaltyCold : plan::kActivePenaltyWarm);

@@ -28,13 +28,13 @@ LinearSolver linear_solver(const Sizes& sizes, Method method) {
 bool active_set(const Sizes& sizes, const Settings& settings) {
   if (settings.method != Method::kWeights || sizes.control_points > kMostActiveControlPoints)
     return false;
-  if (!settings.masks.empty()) return true;
+  if (sizes.masked) return true;
   if (settings.active_set != ActiveSet::kAuto) return settings.active_set == ActiveSet::kOn;
   return sizes.dim == 3 && !proves(settings);
 }
 
 bool active_set_is_complete(const Sizes& sizes, const Settings& settings, bool cold) {
-  if (settings.masks.empty()) return false;
+  if (!sizes.masked) return false;
   const double pairs = static_cast<double>(sizes.control_points) * sizes.vertices;
   return proves(settings) || (cold && pairs < kActivePairs);
 }
@@ -43,9 +43,8 @@ bool proves(const Settings& settings) {
   return settings.certify || *settings.gap > 0;
 }
 
-bool active_set_pays(double density, const Settings& settings) {
-  return settings.active_set == ActiveSet::kOn || !settings.masks.empty() ||
-         density <= kActiveDensity;
+bool active_set_pays(double density, const Sizes& sizes, const Settings& settings) {
+  return settings.active_set == ActiveSet::kOn || sizes.masked || density <= kActiveDensity;
 }
 
 double penalty_unit(Method method, int dim, double size) {

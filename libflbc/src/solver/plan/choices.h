@@ -14,11 +14,12 @@ struct Sizes {
   int dim;
   Index control_points;
   Index vertices;
+  bool masked = false;  // inside; masks of boundary vertices do not change the problem
 };
 
 template <int Dim>
 Sizes sizes_of(const LbcProblem<Dim>& problem) {
-  return {Dim, problem.num_control_points(), problem.mesh.num_vertices()};
+  return {Dim, problem.num_control_points(), problem.mesh.num_vertices(), !problem.masks.empty()};
 }
 
 //! Whether a method supports the quadratic term of SolverOptions::smoothness.
@@ -45,7 +46,7 @@ bool active_set_is_complete(const Sizes& sizes, const Settings& settings, bool c
 bool proves(const Settings& settings);
 
 //! Whether an active set is small enough to be faster. \param density  of its pairs
-bool active_set_pays(double density, const Settings& settings);
+bool active_set_pays(double density, const Sizes& sizes, const Settings& settings);
 
 //! The factor that converts a penalty for a cage of size 1 to a cage of another size. The penalty
 //! term must scale like total variation, length^(dim - 1). It is mu A |grad w|^2 for kWeights, mu
