@@ -268,6 +268,25 @@ TEST(CageLimitsTest, RodsGetControlPointsAlongTheirLength) {
   }
 }
 
+TEST(CageLimitsTest, ARequestedNumberIsSpreadAlongLimbs) {
+  const auto bar = box_cage<3>(Vector<3>(-2, -0.15, -0.1), Vector<3>(2, 0.15, 0.1));
+  auto other = bar;
+  other.points.row(0).swap(other.points.row(1));
+  other.facets.row(0).swap(other.facets.row(1));  // stays outward
+  Cage<3> cross{PointList<3>(3, 16), FacetList<3>(3, 24)};
+  cross.points << bar.points, other.points;
+  cross.facets << bar.facets, other.facets.array() + 8;
+  CagingOptions options;
+  options.control_points = 50;
+  const auto made = make(cross, options);
+  for (const int axis : {0, 1}) {
+    const auto along = made.cage.points.row(axis).array();
+    for (const double place : {-1.6, -1.3, -1.0, -0.7, 0.7, 1.0, 1.3, 1.6}) {
+      EXPECT_GE(((along - place).abs() < 0.5).count(), 3) << axis << ' ' << place;
+    }
+  }
+}
+
 TEST(CageLimitsTest, ARequestedNumberOverridesThem) {
   CagingOptions options;
   options.control_points = 4;

@@ -245,7 +245,14 @@ class Caging {
     for (double scale = 1;; scale *= kCoarsening) {
       const auto size = size_at(options_.control_points, scale);
       if (size.alpha > kCoarsest * size_) return {};
-      const auto cage = reduced(wrap_of(size), size.offset, options_.control_points, limits);
+      const auto surface = wrap_of(size);
+      if (surface.facets.cols() == 0) continue;
+      auto own = limits;
+      if constexpr (Dim == 3) {
+        own.lengths = edge_lengths(surface, kShort);
+        own.lengths_grow = true;
+      }
+      const auto cage = reduced(surface, size.offset, options_.control_points, own);
       if (cage) return describe(*cage, size.offset);
     }
   }
@@ -257,14 +264,13 @@ class Caging {
       options_.control_points =
           surface.facets.cols() > 0 ? number_by_shape(surface, size_) : kUsualNumber<2>;
     } else {
-      // Edges no longer than the wrap is thick leave three rings at a limb; longer ones take fewer
-      // control points. A model with thin limbs gets a finer wrap, unless it would take too many
-      // control points: then it is boxed in.
+      // Longer edges take fewer control points. A model with thin limbs gets a finer wrap, unless
+      // it would take too many control points: then it is boxed in.
       const double most = 0.97 * kMaxCageVolume * volume_;
       options_.control_points = kMostByShape;
       std::map<Index, Cage<3>> wraps;
       for (const auto& [fineness, limit, edge] :
-           {std::tuple(kUsualNumber<3>, most, 1.0), std::tuple(kUsualNumber<3>, most, 1.4),
+           {std::tuple(kUsualNumber<3>, most, kShort), std::tuple(kUsualNumber<3>, most, 1.4),
             std::tuple(kMostByShape, most, 1.4), std::tuple(kUsualNumber<3>, kNoLimit, 1.4)}) {
         const auto size = size_at(fineness);
         const auto [surface, is_new] = wraps.try_emplace(fineness);
@@ -386,6 +392,8 @@ class Caging {
   }
 
   static constexpr Index kMostByShape = 300, kLeastOfConvex = 8, kFewOfConvex = 16;
+  // Edges no longer than the wrap is thick leave three rings at a limb.
+  static constexpr double kShort = 1;
   static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
   CagingOptions options_;

@@ -47,7 +47,8 @@ Coarsening<Dim>::Coarsening(const Cage<Dim>& surface, const MirrorPlane& plane,
       origin_(enclosure.box().center()),
       quadrics_(collect_quadrics(surface_, origin_)),
       versions_(quadrics_.size(), 0),
-      lengths_(limits.lengths) {
+      lengths_(limits.lengths),
+      lengths_grow_(limits.lengths_grow) {
   for (Index f = 0; f < surface.facets.cols(); ++f) measure_ += measure_of(surface_.facet(f));
   most_ = limits.growth * measure_;
 }
@@ -215,6 +216,18 @@ bool Coarsening<Dim>::take(Candidate candidate) {
 
 template <int Dim>
 void Coarsening<Dim>::reduce_to(Index control_points, const std::function<void(double)>& progress) {
+  constexpr double kLonger = 1.2, kLongest = 20;
+  collapse_to(control_points, progress);
+  for (double longer = kLonger; lengths_grow_ && longer < kLongest; longer *= kLonger) {
+    if (num_control_points() <= control_points) return;
+    for (double& length : lengths_) length *= kLonger;
+    collapse_to(control_points, progress);
+  }
+}
+
+template <int Dim>
+void Coarsening<Dim>::collapse_to(Index control_points,
+                                  const std::function<void(double)>& progress) {
   const double first = num_control_points();
   bool has_progressed = true;
   while (num_control_points() > control_points && has_progressed) {

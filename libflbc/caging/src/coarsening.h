@@ -117,6 +117,7 @@ class Coarsening {
   void add_edge(Index a, Index b);
   void add_edges_at(Index vertex);
   bool take(Candidate candidate);
+  void collapse_to(Index control_points, const std::function<void(double)>& progress);
   double measure_of(const Simplex<Dim>& facet) const;
   double growth(const Replacement<Dim>& change, const Vector<Dim>& position) const;
 
@@ -130,6 +131,7 @@ class Coarsening {
   double measure_ = 0;  // Dim! times the area or volume inside the closed surface or its half
   double most_;         // of this
   std::vector<double> lengths_;  // limits of edges at every vertex; empty: none
+  bool lengths_grow_;
 };
 
 }  // namespace flbc

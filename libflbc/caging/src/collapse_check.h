@@ -34,6 +34,7 @@ struct CageLimits {
   double reach = std::numeric_limits<double>::infinity();   //!< distance of one from the model
   double growth = std::numeric_limits<double>::infinity();  //!< 3D: of the volume, by collapses
   std::vector<double> lengths{};  //!< of edges, at the vertices of the surface; empty: any
+  bool lengths_grow = false;      //!< until the number of control points is reached
 };
 
 //! \param clearance  new facets keep about this distance from the model
