@@ -213,6 +213,23 @@ TEST_F(GltfDocumentTest, MirrorImagesKeepTheirFront) {
   EXPECT_NEAR(volume(read(file).model().soup), 1.0 / 6, 1e-6);
 }
 
+TEST_F(GltfDocumentTest, MeshesWithoutVolumeAreSkipped) {
+  auto file = tetrahedron();
+  for (const double size : {0.0, 1.0}) {
+    file.json["nodes"].push_back(
+        {{"mesh", 0}, {"scale", {size, 1, 1}}, {"translation", {5, 0, 0}}});
+  }
+  file.json["scenes"][0]["nodes"] = {0, 1, 2};
+  const auto model = read(file).model();
+  EXPECT_EQ(model.soup.polygons.size(), 8U);
+  ASSERT_EQ(model.notes.size(), 1U);
+  EXPECT_NE(model.notes[0].find("a scale of 0"), std::string::npos) << model.notes[0];
+  // The node of a skinned mesh does not count.
+  Skinned skinned;
+  skinned.file.json["nodes"][0]["scale"] = {0, 0, 0};
+  EXPECT_LT((points(skinned.file) - skinned.posed()).norm(), 1e-6);
+}
+
 // ------------------------------------------------------------------------------ accessors,
 // addresses
 

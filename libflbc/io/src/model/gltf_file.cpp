@@ -47,12 +47,12 @@ class GltfScanner {
     read_materials();
     visit_scene();
     if (model_.soup.polygons.empty()) {
-      fail("the file has " + (without_triangles_.empty() ? "no" : without_triangles_ + ", but no") +
+      fail("the file has " + (unread_.empty() ? "no" : unread_ + ", but no") +
            " triangles; export the model as a mesh");
     }
-    if (!without_triangles_.empty()) {
-      model_.notes.push_back(without_triangles_ + " are not read");
-      add_other(model_, without_triangles_);
+    if (!unread_.empty()) {
+      model_.notes.push_back(unread_ + " are not read");
+      add_other(model_, unread_);
     }
     finish();
   }
@@ -185,12 +185,15 @@ class GltfScanner {
     known_.clear();
     node_ = k;
     frame_ = world_transform(nodes, k);
-    if (!frame_.matrix().allFinite() || std::abs(frame_.linear().determinant()) < 1e-300) {
-      fail("the transform of a node cannot be inverted");
-    }
     snap_to_identity(frame_, 1);
     joints_.clear();
-    if (nodes[k].contains("skin")) read_skin(nodes, whole(nodes[k].at("skin")));
+    if (nodes[k].contains("skin")) {
+      read_skin(nodes, whole(nodes[k].at("skin")));
+    } else if (!frame_.matrix().allFinite()) {
+      fail("the transform of a node is not finite");
+    } else if (std::abs(frame_.linear().determinant()) < 1e-300) {
+      return note_unread("meshes that a scale of 0 flattens");
+    }
     const auto& primitives = json().at("meshes").at(whole(nodes[k].at("mesh"))).at("primitives");
     for (std::size_t p = 0; p < primitives.size(); ++p) add_primitive(primitives[p], p);
   }
@@ -299,9 +302,12 @@ class GltfScanner {
   void note_without_triangles(const Json& primitive, std::size_t mode) {
     const auto extensions = primitive.value("extensions", Json::object()).dump();
     const bool are_splats = extensions.find("gaussian_splatting") != std::string::npos;
-    const std::string name = are_splats ? "Gaussian splats" : mode == 0 ? "points" : "lines";
-    if (without_triangles_.find(name) != std::string::npos) return;
-    without_triangles_ += (without_triangles_.empty() ? "" : " and ") + name;
+    note_unread(are_splats ? "Gaussian splats" : mode == 0 ? "points" : "lines");
+  }
+
+  void note_unread(const std::string& name) {
+    if (unread_.find(name) != std::string::npos) return;
+    unread_ += (unread_.empty() ? "" : " and ") + name;
   }
 
   void add_triangle(const GltfPart& part, std::array<std::size_t, 3> corners,
@@ -450,7 +456,7 @@ class GltfScanner {
   Eigen::Affine3d frame_;                     // of it
   std::vector<Eigen::Affine3d> joints_;       // of its skin, from where it was bound
   std::map<std::string, std::size_t> known_;  // parts of it, by their attributes
-  std::string without_triangles_;             // kinds of primitives
+  std::string unread_;                        // kinds of primitives and meshes
   std::map<std::tuple<double, double, double>, Index> number_of_;
   std::vector<double> normals_, texture_;  // of the vertices of the file
   std::map<Index, Vector<3>> colors_;      // of those of the model
