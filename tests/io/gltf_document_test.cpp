@@ -292,8 +292,9 @@ TEST_F(GltfDocumentTest, ExtensionsAreRefusedOrNoted) {
     file.json["extensionsRequired"] = {name};
     refuse(file, name);
   }
-  file.json["extensionsUsed"] =
-      file.json["extensionsRequired"] = {"KHR_mesh_quantization", "KHR_materials_unlit"};
+  file.json["extensionsUsed"] = file.json["extensionsRequired"] = {
+      "KHR_mesh_quantization", "KHR_materials_unlit", "EXT_texture_webp", "EXT_texture_avif",
+      "KHR_texture_basisu"};
   EXPECT_TRUE(read(file).model().notes.empty());
 }
 
@@ -521,6 +522,28 @@ TEST_F(GltfDocumentTest, MorphTargetsThatShareNumbersTurnOnce) {
 // Names of people's models end so.
 TEST_F(GltfDocumentTest, VrmIsReadAsGlb) {
   EXPECT_EQ(io::to_points<3>(read(tetrahedron(), "a.vrm").model().soup, ""), corners());
+}
+
+// Whatever the extension is that names them.
+TEST_F(GltfDocumentTest, PicturesOfAllKindsAreEmbedded) {
+  const std::map<std::string, std::string> pictures{
+      {"image/webp", "RIFF1234WEBPodd"},
+      {"image/avif", std::string("\0\0\0\x1c", 4) + "ftypavifodd"},
+      {"image/ktx2", "\xabKTX 20\xbbodd"}};
+  auto original = painted();
+  for (const auto& [type, bytes] : pictures) {
+    make(type.substr(6), bytes);
+    original.json["images"].push_back({{"uri", type.substr(6)}});
+  }
+  make("a.bin", original.bytes);
+  original.json["buffers"][0] = {{"uri", "a.bin"}, {"byteLength", original.bytes.size()}};
+  make("a.gltf", original.json.dump());
+  io::write_model(path("b.glb"), ModelFile(path("a.gltf")).model());
+  const GlbChunks after(content("b.glb"));
+  for (std::size_t k = 1; k < 4; ++k) {
+    const auto& image = after.json["images"][k];
+    EXPECT_EQ(after.view(image["bufferView"]), pictures.at(image["mimeType"]));
+  }
 }
 
 TEST_F(GltfDocumentTest, TextDocumentsBecomeBinaryOnesWithAllTheyHave) {

@@ -119,6 +119,8 @@ std::string media_type_of(const std::string& picture) {
   for (const auto& [signature, type] : kSignatures) {
     if (picture.compare(0, signature.size(), signature) == 0) return type;
   }
+  if (picture.size() < 12) return "";
+  if (picture.compare(4, 8, "ftypavif") == 0) return "image/avif";
   return picture.compare(0, 4, "RIFF") == 0 && picture.compare(8, 4, "WEBP") == 0 ? "image/webp"
                                                                                   : "";
 }

@@ -73,7 +73,7 @@ std::string unposed_gltf(const std::string& path);
 //! Whether an attribute of vertices belongs to a skin.
 bool is_about_influences(const std::string& attribute);
 
-//! "image/png", "image/jpeg", "image/webp", or "image/ktx2"; empty for other bytes.
+//! "image/png", "image/jpeg", "image/webp", "image/avif", or "image/ktx2"; empty for other bytes.
 std::string media_type_of(const std::string& picture);
 
 }  // namespace flbc::io

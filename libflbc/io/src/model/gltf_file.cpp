@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string_view>
 #include <tuple>
 
 #include <Eigen/Geometry>
@@ -26,7 +27,10 @@ using Json = GltfJson;
 
 // Whether points, normals, and texture coordinates do not depend on an extension.
 bool is_understood(const std::string& extension) {
-  return extension == "KHR_mesh_quantization" || extension == "KHR_lights_punctual" ||
+  constexpr std::string_view kNames[] = {"KHR_mesh_quantization", "KHR_lights_punctual",
+                                         "KHR_texture_basisu", "EXT_texture_webp",
+                                         "EXT_texture_avif"};
+  return std::find(std::begin(kNames), std::end(kNames), extension) != std::end(kNames) ||
          extension.compare(0, 14, "KHR_materials_") == 0;
 }
 
