@@ -383,6 +383,31 @@ TEST_F(GltfDocumentTest, OnlyWhatMovesChanges) {
   }
 }
 
+// Reading counts them as missing.
+TEST_F(GltfDocumentTest, OnlyPositionsMustBeFinite) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  auto original = tetrahedron();
+  Points normals = Vector<3>::UnitZ().replicate(1, 4);
+  Points tangents = Eigen::Vector4d::Unit(0).replicate(1, 4);
+  normals.col(2).setConstant(kNone);
+  tangents.col(1).setConstant(kNone);
+  auto& attributes = original.primitive(0)["attributes"];
+  attributes["NORMAL"] = original.add<float>(normals);
+  attributes["TANGENT"] = original.add<float>(tangents);
+  original.json["accessors"][2]["min"] = original.json["accessors"][2]["max"] = {0, 0, 1};
+  const auto file = read(original);
+  const PointList<3> rest = io::to_points<3>(file.model().soup, "");
+  const PointList<3> wanted = 2 * rest;
+  const auto after = moved(file, wanted);
+  EXPECT_EQ(io::to_points<3>(read(original).model().soup, ""), rest);
+  EXPECT_EQ(io::to_points<3>(ModelFile(path("moved.glb")).model().soup, ""), wanted);
+  EXPECT_NEAR(after.floats(attributes["NORMAL"], 3)(2, 0), 1, 1e-6);
+  EXPECT_TRUE(after.floats(attributes["NORMAL"], 3).allFinite());
+  EXPECT_TRUE(after.floats(attributes["TANGENT"], 4).allFinite());
+  EXPECT_EQ(after.json["accessors"][2]["min"][2], 0.0);
+  expect_error<InputError>([&] { moved(file, 1e39 * rest); }, {"not finite or too large"});
+}
+
 TEST_F(GltfDocumentTest, TangentsAndMorphTargetsTurnAlong) {
   auto original = painted();
   original.json["nodes"][0]["scale"] = {2, 1, 1};

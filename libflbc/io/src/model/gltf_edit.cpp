@@ -2,6 +2,7 @@
 #include "model/gltf_edit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string_view>
 
@@ -220,12 +221,17 @@ bool GltfEdit::can_replace(const GltfPart& part, int target, const char* name,
          });
 }
 
-void GltfEdit::set(const GltfPart& part, int target, const char* name,
-                   const Eigen::MatrixXd& columns) {
-  if (!columns.cast<float>().allFinite()) {
+void GltfEdit::set(const GltfPart& part, int target, const char* name, Eigen::MatrixXd columns) {
+  const bool is_finite = columns.cast<float>().allFinite();
+  if (!is_finite && std::string_view(name) == "POSITION") {
     document.fail(
         "a vertex would have a coordinate that is not finite or too large for the single "
         "precision of the file");
+  }
+  // Reading counts directions that are not finite as missing, and no file may have them.
+  if (!is_finite) {
+    columns =
+        columns.unaryExpr([](double x) { return std::isfinite(static_cast<float>(x)) ? x : 0; });
   }
   auto accessor = whole(attributes(part, part.primitives[0], target).at(name));
   if (can_replace(part, target, name, accessor)) return document.replace(accessor, columns);

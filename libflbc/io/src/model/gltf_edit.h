@@ -56,7 +56,7 @@ class GltfEdit {
   void part_meshes(const GltfSource& source);
   void find_users();
   GltfJson& attributes(const GltfPart& part, std::size_t primitive, int target);
-  void set(const GltfPart& part, int target, const char* name, const Eigen::MatrixXd& columns);
+  void set(const GltfPart& part, int target, const char* name, Eigen::MatrixXd columns);
   bool can_replace(const GltfPart& part, int target, const char* name, std::size_t accessor) const;
 
   std::map<Place, std::vector<User>> users_;  // of numbers
