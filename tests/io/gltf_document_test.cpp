@@ -517,6 +517,35 @@ TEST_F(GltfDocumentTest, RandomDocumentsKeepWhatDoesNotMove) {
   }
 }
 
+// Readers that decode them would show the old places.
+TEST_F(GltfDocumentTest, CompressedCopiesOfWhatMovesGo) {
+  auto original = tetrahedron();
+  const char* const name = "KHR_draco_mesh_compression";
+  original.json["nodes"].push_back({{"mesh", 1}, {"translation", {5, 0, 0}}});
+  original.json["scenes"][0]["nodes"].push_back(1);
+  original.json["meshes"].push_back(original.json["meshes"][0]);
+  original.json["extensionsUsed"] = {name};
+  for (const std::size_t mesh : {0U, 1U}) {
+    const auto view = original.add_view("compressed_" + std::to_string(mesh));
+    original.primitive(mesh)["extensions"][name] = {{"bufferView", view},
+                                                    {"attributes", {{"POSITION", 0}}}};
+  }
+  const auto file = read(original);
+  const auto rest = io::to_points<3>(file.model().soup, "");
+  PointList<3> wanted = rest;
+  wanted.leftCols(4) *= 2;
+  auto after = moved(file, wanted);
+  EXPECT_FALSE(after.json["meshes"][0]["primitives"][0].contains("extensions"));
+  const auto& kept = after.json["meshes"][1]["primitives"][0]["extensions"][name];
+  EXPECT_EQ(after.view(kept["bufferView"]), "compressed_1");
+  EXPECT_EQ(after.binary.find("compressed_0"), std::string::npos);
+  EXPECT_EQ(after.json["extensionsUsed"], original.json["extensionsUsed"]);
+  after = moved(file, 2 * rest);
+  EXPECT_EQ(after.json.dump().find(name), std::string::npos);
+  EXPECT_FALSE(after.json.contains("extensionsUsed"));
+  EXPECT_EQ(after.binary.find("compressed"), std::string::npos);
+}
+
 TEST_F(GltfDocumentTest, NodesThatShareAMeshGetTheirOwn) {
   auto file = tetrahedron();
   file.json["nodes"].push_back({{"mesh", 0}, {"translation", {5, 0, 0}}});

@@ -199,7 +199,9 @@ class SkinBuilder {
   }
 
   void set_influences(const GltfPart& part, std::size_t number, const Json& influences) {
-    auto& attributes = edit_.primitive(part, number)["attributes"];
+    auto& primitive = edit_.primitive(part, number);
+    io::drop_compressed_copy(primitive);
+    auto& attributes = primitive["attributes"];
     auto kept = Json::object();
     for (const auto& [name, accessor] : attributes.items()) {
       if (!is_about_influences(name)) kept[name] = accessor;

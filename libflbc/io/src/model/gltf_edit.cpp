@@ -22,14 +22,18 @@ const GltfPaths kToAccessors{
     "meshes/*/primitives/*/attributes/*", "meshes/*/primitives/*/targets/*/*",
     "meshes/*/primitives/*/indices",      "skins/*/inverseBindMatrices",
     "animations/*/samplers/*/input",      "animations/*/samplers/*/output"};
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
 const GltfPaths kToViews{"accessors/*/bufferView", "accessors/*/sparse/indices/bufferView",
-                         "accessors/*/sparse/values/bufferView", "images/*/bufferView"};
+                         "accessors/*/sparse/values/bufferView", "images/*/bufferView",
+                         "meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/bufferView"};
 
-// Whether extensions do not refer to accessors or buffer views, so that these can be renumbered.
+// Whether extensions refer to accessors or buffer views only from these places, so that they can be
+// renumbered.
 bool are_references_known(const GltfJson& json) {
-  constexpr std::string_view kWithout[] = {
-      "KHR_materials_", "KHR_texture_", "KHR_lights_", "KHR_mesh_quant",   "KHR_node_",
-      "KHR_xmp",        "EXT_texture_", "VRM",         "FB_ngon_encoding", "MSFT_lod"};
+  constexpr std::string_view kWithout[] = {"KHR_materials_", "KHR_texture_", "KHR_lights_",
+                                           "KHR_mesh_quant", "KHR_node_",    "KHR_xmp",
+                                           "EXT_texture_",   "VRM",          "FB_ngon_encoding",
+                                           "MSFT_lod",       kDraco};
   const auto extensions = json.value("extensionsUsed", std::vector<std::string>());
   return std::all_of(extensions.begin(), extensions.end(), [&](const std::string& extension) {
     return std::any_of(std::begin(kWithout), std::end(kWithout), [&](std::string_view name) {
@@ -137,12 +141,29 @@ GltfEdit::GltfEdit(const GltfSource& source) : document(source.path, read_file(s
   find_users();
 }
 
+void drop_compressed_copy(GltfJson& primitive) {
+  if (!primitive.contains("extensions")) return;
+  primitive["extensions"].erase(kDraco);
+  if (primitive["extensions"].empty()) primitive.erase("extensions");
+}
+
 std::string GltfEdit::glb() {
+  drop_unused_compression();
   if (are_references_known(document.json)) {
     drop_unused(document.json, "accessors", kToAccessors, accessors_);
     if (drop_unused(document.json, "bufferViews", kToViews, views_) > 0) document.pack();
   }
   return document.glb();
+}
+
+void GltfEdit::drop_unused_compression() {
+  if (!document.json.contains("extensionsUsed") ||
+      !numbers_at(document.json, {kToViews.back()}).empty()) {
+    return;
+  }
+  auto& used = document.json["extensionsUsed"];
+  used.erase(std::remove(used.begin(), used.end(), kDraco), used.end());
+  if (used.empty()) document.json.erase("extensionsUsed");
 }
 
 // Nodes that show the same mesh get one each, as their vertices move in different ways.
@@ -288,6 +309,7 @@ void GltfEdit::move(const GltfPart& part, const GltfMotion& motion) {
       set(part, target, name, columns);
     }
   }
+  for (const auto number : part.primitives) drop_compressed_copy(primitive(part, number));
   set(part, kBase, "POSITION", positions);
   if (normals.cols() > 0) set(part, kBase, "NORMAL", normals);
   if (tangents.cols() > 0) set(part, kBase, "TANGENT", tangents);
@@ -346,6 +368,7 @@ std::string unposed_gltf(const std::string& path) {
         for (const auto& [name, accessor] : primitive.at("attributes").items()) {
           if (!is_about_influences(name)) kept[name] = accessor;
         }
+        if (kept.size() < primitive["attributes"].size()) drop_compressed_copy(primitive);
         primitive["attributes"] = std::move(kept);
       }
     }

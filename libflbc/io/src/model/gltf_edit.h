@@ -54,6 +54,7 @@ class GltfEdit {
   };
 
   void part_meshes(const GltfSource& source);
+  void drop_unused_compression();
   void find_users();
   GltfJson& attributes(const GltfPart& part, std::size_t primitive, int target);
   void set(const GltfPart& part, int target, const char* name, Eigen::MatrixXd columns);
@@ -72,6 +73,10 @@ std::string unposed_gltf(const std::string& path);
 
 //! Whether an attribute of vertices belongs to a skin.
 bool is_about_influences(const std::string& attribute);
+
+//! Removes the Draco copy of the attributes and indices of a primitive, which edits make outdated:
+//! readers that decode it ignore what has changed.
+void drop_compressed_copy(GltfJson& primitive);
 
 //! "image/png", "image/jpeg", "image/webp", "image/avif", or "image/ktx2"; empty for other bytes.
 std::string media_type_of(const std::string& picture);
