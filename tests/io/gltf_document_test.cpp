@@ -578,6 +578,19 @@ TEST_F(GltfDocumentTest, VrmIsReadAsGlb) {
   EXPECT_EQ(io::to_points<3>(read(tetrahedron(), "a.vrm").model().soup, ""), corners());
 }
 
+TEST_F(GltfDocumentTest, PicturesNextToBinaryDocumentsAreEmbedded) {
+  auto original = painted();
+  make("odd.png", "\x89PNG\r\n\x1a\npicture");
+  original.json["images"] = {{{"uri", "odd.png"}}, {{"uri", "gone.png"}}};
+  const auto file = read(original);
+  const auto after = moved(file, 2 * io::to_points<3>(file.model().soup, ""));
+  EXPECT_EQ(after.view(after.json["images"][0]["bufferView"]), "\x89PNG\r\n\x1a\npicture");
+  EXPECT_EQ(after.json["images"][1], original.json["images"][1]);
+  const auto lost = io::losses(file.model(), "b.glb");
+  ASSERT_EQ(lost.size(), 1U);
+  EXPECT_NE(lost[0].find("gone.png"), std::string::npos) << lost[0];
+}
+
 // Whatever the extension is that names them.
 TEST_F(GltfDocumentTest, PicturesOfAllKindsAreEmbedded) {
   const std::map<std::string, std::string> pictures{

@@ -35,7 +35,7 @@ class SkinBuilder {
         edit_(scene.document ? io::GltfEdit(*scene.document) : io::GltfEdit()),
         document_(edit_.document) {
     if (scene.document) {
-      const auto missing = edit_.embed_pictures();
+      const auto missing = document_.embed_pictures();
       left_out_.insert(left_out_.end(), missing.begin(), missing.end());
       drop_old_motion();
       move_to_roots();

@@ -42,6 +42,7 @@ struct GltfPart {
 struct GltfSource {
   std::string path{};
   std::vector<GltfPart> parts{};
+  std::vector<std::string> missing_pictures{};  //!< that cannot be read, one phrase each
 };
 
 //! Places of numbers in JSON, such as "nodes/*/mesh"; "*" stands for all entries.
@@ -54,6 +55,9 @@ std::set<std::size_t> numbers_at(GltfJson& json, const GltfPaths& paths);
 //! \param before  entries to which a number referred; others stay \return how many are removed
 std::size_t drop_unused(GltfJson& json, const char* list, const GltfPaths& paths,
                         const std::set<std::size_t>& before);
+
+//! "image/png", "image/jpeg", "image/webp", "image/avif", or "image/ktx2"; empty for other bytes.
+std::string media_type_of(const std::string& picture);
 
 class GltfDocument {
  public:
@@ -124,6 +128,10 @@ class GltfDocument {
 
   //! Appends to a list of the document. \return the number in it
   std::size_t append(const char* list, GltfJson value);
+
+  //! Puts pictures from other files into the document. \return those that cannot be read, one
+  //! phrase each
+  std::vector<std::string> embed_pictures();
 
   //! Removes bytes that belong to no buffer view.
   void pack();

@@ -116,20 +116,6 @@ GltfMotion motion_of(GltfEdit& edit, const GltfPart& part, const Model& model,
 
 }  // namespace
 
-std::string media_type_of(const std::string& picture) {
-  constexpr std::pair<std::string_view, const char*> kSignatures[] = {
-      {"\x89PNG\r\n\x1a\n", "image/png"},
-      {"\xff\xd8\xff", "image/jpeg"},
-      {"\xabKTX 20", "image/ktx2"}};
-  for (const auto& [signature, type] : kSignatures) {
-    if (picture.compare(0, signature.size(), signature) == 0) return type;
-  }
-  if (picture.size() < 12) return "";
-  if (picture.compare(4, 8, "ftypavif") == 0) return "image/avif";
-  return picture.compare(0, 4, "RIFF") == 0 && picture.compare(8, 4, "WEBP") == 0 ? "image/webp"
-                                                                                  : "";
-}
-
 bool is_about_influences(const std::string& attribute) {
   return attribute.compare(0, 7, "JOINTS_") == 0 || attribute.compare(0, 8, "WEIGHTS_") == 0;
 }
@@ -315,34 +301,11 @@ void GltfEdit::move(const GltfPart& part, const GltfMotion& motion) {
   if (tangents.cols() > 0) set(part, kBase, "TANGENT", tangents);
 }
 
-std::vector<std::string> GltfEdit::embed_pictures() {
-  std::vector<std::string> missing;
-  if (!document.json.contains("images")) return missing;
-  for (auto& image : document.json["images"]) {
-    const auto uri = image.value("uri", "data:");
-    if (uri.compare(0, 5, "data:") == 0) continue;
-    try {
-      const auto bytes = document.content_of(uri);
-      const auto type = media_type_of(bytes);
-      if (type.empty()) {
-        missing.push_back("the picture " + document.file_of(uri) + ": glTF has .png and .jpg only");
-        continue;
-      }
-      image.erase("uri");
-      image["mimeType"] = type;
-      image["bufferView"] = document.add_view(bytes);
-    } catch (const IoError& error) {
-      missing.push_back(std::string("a picture: ") + error.what());
-    }
-  }
-  return missing;
-}
-
 std::string moved_gltf(const Model& model) {
   const auto& source = *model.gltf;
   return refusing_damage(source.path, [&] {
     GltfEdit edit(source);
-    if (extension_of(source.path) == "gltf") edit.embed_pictures();
+    edit.document.embed_pictures();  // losses() has those that are missing
     const auto before = points_of(edit, source, model.soup.points.size());
     const auto changes = changes_of_space(model.soup, before);
     for (const auto& part : source.parts) {
@@ -353,7 +316,7 @@ std::string moved_gltf(const Model& model) {
   });
 }
 
-std::string unposed_gltf(const std::string& path) {
+std::string unposed_gltf(const std::string& path, std::vector<std::string>& left_out) {
   return refusing_damage(path, [&] {
     GltfEdit edit(GltfSource{path, {}});
     auto& json = edit.document.json;
@@ -372,7 +335,7 @@ std::string unposed_gltf(const std::string& path) {
         primitive["attributes"] = std::move(kept);
       }
     }
-    if (extension_of(path) == "gltf") edit.embed_pictures();
+    left_out = edit.document.embed_pictures();
     return edit.glb();
   });
 }

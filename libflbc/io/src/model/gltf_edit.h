@@ -37,9 +37,6 @@ class GltfEdit {
   //! Replaces positions, normals, tangents, and morph targets.
   void move(const GltfPart& part, const GltfMotion& motion);
 
-  //! Puts pictures from other files into the document. \return those that cannot be read
-  std::vector<std::string> embed_pictures();
-
   //! The .glb file, without numbers that only the edits have left unused.
   std::string glb();
 
@@ -68,8 +65,9 @@ class GltfEdit {
 std::string moved_gltf(const Model& model);
 
 //! The .glb file of a model without skins: each mesh is where its node is, as it was bound.
+//! \param left_out  gets pictures that cannot be read, one phrase each
 //! \throws InputError if there are none; IoError
-std::string unposed_gltf(const std::string& path);
+std::string unposed_gltf(const std::string& path, std::vector<std::string>& left_out);
 
 //! Whether an attribute of vertices belongs to a skin.
 bool is_about_influences(const std::string& attribute);
@@ -77,8 +75,5 @@ bool is_about_influences(const std::string& attribute);
 //! Removes the Draco copy of the attributes and indices of a primitive, which edits make outdated:
 //! readers that decode it ignore what has changed.
 void drop_compressed_copy(GltfJson& primitive);
-
-//! "image/png", "image/jpeg", "image/webp", "image/avif", or "image/ktx2"; empty for other bytes.
-std::string media_type_of(const std::string& picture);
 
 }  // namespace flbc::io
