@@ -260,10 +260,18 @@ Eigen::MatrixXd skinned(const GlbChunks& file, std::size_t number, const Eigen::
   return result;
 }
 
+// Of a tetrahedron, each on an axis.
+Eigen::MatrixXd corners() {
+  return (Eigen::MatrixXd(3, 4) << 0, 1, 0, 0,  //
+          0, 0, 1, 0,                           //
+          0, 0, 0, 1)
+      .finished();
+}
+
 // Two small tetrahedra in the cage, which show the same mesh, and a line.
 NewGlb twins() {
   NewGlb file(R"({"scene":0,"scenes":[{"name":"stage","nodes":[0,2]}],
-    "nodes":[{"name":"pair","children":[1],"mesh":0,"scale":[-0.15,0.15,0.15],
+    "nodes":[{"name":"pair","children":[1],"mesh":0,"scale":[0.15,0.15,0.15],
               "translation":[0.4,0.1,0.1]},
              {"name":"twin","mesh":0,"translation":[0,1.1,0],"rotation":[0,0,0.6,0.8]},
              {"name":"eye","camera":0,"translation":[0,0,9]}],
@@ -277,13 +285,9 @@ NewGlb twins() {
     "animations":[{"channels":[{"sampler":0,"target":{"node":2,"path":"translation"}},
       {"sampler":0,"target":{"node":0,"path":"translation"}}],"samplers":[{"input":6,"output":7}]}]
     })");
-  const Eigen::MatrixXd corners = (Eigen::MatrixXd(3, 4) << 0, 1, 0, 0,  //
-                                   0, 0, 1, 0,                           //
-                                   0, 0, 0, 1)
-                                      .finished();
   const auto faces = (Eigen::RowVectorXd(12) << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3).finished();
   auto& attributes = file.primitive(0)["attributes"];
-  attributes["POSITION"] = file.add<float>(corners);
+  attributes["POSITION"] = file.add<float>(corners());
   attributes["NORMAL"] = file.add<float>(Eigen::MatrixXd(Vector<3>::UnitX().replicate(1, 4)));
   attributes["TANGENT"] =
       file.add<float>(Eigen::MatrixXd(Eigen::Vector4d(0, 1, 0, -1).replicate(1, 4)));
@@ -384,6 +388,84 @@ TEST_F(ExportCommand, PosesOfOldSkinsStay) {
   for (int v = 0; v < 4; ++v) {
     EXPECT_LT((normals.col(v).cast<double>() - turn * Vector<3>::UnitX()).norm(), 1e-6);
     EXPECT_LT((tangents.col(v).head<3>().cast<double>() - turn * Vector<3>::UnitY()).norm(), 1e-6);
+  }
+}
+
+// The volume of the cone from the center of a surface to its triangles.
+double volume(const Eigen::MatrixXd& points, const Eigen::MatrixXd& triangles) {
+  double sum = 0;
+  const Vector<3> center = points.rowwise().mean();
+  for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 3; ++k) {
+      edges.col(k) = points.col(static_cast<Eigen::Index>(triangles(k, t))) - center;
+    }
+    sum += edges.determinant() / 6;
+  }
+  return sum;
+}
+
+double volume_of(const std::string& path) {
+  const auto soup = io::read_polygons(path);
+  Eigen::MatrixXd triangles(3, soup.polygons.size());
+  for (std::size_t t = 0; t < soup.polygons.size(); ++t) {
+    for (int k = 0; k < 3; ++k) triangles(k, static_cast<Eigen::Index>(t)) = soup.polygons[t][k];
+  }
+  return volume(io::to_points<3>(soup, path), triangles);
+}
+
+// The transform of its node decides which side of a triangle viewers show, not that of its joints.
+TEST_F(ExportCommand, MirrorImagesKeepTheirFront) {
+  const std::vector<int> faces{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  struct Case {
+    const char* name;
+    int mode;
+    std::vector<int> indices;
+  };
+  constexpr int kTriangles = 4, kStrip = 5, kFan = 6;
+  for (const auto& [name, mode, indices] :
+       {Case{"triangles", kTriangles, faces}, Case{"not indexed", kTriangles, {}},
+        Case{"strip", kStrip, {0, 2, 1, 3, 0, 2}}, Case{"fan", kFan, {0, 2, 1, 3, 2}},
+        Case{"kept", kTriangles, faces}, Case{"skinned", kTriangles, faces},
+        Case{"skinned and kept", kTriangles, faces}}) {
+    SCOPED_TRACE(name);
+    NewGlb original(R"({"scene":0,"scenes":[{"nodes":[0]}],
+      "nodes":[{"children":[1,2],"scale":[-0.2,0.2,0.2],"translation":[0.4,0.1,0.1]},{"mesh":0},{}],
+      "meshes":[{"primitives":[{}]}]})");
+    auto& primitive = original.primitive(0);
+    const Eigen::MatrixXd points =
+        indices.empty() ? Eigen::MatrixXd(corners()(Eigen::all, faces)) : corners();
+    primitive["attributes"]["POSITION"] = original.add<float>(points);
+    primitive["mode"] = mode;
+    if (!indices.empty()) {
+      primitive["indices"] = original.add<std::uint16_t>(
+          Eigen::Map<const Eigen::RowVectorXi>(indices.data(), indices.size()));
+    }
+    if (std::string_view(name).find("skinned") != std::string::npos) {
+      primitive["attributes"]["JOINTS_0"] = original.add<std::uint8_t>(Eigen::MatrixXd::Zero(4, 4));
+      primitive["attributes"]["WEIGHTS_0"] =
+          original.add<float>(Eigen::MatrixXd(Eigen::Vector4d::UnitX().replicate(1, 4)));
+      original.json["skins"] = {{{"joints", {2}}}};
+      original.json["nodes"][1]["skin"] = 0;
+    }
+    const bool is_kept = std::string_view(name).find("kept") != std::string::npos;
+    if (is_kept)
+      original.json["nodes"][1]["extensions"] = {{"VENDOR_light", NewGlb::Json::object()}};
+    const auto model = file("m.glb", original.glb());
+    const auto places = points_in<3>(model);
+    const auto expected = volume_of(model);
+    EXPECT_GT(expected, 0);
+    expect_export(model + " --weights " + linear_weights(places) + " --cage " + tetrahedron() +
+                      " -q -o s.glb",
+                  0, "");
+    const auto exported = skin("s.glb");
+    const double front = is_kept ? -1 : 1;
+    EXPECT_NEAR(front * volume(exported.skinned(exported.joints()), exported.triangles()), expected,
+                1e-6);
+    EXPECT_NEAR(volume_of("s.glb"), expected, 1e-6);
+    EXPECT_EQ(exported.primitive().value("mode", kTriangles), kTriangles);
+    const GlbChunks chunks(slurp("s.glb"));
+    for (const auto& unused : chunks.unused()) EXPECT_TRUE(unused.empty());
   }
 }
 

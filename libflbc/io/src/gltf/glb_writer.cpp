@@ -137,6 +137,8 @@ class SkinBuilder {
       const bool has_use = joints.count(part->node) > 0 || node.contains("children") ||
                            node.contains("camera") || node.contains("extensions");
       if (has_use) continue;
+      // Viewers take the front of triangles from the transform of their node.
+      if (part->is_mirrored) edit_.reverse(*part);
       for (const char* name : {"matrix", "translation", "rotation", "scale"}) node.erase(name);
       if (parent_of.count(part->node) > 0) detach(part->node, parent_of);
     }

@@ -283,6 +283,29 @@ Eigen::MatrixXd GltfDocument::numbers(std::size_t accessor, int rows) const {
   return columns;
 }
 
+Eigen::Matrix<std::size_t, 3, Eigen::Dynamic> GltfDocument::triangles(
+    const GltfJson& primitive, std::size_t num_vertices) const {
+  const auto mode = whole(primitive, "mode", kGltfTriangles);
+  Eigen::MatrixXd indices;
+  if (primitive.contains("indices")) indices = numbers(whole(primitive["indices"]), 1);
+  const auto count =
+      primitive.contains("indices") ? static_cast<std::size_t>(indices.cols()) : num_vertices;
+  const auto corner = [&](std::size_t k) {
+    return indices.size() > 0 ? to_whole(indices(0, static_cast<Eigen::Index>(k))) : k;
+  };
+  const std::size_t step = mode == kGltfTriangles ? 3 : 1;
+  Eigen::Matrix<std::size_t, 3, Eigen::Dynamic> result(3, count < 3 ? 0 : (count - 3) / step + 1);
+  for (Eigen::Index t = 0; t < result.cols(); ++t) {
+    const auto first = static_cast<std::size_t>(t) * step;
+    const bool is_odd = mode == kGltfStrip && first % 2 == 1;
+    result.col(t) << corner(is_odd             ? first + 1
+                            : mode == kGltfFan ? 0
+                                               : first),
+        corner(is_odd ? first : first + 1), corner(first + 2);
+  }
+  return result;
+}
+
 std::vector<double> GltfDocument::morph_weights(const GltfJson& node) const {
   const auto& mesh = json.at("meshes").at(whole(node.at("mesh")));
   return (node.contains("weights") ? node : mesh).value("weights", std::vector<double>());

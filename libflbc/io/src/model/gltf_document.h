@@ -21,6 +21,7 @@ namespace flbc::io {
 using GltfJson = nlohmann::ordered_json;
 
 constexpr std::size_t kGltfFloat = 5126;
+constexpr std::size_t kGltfTriangles = 4, kGltfStrip = 5, kGltfFan = 6;
 constexpr int kVertexTarget = 34962, kIndexTarget = 34963;  // uses of buffer views
 
 //! The triangles of a node that share their vertices.
@@ -32,6 +33,7 @@ struct GltfPart {
   //! From the file, morphed by default weights, to the model: one for all vertices or one for each.
   std::vector<Eigen::Affine3d> frames{};
   bool is_skinned = false;
+  bool is_mirrored = false;  //!< by its node: triangles of the file have their front at the back
 
   const Eigen::Affine3d& frame(std::size_t vertex) const {
     return frames[frames.size() == 1 ? 0 : vertex];
@@ -74,6 +76,10 @@ class GltfDocument {
   //! 1].
   //! \param rows  that are needed \throws InputError
   Eigen::MatrixXd numbers(std::size_t accessor, int rows) const;
+
+  //! The triangles of a primitive in any mode of them, a column of vertices each.
+  Eigen::Matrix<std::size_t, 3, Eigen::Dynamic> triangles(const GltfJson& primitive,
+                                                          std::size_t num_vertices) const;
 
   std::string_view view(std::size_t number) const;
 

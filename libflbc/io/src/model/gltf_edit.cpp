@@ -246,6 +246,18 @@ void GltfEdit::set(const GltfPart& part, int target, const char* name, Eigen::Ma
   for (const auto number : part.primitives) attributes(part, number, target)[name] = accessor;
 }
 
+void GltfEdit::reverse(const GltfPart& part) {
+  for (const auto number : part.primitives) {
+    auto& reversed = primitive(part, number);
+    auto triangles = document.triangles(reversed, part.points.size());
+    if (triangles.cols() == 0) continue;
+    triangles.row(1).swap(triangles.row(2));
+    reversed.erase("mode");  // triangles
+    reversed["indices"] =
+        document.add_indices(triangles, static_cast<Eigen::Index>(part.points.size()));
+  }
+}
+
 void GltfEdit::move(const GltfPart& part, const GltfMotion& motion) {
   const auto count = motion.places.cols();
   const auto moving = [&](Eigen::Index k) { return motion.moves[static_cast<std::size_t>(k)]; };

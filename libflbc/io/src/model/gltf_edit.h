@@ -34,6 +34,9 @@ class GltfEdit {
   Eigen::MatrixXd places(const GltfPart& part);
   Eigen::MatrixXd normals(const GltfPart& part);
 
+  //! Turns the triangles of a part over, which become indexed ones.
+  void reverse(const GltfPart& part);
+
   //! Replaces positions, normals, tangents, and morph targets.
   void move(const GltfPart& part, const GltfMotion& motion);
 

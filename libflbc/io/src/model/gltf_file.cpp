@@ -276,30 +276,20 @@ class GltfScanner {
   }
 
   void add_primitive(const Json& primitive, std::size_t number) {
-    constexpr std::size_t kTriangles = 4, kStrip = 5, kFan = 6;
-    const auto mode = whole(primitive, "mode", kTriangles);
-    if (mode < kTriangles || mode > kFan) return note_without_triangles(primitive, mode);
+    const auto mode = whole(primitive, "mode", kGltfTriangles);
+    if (mode < kGltfTriangles || mode > kGltfFan) return note_without_triangles(primitive, mode);
     if (primitive.contains("targets")) add_other(model_, "morph targets");
     auto& part = part_of(primitive);
     part.primitives.push_back(number);
     const auto& attributes = primitive.at("attributes");
-    std::vector<std::size_t> corners;
-    if (primitive.contains("indices")) {
-      const auto indices = document_.numbers(whole(primitive.at("indices")), 1);
-      for (const double index : indices.reshaped()) corners.push_back(to_whole(index));
-    } else {
-      for (std::size_t k = 0; k < part.points.size(); ++k) corners.push_back(k);
-    }
+    const auto triangles = document_.triangles(primitive, part.points.size());
     const bool has_material = primitive.contains("material");
     const auto material = whole(primitive, "material", 0);
     if (has_material && material >= model_.materials.size()) fail("a material is out of range");
     const std::array<bool, 2> has{attributes.contains("TEXCOORD_0"), attributes.contains("NORMAL")};
-    for (std::size_t k = 2; k < corners.size(); k += mode == kTriangles ? 3 : 1) {
-      const bool is_odd = mode == kStrip && k % 2 == 1;
-      const std::size_t first = mode == kFan ? 0 : k - 2;
-      add_triangle(part,
-                   {corners[is_odd ? k - 1 : first], corners[is_odd ? k - 2 : k - 1], corners[k]},
-                   has, has_material ? static_cast<Index>(material) : -1);
+    for (const auto& corners : triangles.colwise()) {
+      add_triangle(part, {corners[0], corners[1], corners[2]}, has,
+                   has_material ? static_cast<Index>(material) : -1);
     }
   }
 
@@ -320,8 +310,7 @@ class GltfScanner {
       if (corner >= part.points.size())
         fail("a triangle has the vertex " + std::to_string(corner) + ", which is out of range");
     }
-    // A mirror image has its front at the back.
-    if (part.frame(corners[0]).linear().determinant() < 0) std::swap(corners[1], corners[2]);
+    if (part.is_mirrored) std::swap(corners[1], corners[2]);
     std::vector<Index> polygon;
     std::vector<CornerReferences> references;
     for (const auto corner : corners) {
@@ -350,6 +339,7 @@ class GltfScanner {
     const auto& node = json().at("nodes").at(node_);
     whole(attributes.at("POSITION"));
     const auto places = document_.morphed(node, primitive, "POSITION", 3);
+    part.is_mirrored = frame_.linear().determinant() < 0;
     part.is_skinned = !joints_.empty() && attributes.contains("JOINTS_0");
     part.frames = part.is_skinned ? skinned_frames(attributes, places.cols())
                                   : std::vector<Eigen::Affine3d>{frame_};
