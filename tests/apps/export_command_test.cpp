@@ -352,6 +352,42 @@ TEST_F(ExportCommand, DocumentsKeepWhatTheyHave) {
   }
 }
 
+// Nodes below others, with these.
+std::set<std::size_t> reached(const NewGlb::Json& json, const NewGlb::Json& roots) {
+  std::set<std::size_t> nodes;
+  for (const std::size_t root : roots) {
+    nodes.insert(root);
+    if (json["nodes"][root].contains("children")) {
+      nodes.merge(reached(json, json["nodes"][root]["children"]));
+    }
+  }
+  return nodes;
+}
+
+TEST_F(ExportCommand, ScenesThatShowTheModelHaveItsCage) {
+  auto original = twins();
+  original.json["scenes"].push_back({{"nodes", {2}}});
+  original.json["scenes"].push_back({{"nodes", {0}}});
+  file("m0.glb", original.glb());
+  const auto points = points_in<3>("m0.glb");
+  const auto rest = " --weights " + linear_weights(points) + " --cage " + tetrahedron() + " -q -o ";
+  // The second time the scenes of the first result are there as well.
+  for (const auto& [model, result] :
+       {std::pair("m0.glb", "m1.glb"), std::pair("m1.glb", "m2.glb")}) {
+    expect_export(model + rest + result, 0, "");
+    const auto json = GlbChunks(slurp(result)).json;
+    for (const auto& scene : json["scenes"]) {
+      const auto nodes = reached(json, scene["nodes"]);
+      for (const auto node : nodes) {
+        if (!json["nodes"][node].contains("skin")) continue;
+        const auto& skin = json["skins"][json["nodes"][node]["skin"].get<std::size_t>()];
+        EXPECT_EQ(nodes.count(skin["skeleton"].get<std::size_t>()), 1U) << model;
+      }
+    }
+    EXPECT_EQ(json["scenes"][1], original.json["scenes"][1]);  // without the model
+  }
+}
+
 TEST_F(ExportCommand, PosesOfOldSkinsStay) {
   auto original = twins();
   original.json.erase("animations");

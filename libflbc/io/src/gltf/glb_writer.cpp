@@ -361,11 +361,27 @@ class SkinBuilder {
     }
     if (!document_.json.contains("scenes")) document_.append("scenes", {{"nodes", roots()}});
     const auto shown = io::whole(document_.json, "scene", 0);
-    list("scenes").at(shown)["nodes"].push_back(cage_);
+    add_cage_to_scenes(shown);
     if (scene_.wire.cols() == 0) return;
     auto nodes = list("scenes").at(shown)["nodes"];
     nodes.push_back(add_wire());
     document_.append("scenes", {{"name", "model and cage"}, {"nodes", nodes}});
+  }
+
+  // Joints must be in every scene that shows their skin.
+  void add_cage_to_scenes(std::size_t shown) {
+    std::set<std::size_t> skinned;
+    if (scene_.document) {
+      for (const auto& part : scene_.document->parts) skinned.insert(part.node);
+    }
+    add_ancestors(skinned);
+    auto& scenes = list("scenes");
+    for (std::size_t k = 0; k < scenes.size(); ++k) {
+      const auto nodes = io::wholes(scenes[k], "nodes");
+      const bool has_model = std::any_of(nodes.begin(), nodes.end(),
+                                         [&](std::size_t node) { return skinned.count(node) > 0; });
+      if (has_model || k == shown) scenes[k]["nodes"].push_back(cage_);
+    }
   }
 
   Json roots() {
