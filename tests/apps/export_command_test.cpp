@@ -391,7 +391,6 @@ TEST_F(ExportCommand, ScenesThatShowTheModelHaveItsCage) {
 TEST_F(ExportCommand, PosesOfOldSkinsStay) {
   auto original = twins();
   original.json.erase("animations");
-  original.json["meshes"][0]["primitives"].erase(1);
   original.json["scenes"][0]["nodes"] = {1, 2};
   original.json["nodes"][1] = {{"mesh", 0}, {"skin", 0}, {"weights", {0.5}}};
   original.json["nodes"][2] = {{"name", "bone"},
@@ -405,6 +404,12 @@ TEST_F(ExportCommand, PosesOfOldSkinsStay) {
   primitive["attributes"]["JOINTS_0"] = original.add<std::uint8_t>(Eigen::MatrixXd::Zero(4, 4));
   primitive["attributes"]["WEIGHTS_0"] =
       original.add<float>(Eigen::MatrixXd(Eigen::Vector4d::UnitX().replicate(1, 4)));
+  // Lines that share the numbers of the triangles, and lines that have some of their own.
+  auto lines = primitive;
+  lines["mode"] = 1;
+  original.primitive(0, 1) = lines;
+  lines["attributes"]["POSITION"] = original.add<float>(corners());
+  original.json["meshes"][0]["primitives"].push_back(lines);
   const auto model = file("m.glb", original.glb());
   const auto points = points_in<3>(model);
   const auto result = expect_export(
@@ -415,6 +420,17 @@ TEST_F(ExportCommand, PosesOfOldSkinsStay) {
   const GlbChunks skin(slurp("s.glb"));
   EXPECT_EQ(skin.json["nodes"][2], original.json["nodes"][2]);
   EXPECT_EQ(skin.json["nodes"][1]["weights"], original.json["nodes"][1]["weights"]);
+  // Lines of the mesh are posed as well, though the cage does not move them.
+  for (const std::size_t line : {1U, 2U}) {
+    const auto& primitives = skin.json["meshes"][1]["primitives"];
+    const auto positions = [&](const NewGlb::Json& owner) {
+      return skin.floats(owner["attributes"]["POSITION"], 3);
+    };
+    const auto& attributes = primitives[line]["attributes"];
+    EXPECT_EQ(positions(primitives[line]), positions(primitives[0]));
+    EXPECT_EQ(skin.accessor(attributes["JOINTS_0"]),
+              std::string("\4\0\0\0\4\0\0\0\4\0\0\0\4\0\0\0", 16));
+  }
   // The other node with this mesh is not in the scene and keeps it.
   EXPECT_EQ(skin.json["meshes"][0], original.json["meshes"][0]);
   const auto& attributes = skin.json["meshes"][1]["primitives"][0]["attributes"];

@@ -41,6 +41,9 @@ class SkinBuilder {
       move_to_roots();
       add_joints();
       for (const auto& part : scene.document->parts) skin(part);
+      for (const auto& part : scene.document->posed_others) {
+        if (is_posed(part.node)) pose(part);
+      }
       skin_others();
     } else {
       document_.append("nodes", {{"name", scene.name}, {"mesh", 0}, {"skin", 0}});
@@ -164,15 +167,18 @@ class SkinBuilder {
 
   // ---------------------------------------- influences
 
-  void skin(const GltfPart& part) {
+  // What another skin has posed is written in its pose.
+  bool is_posed(std::size_t node) const {
     const auto& parts = scene_.document->parts;
-    // What another skin has posed is written in its pose.
-    const bool is_posed = std::any_of(parts.begin(), parts.end(), [&](const GltfPart& other) {
-      return other.node == part.node && other.is_skinned;
-    });
-    if (is_posed) pose(part);
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const GltfPart& part) { return part.node == node && part.is_skinned; });
+  }
+
+  void skin(const GltfPart& part) {
+    const bool has_pose = is_posed(part.node);
+    if (has_pose) pose(part);
     const auto origin = Eigen::Affine3d(Eigen::Translation3d(scene_.origin));
-    edit_.node(part.node)["skin"] = skin_from(is_posed ? origin : part.frame(0));
+    edit_.node(part.node)["skin"] = skin_from(has_pose ? origin : part.frame(0));
     const auto& weights = scene_.weights;
     auto influences = influences_of({weights.format, weights.joints(Eigen::all, part.points),
                                      weights.numbers(Eigen::all, part.points)});

@@ -24,11 +24,11 @@ constexpr std::size_t kGltfFloat = 5126;
 constexpr std::size_t kGltfTriangles = 4, kGltfStrip = 5, kGltfFan = 6;
 constexpr int kVertexTarget = 34962, kIndexTarget = 34963;  // uses of buffer views
 
-//! The triangles of a node that share their vertices.
+//! The triangles of a node that share their vertices, or points or lines.
 struct GltfPart {
   std::size_t node = 0;
   std::vector<std::size_t> primitives{};  //!< of the mesh of the node
-  std::vector<Index> points{};            //!< vertex of the model, by vertex of the file
+  std::vector<Index> points{};            //!< vertex of the model or -1, by vertex of the file
   Index first = 0;                        //!< number of their first normal in the model
   //! From the file, morphed by default weights, to the model: one for all vertices or one for each.
   std::vector<Eigen::Affine3d> frames{};
@@ -44,6 +44,7 @@ struct GltfPart {
 struct GltfSource {
   std::string path{};
   std::vector<GltfPart> parts{};
+  std::vector<GltfPart> posed_others{};  //!< points and lines in skinned meshes with triangles
   std::vector<std::string> missing_pictures{};  //!< that cannot be read, one phrase each
 };
 

@@ -200,6 +200,7 @@ class GltfScanner {
     }
     const auto& primitives = json().at("meshes").at(whole(nodes[k].at("mesh"))).at("primitives");
     for (std::size_t p = 0; p < primitives.size(); ++p) add_primitive(primitives[p], p);
+    if (!joints_.empty() && !known_.empty()) add_posed_others(primitives);
   }
 
   // Bits that only rounding has set in products of transforms would change coordinates.
@@ -276,8 +277,7 @@ class GltfScanner {
   }
 
   void add_primitive(const Json& primitive, std::size_t number) {
-    const auto mode = whole(primitive, "mode", kGltfTriangles);
-    if (mode < kGltfTriangles || mode > kGltfFan) return note_without_triangles(primitive, mode);
+    if (!has_triangles(primitive)) return note_without_triangles(primitive);
     if (primitive.contains("targets")) add_other(model_, "morph targets");
     auto& part = part_of(primitive);
     part.primitives.push_back(number);
@@ -293,10 +293,30 @@ class GltfScanner {
     }
   }
 
-  void note_without_triangles(const Json& primitive, std::size_t mode) {
+  static bool has_triangles(const Json& primitive) {
+    const auto mode = whole(primitive, "mode", kGltfTriangles);
+    return mode >= kGltfTriangles && mode <= kGltfFan;
+  }
+
+  void add_posed_others(const Json& primitives) {
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      const auto& attributes = primitives[p].at("attributes");
+      if (has_triangles(primitives[p]) || !attributes.contains("POSITION")) continue;
+      const auto positions = document_.numbers(whole(attributes["POSITION"]), 3);
+      auto& part = source_->posed_others.emplace_back();
+      part.node = node_;
+      part.primitives = {p};
+      part.points.assign(static_cast<std::size_t>(positions.cols()), -1);
+      set_frames(part, attributes);
+    }
+  }
+
+  void note_without_triangles(const Json& primitive) {
     const auto extensions = primitive.value("extensions", Json::object()).dump();
     const bool are_splats = extensions.find("gaussian_splatting") != std::string::npos;
-    note_unread(are_splats ? "Gaussian splats" : mode == 0 ? "points" : "lines");
+    note_unread(are_splats                      ? "Gaussian splats"
+                : whole(primitive["mode"]) == 0 ? "points"
+                                                : "lines");
   }
 
   void note_unread(const std::string& name) {
@@ -340,12 +360,12 @@ class GltfScanner {
     whole(attributes.at("POSITION"));
     const auto places = document_.morphed(node, primitive, "POSITION", 3);
     part.is_mirrored = frame_.linear().determinant() < 0;
-    part.is_skinned = !joints_.empty() && attributes.contains("JOINTS_0");
-    part.frames = part.is_skinned ? skinned_frames(attributes, places.cols())
-                                  : std::vector<Eigen::Affine3d>{frame_};
+    part.points.resize(static_cast<std::size_t>(places.cols()));
+    set_frames(part, attributes);
     for (Eigen::Index k = 0; k < places.cols(); ++k) {
       const Vector<3> place = places.col(k);
-      part.points.push_back(add_point(part.frame(static_cast<std::size_t>(k)) * place, k));
+      const auto vertex = static_cast<std::size_t>(k);
+      part.points[vertex] = add_point(part.frame(vertex) * place, k);
     }
     add_normals(part, document_.morphed(node, primitive, "NORMAL", 3), attributes);
     add_texture(attributes, places.cols());
@@ -354,6 +374,13 @@ class GltfScanner {
       if (attributes.contains(other)) add_other(model_, other);
     }
     return part;
+  }
+
+  void set_frames(GltfPart& part, const Json& attributes) {
+    part.is_skinned = !joints_.empty() && attributes.contains("JOINTS_0");
+    part.frames = part.is_skinned
+                      ? skinned_frames(attributes, static_cast<Eigen::Index>(part.points.size()))
+                      : std::vector<Eigen::Affine3d>{frame_};
   }
 
   Index add_point(const Vector<3>& point, Eigen::Index k) {
