@@ -92,8 +92,13 @@ void convert_mesh(const ConvertArguments& files) {
 }
 
 void convert_to_bind_pose(const ConvertArguments& files) {
-  write_text(files.output, io::unposed_gltf(files.input));
+  std::vector<std::string> left_out;
+  write_text(files.output, io::unposed_gltf(files.input, left_out));
   if (!files.quiet) std::cerr << files.output << ": " << files.input << " as it was bound\n";
+  for (const auto& phrase : left_out) {
+    std::cerr << "flbc: " << files.output << " does not contain all of " << files.input << ": "
+              << phrase << '\n';
+  }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "commands/commands.h"
 #include "commands/pose_options.h"
+#include "files/gltf_facts.h"
 #include "files/load.h"
 #include "files/locality_file.h"
 #include "files/movable_model.h"
@@ -129,6 +130,11 @@ void check_arguments(ExportArguments& arguments) {
   require_writable(arguments.output, std::vector<std::string>{"glb", "usda", "py"});
   if (extension == "usda") arguments.options.format = gltf::SkinFormat::kUsda;
   if (extension != "py") return;
+  if (is_gltf_file(arguments.model)) {
+    throw OptionError(arguments.output +
+                      ": Blender turns glTF models when it imports them, and bones would not fit; "
+                      "write .glb");
+  }
   if (arguments.up != UpAxis::kAuto) {
     throw OptionError(arguments.output +
                       ": vertex groups do not turn the imported model; leave out --up");

@@ -102,7 +102,7 @@ MovableModel<Dim>::MovableModel(MovedFile file) : file_(std::move(file)) {
     model_.emplace(path);
     for (const auto& note : model_->model().notes)
       std::cerr << "flbc: " << path << ": " << note << '\n';
-    if (!is_rewritten(file_)) find_losses(model_->model());
+    if (!is_rewritten(file_) || model_->model().gltf) find_losses(model_->model());
     if (is_model_file(file_.output)) {
       points_ = io::to_points<Dim>(model_->model().soup, path);
       return;

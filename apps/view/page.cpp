@@ -14,7 +14,6 @@
 #include "flbc/errors.h"
 #include "flbc/sparsify.h"
 #include "instantiate.h"
-#include "model/gltf_edit.h"
 #include "model/gltf_writer.h"
 #include "model/srgb.h"
 

@@ -83,8 +83,12 @@ TEST_F(ConvertCommand, SkinnedModelsGoBackToTheirBindPose) {
       {"JOINTS_0", skinned.add<std::uint8_t>(Eigen::MatrixXd::Zero(4, 3))},
       {"WEIGHTS_0", skinned.add<float>(Eigen::MatrixXd::Identity(4, 3))}};
   skinned.primitive(0) = {{"attributes", attributes}, {"material", 0}};
+  skinned.json["images"] = {{{"uri", file("dot.png", "\x89PNG\r\n\x1a\n")}}, {{"uri", "gone.png"}}};
   const auto posed = file("posed.glb", skinned.glb());
-  expect_converted(posed + " --bind-pose -o rest.glb", "rest.glb");
+  expect_converted(posed + " --bind-pose -o rest.glb",
+                   "flbc: rest.glb does not contain all of posed.glb: a picture: posed.glb: cannot "
+                   "read \"gone.png\"");
+  expect_converted(posed + " -o again.glb", "lost: a picture: posed.glb: cannot read \"gone.png\"");
   const auto points = [](const std::string& path) {
     return io::to_points<3>(io::read_polygons(path), path);
   };
@@ -93,6 +97,7 @@ TEST_F(ConvertCommand, SkinnedModelsGoBackToTheirBindPose) {
   const auto json = GlbChunks(slurp("rest.glb")).json;
   EXPECT_FALSE(json.contains("skins"));
   EXPECT_EQ(json["materials"], skinned.json["materials"]);
+  EXPECT_EQ(json["images"][0]["mimeType"], "image/png");
   EXPECT_EQ(json["meshes"][0]["primitives"][0]["attributes"].size(), 1);
 
   expect_refused("rest.glb --bind-pose -o b.glb", 2, "rest.glb: the file has no skin");

@@ -260,10 +260,18 @@ Eigen::MatrixXd skinned(const GlbChunks& file, std::size_t number, const Eigen::
   return result;
 }
 
+// Of a tetrahedron, each on an axis.
+Eigen::MatrixXd corners() {
+  return (Eigen::MatrixXd(3, 4) << 0, 1, 0, 0,  //
+          0, 0, 1, 0,                           //
+          0, 0, 0, 1)
+      .finished();
+}
+
 // Two small tetrahedra in the cage, which show the same mesh, and a line.
 NewGlb twins() {
   NewGlb file(R"({"scene":0,"scenes":[{"name":"stage","nodes":[0,2]}],
-    "nodes":[{"name":"pair","children":[1],"mesh":0,"scale":[-0.15,0.15,0.15],
+    "nodes":[{"name":"pair","children":[1],"mesh":0,"scale":[0.15,0.15,0.15],
               "translation":[0.4,0.1,0.1]},
              {"name":"twin","mesh":0,"translation":[0,1.1,0],"rotation":[0,0,0.6,0.8]},
              {"name":"eye","camera":0,"translation":[0,0,9]}],
@@ -277,13 +285,9 @@ NewGlb twins() {
     "animations":[{"channels":[{"sampler":0,"target":{"node":2,"path":"translation"}},
       {"sampler":0,"target":{"node":0,"path":"translation"}}],"samplers":[{"input":6,"output":7}]}]
     })");
-  const Eigen::MatrixXd corners = (Eigen::MatrixXd(3, 4) << 0, 1, 0, 0,  //
-                                   0, 0, 1, 0,                           //
-                                   0, 0, 0, 1)
-                                      .finished();
   const auto faces = (Eigen::RowVectorXd(12) << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3).finished();
   auto& attributes = file.primitive(0)["attributes"];
-  attributes["POSITION"] = file.add<float>(corners);
+  attributes["POSITION"] = file.add<float>(corners());
   attributes["NORMAL"] = file.add<float>(Eigen::MatrixXd(Vector<3>::UnitX().replicate(1, 4)));
   attributes["TANGENT"] =
       file.add<float>(Eigen::MatrixXd(Eigen::Vector4d(0, 1, 0, -1).replicate(1, 4)));
@@ -348,10 +352,45 @@ TEST_F(ExportCommand, DocumentsKeepWhatTheyHave) {
   }
 }
 
+// Nodes below others, with these.
+std::set<std::size_t> reached(const NewGlb::Json& json, const NewGlb::Json& roots) {
+  std::set<std::size_t> nodes;
+  for (const std::size_t root : roots) {
+    nodes.insert(root);
+    if (json["nodes"][root].contains("children")) {
+      nodes.merge(reached(json, json["nodes"][root]["children"]));
+    }
+  }
+  return nodes;
+}
+
+TEST_F(ExportCommand, ScenesThatShowTheModelHaveItsCage) {
+  auto original = twins();
+  original.json["scenes"].push_back({{"nodes", {2}}});
+  original.json["scenes"].push_back({{"nodes", {0}}});
+  file("m0.glb", original.glb());
+  const auto points = points_in<3>("m0.glb");
+  const auto rest = " --weights " + linear_weights(points) + " --cage " + tetrahedron() + " -q -o ";
+  // The second time the scenes of the first result are there as well.
+  for (const auto& [model, result] :
+       {std::pair("m0.glb", "m1.glb"), std::pair("m1.glb", "m2.glb")}) {
+    expect_export(model + rest + result, 0, "");
+    const auto json = GlbChunks(slurp(result)).json;
+    for (const auto& scene : json["scenes"]) {
+      const auto nodes = reached(json, scene["nodes"]);
+      for (const auto node : nodes) {
+        if (!json["nodes"][node].contains("skin")) continue;
+        const auto& skin = json["skins"][json["nodes"][node]["skin"].get<std::size_t>()];
+        EXPECT_EQ(nodes.count(skin["skeleton"].get<std::size_t>()), 1U) << model;
+      }
+    }
+    EXPECT_EQ(json["scenes"][1], original.json["scenes"][1]);  // without the model
+  }
+}
+
 TEST_F(ExportCommand, PosesOfOldSkinsStay) {
   auto original = twins();
   original.json.erase("animations");
-  original.json["meshes"][0]["primitives"].erase(1);
   original.json["scenes"][0]["nodes"] = {1, 2};
   original.json["nodes"][1] = {{"mesh", 0}, {"skin", 0}, {"weights", {0.5}}};
   original.json["nodes"][2] = {{"name", "bone"},
@@ -365,6 +404,12 @@ TEST_F(ExportCommand, PosesOfOldSkinsStay) {
   primitive["attributes"]["JOINTS_0"] = original.add<std::uint8_t>(Eigen::MatrixXd::Zero(4, 4));
   primitive["attributes"]["WEIGHTS_0"] =
       original.add<float>(Eigen::MatrixXd(Eigen::Vector4d::UnitX().replicate(1, 4)));
+  // Lines that share the numbers of the triangles, and lines that have some of their own.
+  auto lines = primitive;
+  lines["mode"] = 1;
+  original.primitive(0, 1) = lines;
+  lines["attributes"]["POSITION"] = original.add<float>(corners());
+  original.json["meshes"][0]["primitives"].push_back(lines);
   const auto model = file("m.glb", original.glb());
   const auto points = points_in<3>(model);
   const auto result = expect_export(
@@ -375,6 +420,17 @@ TEST_F(ExportCommand, PosesOfOldSkinsStay) {
   const GlbChunks skin(slurp("s.glb"));
   EXPECT_EQ(skin.json["nodes"][2], original.json["nodes"][2]);
   EXPECT_EQ(skin.json["nodes"][1]["weights"], original.json["nodes"][1]["weights"]);
+  // Lines of the mesh are posed as well, though the cage does not move them.
+  for (const std::size_t line : {1U, 2U}) {
+    const auto& primitives = skin.json["meshes"][1]["primitives"];
+    const auto positions = [&](const NewGlb::Json& owner) {
+      return skin.floats(owner["attributes"]["POSITION"], 3);
+    };
+    const auto& attributes = primitives[line]["attributes"];
+    EXPECT_EQ(positions(primitives[line]), positions(primitives[0]));
+    EXPECT_EQ(skin.accessor(attributes["JOINTS_0"]),
+              std::string("\4\0\0\0\4\0\0\0\4\0\0\0\4\0\0\0", 16));
+  }
   // The other node with this mesh is not in the scene and keeps it.
   EXPECT_EQ(skin.json["meshes"][0], original.json["meshes"][0]);
   const auto& attributes = skin.json["meshes"][1]["primitives"][0]["attributes"];
@@ -384,6 +440,84 @@ TEST_F(ExportCommand, PosesOfOldSkinsStay) {
   for (int v = 0; v < 4; ++v) {
     EXPECT_LT((normals.col(v).cast<double>() - turn * Vector<3>::UnitX()).norm(), 1e-6);
     EXPECT_LT((tangents.col(v).head<3>().cast<double>() - turn * Vector<3>::UnitY()).norm(), 1e-6);
+  }
+}
+
+// The volume of the cone from the center of a surface to its triangles.
+double volume(const Eigen::MatrixXd& points, const Eigen::MatrixXd& triangles) {
+  double sum = 0;
+  const Vector<3> center = points.rowwise().mean();
+  for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 3; ++k) {
+      edges.col(k) = points.col(static_cast<Eigen::Index>(triangles(k, t))) - center;
+    }
+    sum += edges.determinant() / 6;
+  }
+  return sum;
+}
+
+double volume_of(const std::string& path) {
+  const auto soup = io::read_polygons(path);
+  Eigen::MatrixXd triangles(3, soup.polygons.size());
+  for (std::size_t t = 0; t < soup.polygons.size(); ++t) {
+    for (int k = 0; k < 3; ++k) triangles(k, static_cast<Eigen::Index>(t)) = soup.polygons[t][k];
+  }
+  return volume(io::to_points<3>(soup, path), triangles);
+}
+
+// The transform of its node decides which side of a triangle viewers show, not that of its joints.
+TEST_F(ExportCommand, MirrorImagesKeepTheirFront) {
+  const std::vector<int> faces{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  struct Case {
+    const char* name;
+    int mode;
+    std::vector<int> indices;
+  };
+  constexpr int kTriangles = 4, kStrip = 5, kFan = 6;
+  for (const auto& [name, mode, indices] :
+       {Case{"triangles", kTriangles, faces}, Case{"not indexed", kTriangles, {}},
+        Case{"strip", kStrip, {0, 2, 1, 3, 0, 2}}, Case{"fan", kFan, {0, 2, 1, 3, 2}},
+        Case{"kept", kTriangles, faces}, Case{"skinned", kTriangles, faces},
+        Case{"skinned and kept", kTriangles, faces}}) {
+    SCOPED_TRACE(name);
+    NewGlb original(R"({"scene":0,"scenes":[{"nodes":[0]}],
+      "nodes":[{"children":[1,2],"scale":[-0.2,0.2,0.2],"translation":[0.4,0.1,0.1]},{"mesh":0},{}],
+      "meshes":[{"primitives":[{}]}]})");
+    auto& primitive = original.primitive(0);
+    const Eigen::MatrixXd points =
+        indices.empty() ? Eigen::MatrixXd(corners()(Eigen::all, faces)) : corners();
+    primitive["attributes"]["POSITION"] = original.add<float>(points);
+    primitive["mode"] = mode;
+    if (!indices.empty()) {
+      primitive["indices"] = original.add<std::uint16_t>(
+          Eigen::Map<const Eigen::RowVectorXi>(indices.data(), indices.size()));
+    }
+    if (std::string_view(name).find("skinned") != std::string::npos) {
+      primitive["attributes"]["JOINTS_0"] = original.add<std::uint8_t>(Eigen::MatrixXd::Zero(4, 4));
+      primitive["attributes"]["WEIGHTS_0"] =
+          original.add<float>(Eigen::MatrixXd(Eigen::Vector4d::UnitX().replicate(1, 4)));
+      original.json["skins"] = {{{"joints", {2}}}};
+      original.json["nodes"][1]["skin"] = 0;
+    }
+    const bool is_kept = std::string_view(name).find("kept") != std::string::npos;
+    if (is_kept)
+      original.json["nodes"][1]["extensions"] = {{"VENDOR_light", NewGlb::Json::object()}};
+    const auto model = file("m.glb", original.glb());
+    const auto places = points_in<3>(model);
+    const auto expected = volume_of(model);
+    EXPECT_GT(expected, 0);
+    expect_export(model + " --weights " + linear_weights(places) + " --cage " + tetrahedron() +
+                      " -q -o s.glb",
+                  0, "");
+    const auto exported = skin("s.glb");
+    const double front = is_kept ? -1 : 1;
+    EXPECT_NEAR(front * volume(exported.skinned(exported.joints()), exported.triangles()), expected,
+                1e-6);
+    EXPECT_NEAR(volume_of("s.glb"), expected, 1e-6);
+    EXPECT_EQ(exported.primitive().value("mode", kTriangles), kTriangles);
+    const GlbChunks chunks(slurp("s.glb"));
+    for (const auto& unused : chunks.unused()) EXPECT_TRUE(unused.empty());
   }
 }
 

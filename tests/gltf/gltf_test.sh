@@ -157,6 +157,9 @@ cp globe.npy cut.npy
 prepare cut cut.obj cube.obj cube_pose.obj 4
 export_skin cut globe.glb cube.obj kept.glb -k 4 --pose cube.obj cube_pose.obj --fps 2
 check kept.glb --model cut.obj --pose 0 cut.obj --pose 0.5 cut.4.posed.obj --texture
+# The result once more: its second scene shows the model as well.
+export_skin cut kept.glb cube.obj again.glb -k 4 --pose cube.obj cube_pose.obj --fps 2
+check again.glb --model cut.obj --pose 0 cut.obj --pose 0.5 cut.4.posed.obj --texture
 "$flbc" convert painted.obj -q -o source.glb
 export_skin globe source.glb cube.obj kept.glb -k 8 --pose cube.obj cube_pose.obj --fps 2
 check kept.glb --model painted.obj --pose 0 painted.obj --pose 0.5 globe.8.posed.obj --texture

@@ -213,6 +213,23 @@ TEST_F(GltfDocumentTest, MirrorImagesKeepTheirFront) {
   EXPECT_NEAR(volume(read(file).model().soup), 1.0 / 6, 1e-6);
 }
 
+TEST_F(GltfDocumentTest, MeshesWithoutVolumeAreSkipped) {
+  auto file = tetrahedron();
+  for (const double size : {0.0, 1.0}) {
+    file.json["nodes"].push_back(
+        {{"mesh", 0}, {"scale", {size, 1, 1}}, {"translation", {5, 0, 0}}});
+  }
+  file.json["scenes"][0]["nodes"] = {0, 1, 2};
+  const auto model = read(file).model();
+  EXPECT_EQ(model.soup.polygons.size(), 8U);
+  ASSERT_EQ(model.notes.size(), 1U);
+  EXPECT_NE(model.notes[0].find("a scale of 0"), std::string::npos) << model.notes[0];
+  // The node of a skinned mesh does not count.
+  Skinned skinned;
+  skinned.file.json["nodes"][0]["scale"] = {0, 0, 0};
+  EXPECT_LT((points(skinned.file) - skinned.posed()).norm(), 1e-6);
+}
+
 // ------------------------------------------------------------------------------ accessors,
 // addresses
 
@@ -275,8 +292,9 @@ TEST_F(GltfDocumentTest, ExtensionsAreRefusedOrNoted) {
     file.json["extensionsRequired"] = {name};
     refuse(file, name);
   }
-  file.json["extensionsUsed"] =
-      file.json["extensionsRequired"] = {"KHR_mesh_quantization", "KHR_materials_unlit"};
+  file.json["extensionsUsed"] = file.json["extensionsRequired"] = {
+      "KHR_mesh_quantization", "KHR_materials_unlit", "EXT_texture_webp", "EXT_texture_avif",
+      "KHR_texture_basisu"};
   EXPECT_TRUE(read(file).model().notes.empty());
 }
 
@@ -363,6 +381,31 @@ TEST_F(GltfDocumentTest, OnlyWhatMovesChanges) {
       EXPECT_EQ(tangents(3, v), -1);
     }
   }
+}
+
+// Reading counts them as missing.
+TEST_F(GltfDocumentTest, OnlyPositionsMustBeFinite) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  auto original = tetrahedron();
+  Points normals = Vector<3>::UnitZ().replicate(1, 4);
+  Points tangents = Eigen::Vector4d::Unit(0).replicate(1, 4);
+  normals.col(2).setConstant(kNone);
+  tangents.col(1).setConstant(kNone);
+  auto& attributes = original.primitive(0)["attributes"];
+  attributes["NORMAL"] = original.add<float>(normals);
+  attributes["TANGENT"] = original.add<float>(tangents);
+  original.json["accessors"][2]["min"] = original.json["accessors"][2]["max"] = {0, 0, 1};
+  const auto file = read(original);
+  const PointList<3> rest = io::to_points<3>(file.model().soup, "");
+  const PointList<3> wanted = 2 * rest;
+  const auto after = moved(file, wanted);
+  EXPECT_EQ(io::to_points<3>(read(original).model().soup, ""), rest);
+  EXPECT_EQ(io::to_points<3>(ModelFile(path("moved.glb")).model().soup, ""), wanted);
+  EXPECT_NEAR(after.floats(attributes["NORMAL"], 3)(2, 0), 1, 1e-6);
+  EXPECT_TRUE(after.floats(attributes["NORMAL"], 3).allFinite());
+  EXPECT_TRUE(after.floats(attributes["TANGENT"], 4).allFinite());
+  EXPECT_EQ(after.json["accessors"][2]["min"][2], 0.0);
+  expect_error<InputError>([&] { moved(file, 1e39 * rest); }, {"not finite or too large"});
 }
 
 TEST_F(GltfDocumentTest, TangentsAndMorphTargetsTurnAlong) {
@@ -474,6 +517,35 @@ TEST_F(GltfDocumentTest, RandomDocumentsKeepWhatDoesNotMove) {
   }
 }
 
+// Readers that decode them would show the old places.
+TEST_F(GltfDocumentTest, CompressedCopiesOfWhatMovesGo) {
+  auto original = tetrahedron();
+  const char* const name = "KHR_draco_mesh_compression";
+  original.json["nodes"].push_back({{"mesh", 1}, {"translation", {5, 0, 0}}});
+  original.json["scenes"][0]["nodes"].push_back(1);
+  original.json["meshes"].push_back(original.json["meshes"][0]);
+  original.json["extensionsUsed"] = {name};
+  for (const std::size_t mesh : {0U, 1U}) {
+    const auto view = original.add_view("compressed_" + std::to_string(mesh));
+    original.primitive(mesh)["extensions"][name] = {{"bufferView", view},
+                                                    {"attributes", {{"POSITION", 0}}}};
+  }
+  const auto file = read(original);
+  const auto rest = io::to_points<3>(file.model().soup, "");
+  PointList<3> wanted = rest;
+  wanted.leftCols(4) *= 2;
+  auto after = moved(file, wanted);
+  EXPECT_FALSE(after.json["meshes"][0]["primitives"][0].contains("extensions"));
+  const auto& kept = after.json["meshes"][1]["primitives"][0]["extensions"][name];
+  EXPECT_EQ(after.view(kept["bufferView"]), "compressed_1");
+  EXPECT_EQ(after.binary.find("compressed_0"), std::string::npos);
+  EXPECT_EQ(after.json["extensionsUsed"], original.json["extensionsUsed"]);
+  after = moved(file, 2 * rest);
+  EXPECT_EQ(after.json.dump().find(name), std::string::npos);
+  EXPECT_FALSE(after.json.contains("extensionsUsed"));
+  EXPECT_EQ(after.binary.find("compressed"), std::string::npos);
+}
+
 TEST_F(GltfDocumentTest, NodesThatShareAMeshGetTheirOwn) {
   auto file = tetrahedron();
   file.json["nodes"].push_back({{"mesh", 0}, {"translation", {5, 0, 0}}});
@@ -504,6 +576,41 @@ TEST_F(GltfDocumentTest, MorphTargetsThatShareNumbersTurnOnce) {
 // Names of people's models end so.
 TEST_F(GltfDocumentTest, VrmIsReadAsGlb) {
   EXPECT_EQ(io::to_points<3>(read(tetrahedron(), "a.vrm").model().soup, ""), corners());
+}
+
+TEST_F(GltfDocumentTest, PicturesNextToBinaryDocumentsAreEmbedded) {
+  auto original = painted();
+  make("odd.png", "\x89PNG\r\n\x1a\npicture");
+  original.json["images"] = {{{"uri", "odd.png"}}, {{"uri", "gone.png"}}};
+  const auto file = read(original);
+  const auto after = moved(file, 2 * io::to_points<3>(file.model().soup, ""));
+  EXPECT_EQ(after.view(after.json["images"][0]["bufferView"]), "\x89PNG\r\n\x1a\npicture");
+  EXPECT_EQ(after.json["images"][1], original.json["images"][1]);
+  const auto lost = io::losses(file.model(), "b.glb");
+  ASSERT_EQ(lost.size(), 1U);
+  EXPECT_NE(lost[0].find("gone.png"), std::string::npos) << lost[0];
+}
+
+// Whatever the extension is that names them.
+TEST_F(GltfDocumentTest, PicturesOfAllKindsAreEmbedded) {
+  const std::map<std::string, std::string> pictures{
+      {"image/webp", "RIFF1234WEBPodd"},
+      {"image/avif", std::string("\0\0\0\x1c", 4) + "ftypavifodd"},
+      {"image/ktx2", "\xabKTX 20\xbbodd"}};
+  auto original = painted();
+  for (const auto& [type, bytes] : pictures) {
+    make(type.substr(6), bytes);
+    original.json["images"].push_back({{"uri", type.substr(6)}});
+  }
+  make("a.bin", original.bytes);
+  original.json["buffers"][0] = {{"uri", "a.bin"}, {"byteLength", original.bytes.size()}};
+  make("a.gltf", original.json.dump());
+  io::write_model(path("b.glb"), ModelFile(path("a.gltf")).model());
+  const GlbChunks after(content("b.glb"));
+  for (std::size_t k = 1; k < 4; ++k) {
+    const auto& image = after.json["images"][k];
+    EXPECT_EQ(after.view(image["bufferView"]), pictures.at(image["mimeType"]));
+  }
 }
 
 TEST_F(GltfDocumentTest, TextDocumentsBecomeBinaryOnesWithAllTheyHave) {

@@ -35,12 +35,15 @@ class SkinBuilder {
         edit_(scene.document ? io::GltfEdit(*scene.document) : io::GltfEdit()),
         document_(edit_.document) {
     if (scene.document) {
-      const auto missing = edit_.embed_pictures();
+      const auto missing = document_.embed_pictures();
       left_out_.insert(left_out_.end(), missing.begin(), missing.end());
       drop_old_motion();
       move_to_roots();
       add_joints();
       for (const auto& part : scene.document->parts) skin(part);
+      for (const auto& part : scene.document->posed_others) {
+        if (is_posed(part.node)) pose(part);
+      }
       skin_others();
     } else {
       document_.append("nodes", {{"name", scene.name}, {"mesh", 0}, {"skin", 0}});
@@ -137,6 +140,8 @@ class SkinBuilder {
       const bool has_use = joints.count(part->node) > 0 || node.contains("children") ||
                            node.contains("camera") || node.contains("extensions");
       if (has_use) continue;
+      // Viewers take the front of triangles from the transform of their node.
+      if (part->is_mirrored) edit_.reverse(*part);
       for (const char* name : {"matrix", "translation", "rotation", "scale"}) node.erase(name);
       if (parent_of.count(part->node) > 0) detach(part->node, parent_of);
     }
@@ -162,15 +167,18 @@ class SkinBuilder {
 
   // ---------------------------------------- influences
 
-  void skin(const GltfPart& part) {
+  // What another skin has posed is written in its pose.
+  bool is_posed(std::size_t node) const {
     const auto& parts = scene_.document->parts;
-    // What another skin has posed is written in its pose.
-    const bool is_posed = std::any_of(parts.begin(), parts.end(), [&](const GltfPart& other) {
-      return other.node == part.node && other.is_skinned;
-    });
-    if (is_posed) pose(part);
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const GltfPart& part) { return part.node == node && part.is_skinned; });
+  }
+
+  void skin(const GltfPart& part) {
+    const bool has_pose = is_posed(part.node);
+    if (has_pose) pose(part);
     const auto origin = Eigen::Affine3d(Eigen::Translation3d(scene_.origin));
-    edit_.node(part.node)["skin"] = skin_from(is_posed ? origin : part.frame(0));
+    edit_.node(part.node)["skin"] = skin_from(has_pose ? origin : part.frame(0));
     const auto& weights = scene_.weights;
     auto influences = influences_of({weights.format, weights.joints(Eigen::all, part.points),
                                      weights.numbers(Eigen::all, part.points)});
@@ -199,7 +207,9 @@ class SkinBuilder {
   }
 
   void set_influences(const GltfPart& part, std::size_t number, const Json& influences) {
-    auto& attributes = edit_.primitive(part, number)["attributes"];
+    auto& primitive = edit_.primitive(part, number);
+    io::drop_compressed_copy(primitive);
+    auto& attributes = primitive["attributes"];
     auto kept = Json::object();
     for (const auto& [name, accessor] : attributes.items()) {
       if (!is_about_influences(name)) kept[name] = accessor;
@@ -357,11 +367,27 @@ class SkinBuilder {
     }
     if (!document_.json.contains("scenes")) document_.append("scenes", {{"nodes", roots()}});
     const auto shown = io::whole(document_.json, "scene", 0);
-    list("scenes").at(shown)["nodes"].push_back(cage_);
+    add_cage_to_scenes(shown);
     if (scene_.wire.cols() == 0) return;
     auto nodes = list("scenes").at(shown)["nodes"];
     nodes.push_back(add_wire());
     document_.append("scenes", {{"name", "model and cage"}, {"nodes", nodes}});
+  }
+
+  // Joints must be in every scene that shows their skin.
+  void add_cage_to_scenes(std::size_t shown) {
+    std::set<std::size_t> skinned;
+    if (scene_.document) {
+      for (const auto& part : scene_.document->parts) skinned.insert(part.node);
+    }
+    add_ancestors(skinned);
+    auto& scenes = list("scenes");
+    for (std::size_t k = 0; k < scenes.size(); ++k) {
+      const auto nodes = io::wholes(scenes[k], "nodes");
+      const bool has_model = std::any_of(nodes.begin(), nodes.end(),
+                                         [&](std::size_t node) { return skinned.count(node) > 0; });
+      if (has_model || k == shown) scenes[k]["nodes"].push_back(cage_);
+    }
   }
 
   Json roots() {

@@ -42,7 +42,8 @@ struct GlbScene {
 //! bones. A second scene, not shown by default, also has the cage edges: the skinned node
 //! "cage_wire". A document keeps all its content, except for skins of the model and animations of
 //! their joints. Positions stay in the coordinates of their nodes, which lose their transforms and
-//! parents, because those do not move skins, unless something else needs them.
+//! parents, because those do not move skins, unless something else needs them. Triangles turn over
+//! where a mirroring is lost.
 //! \param left_out  gets what is missing, one phrase each
 //! \throws InputError if it exceeds the 4 GB limit of the format
 std::string encode_glb(const GlbScene& scene, std::vector<std::string>& left_out);

@@ -113,6 +113,20 @@ int rows_of(const std::string& type) {
 
 }  // namespace
 
+std::string media_type_of(const std::string& picture) {
+  constexpr std::pair<std::string_view, const char*> kSignatures[] = {
+      {"\x89PNG\r\n\x1a\n", "image/png"},
+      {"\xff\xd8\xff", "image/jpeg"},
+      {"\xabKTX 20", "image/ktx2"}};
+  for (const auto& [signature, type] : kSignatures) {
+    if (picture.compare(0, signature.size(), signature) == 0) return type;
+  }
+  if (picture.size() < 12) return "";
+  if (picture.compare(4, 8, "ftypavif") == 0) return "image/avif";
+  return picture.compare(0, 4, "RIFF") == 0 && picture.compare(8, 4, "WEBP") == 0 ? "image/webp"
+                                                                                  : "";
+}
+
 std::set<std::size_t> numbers_at(GltfJson& json, const GltfPaths& paths) {
   std::set<std::size_t> numbers;
   for (const auto path : paths) {
@@ -269,6 +283,29 @@ Eigen::MatrixXd GltfDocument::numbers(std::size_t accessor, int rows) const {
   return columns;
 }
 
+Eigen::Matrix<std::size_t, 3, Eigen::Dynamic> GltfDocument::triangles(
+    const GltfJson& primitive, std::size_t num_vertices) const {
+  const auto mode = whole(primitive, "mode", kGltfTriangles);
+  Eigen::MatrixXd indices;
+  if (primitive.contains("indices")) indices = numbers(whole(primitive["indices"]), 1);
+  const auto count =
+      primitive.contains("indices") ? static_cast<std::size_t>(indices.cols()) : num_vertices;
+  const auto corner = [&](std::size_t k) {
+    return indices.size() > 0 ? to_whole(indices(0, static_cast<Eigen::Index>(k))) : k;
+  };
+  const std::size_t step = mode == kGltfTriangles ? 3 : 1;
+  Eigen::Matrix<std::size_t, 3, Eigen::Dynamic> result(3, count < 3 ? 0 : (count - 3) / step + 1);
+  for (Eigen::Index t = 0; t < result.cols(); ++t) {
+    const auto first = static_cast<std::size_t>(t) * step;
+    const bool is_odd = mode == kGltfStrip && first % 2 == 1;
+    result.col(t) << corner(is_odd             ? first + 1
+                            : mode == kGltfFan ? 0
+                                               : first),
+        corner(is_odd ? first : first + 1), corner(first + 2);
+  }
+  return result;
+}
+
 std::vector<double> GltfDocument::morph_weights(const GltfJson& node) const {
   const auto& mesh = json.at("meshes").at(whole(node.at("mesh")));
   return (node.contains("weights") ? node : mesh).value("weights", std::vector<double>());
@@ -332,6 +369,29 @@ void GltfDocument::set_bounds(GltfJson& accessor, const Eigen::MatrixXd& columns
     accessor["min"].push_back(columns.row(row).minCoeff());
     accessor["max"].push_back(columns.row(row).maxCoeff());
   }
+}
+
+std::vector<std::string> GltfDocument::embed_pictures() {
+  std::vector<std::string> missing;
+  if (!json.contains("images")) return missing;
+  for (auto& image : json["images"]) {
+    const auto uri = image.value("uri", "data:");
+    if (uri.compare(0, 5, "data:") == 0) continue;
+    try {
+      const auto bytes = content_of(uri);
+      const auto type = media_type_of(bytes);
+      if (type.empty()) {
+        missing.push_back("the picture " + file_of(uri) + ": glTF has .png and .jpg only");
+        continue;
+      }
+      image.erase("uri");
+      image["mimeType"] = type;
+      image["bufferView"] = add_view(bytes);
+    } catch (const IoError& error) {
+      missing.push_back(std::string("a picture: ") + error.what());
+    }
+  }
+  return missing;
 }
 
 void GltfDocument::pack() {

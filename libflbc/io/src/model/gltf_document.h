@@ -21,17 +21,19 @@ namespace flbc::io {
 using GltfJson = nlohmann::ordered_json;
 
 constexpr std::size_t kGltfFloat = 5126;
+constexpr std::size_t kGltfTriangles = 4, kGltfStrip = 5, kGltfFan = 6;
 constexpr int kVertexTarget = 34962, kIndexTarget = 34963;  // uses of buffer views
 
-//! The triangles of a node that share their vertices.
+//! The triangles of a node that share their vertices, or points or lines.
 struct GltfPart {
   std::size_t node = 0;
   std::vector<std::size_t> primitives{};  //!< of the mesh of the node
-  std::vector<Index> points{};            //!< vertex of the model, by vertex of the file
+  std::vector<Index> points{};            //!< vertex of the model or -1, by vertex of the file
   Index first = 0;                        //!< number of their first normal in the model
   //! From the file, morphed by default weights, to the model: one for all vertices or one for each.
   std::vector<Eigen::Affine3d> frames{};
   bool is_skinned = false;
+  bool is_mirrored = false;  //!< by its node: triangles of the file have their front at the back
 
   const Eigen::Affine3d& frame(std::size_t vertex) const {
     return frames[frames.size() == 1 ? 0 : vertex];
@@ -42,6 +44,8 @@ struct GltfPart {
 struct GltfSource {
   std::string path{};
   std::vector<GltfPart> parts{};
+  std::vector<GltfPart> posed_others{};  //!< points and lines in skinned meshes with triangles
+  std::vector<std::string> missing_pictures{};  //!< that cannot be read, one phrase each
 };
 
 //! Places of numbers in JSON, such as "nodes/*/mesh"; "*" stands for all entries.
@@ -54,6 +58,9 @@ std::set<std::size_t> numbers_at(GltfJson& json, const GltfPaths& paths);
 //! \param before  entries to which a number referred; others stay \return how many are removed
 std::size_t drop_unused(GltfJson& json, const char* list, const GltfPaths& paths,
                         const std::set<std::size_t>& before);
+
+//! "image/png", "image/jpeg", "image/webp", "image/avif", or "image/ktx2"; empty for other bytes.
+std::string media_type_of(const std::string& picture);
 
 class GltfDocument {
  public:
@@ -70,6 +77,10 @@ class GltfDocument {
   //! 1].
   //! \param rows  that are needed \throws InputError
   Eigen::MatrixXd numbers(std::size_t accessor, int rows) const;
+
+  //! The triangles of a primitive in any mode of them, a column of vertices each.
+  Eigen::Matrix<std::size_t, 3, Eigen::Dynamic> triangles(const GltfJson& primitive,
+                                                          std::size_t num_vertices) const;
 
   std::string_view view(std::size_t number) const;
 
@@ -124,6 +135,10 @@ class GltfDocument {
 
   //! Appends to a list of the document. \return the number in it
   std::size_t append(const char* list, GltfJson value);
+
+  //! Puts pictures from other files into the document. \return those that cannot be read, one
+  //! phrase each
+  std::vector<std::string> embed_pictures();
 
   //! Removes bytes that belong to no buffer view.
   void pack();

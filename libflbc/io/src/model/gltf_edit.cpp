@@ -2,6 +2,7 @@
 #include "model/gltf_edit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string_view>
 
@@ -21,14 +22,18 @@ const GltfPaths kToAccessors{
     "meshes/*/primitives/*/attributes/*", "meshes/*/primitives/*/targets/*/*",
     "meshes/*/primitives/*/indices",      "skins/*/inverseBindMatrices",
     "animations/*/samplers/*/input",      "animations/*/samplers/*/output"};
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
 const GltfPaths kToViews{"accessors/*/bufferView", "accessors/*/sparse/indices/bufferView",
-                         "accessors/*/sparse/values/bufferView", "images/*/bufferView"};
+                         "accessors/*/sparse/values/bufferView", "images/*/bufferView",
+                         "meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/bufferView"};
 
-// Whether extensions do not refer to accessors or buffer views, so that these can be renumbered.
+// Whether extensions refer to accessors or buffer views only from these places, so that they can be
+// renumbered.
 bool are_references_known(const GltfJson& json) {
-  constexpr std::string_view kWithout[] = {
-      "KHR_materials_", "KHR_texture_", "KHR_lights_", "KHR_mesh_quant",   "KHR_node_",
-      "KHR_xmp",        "EXT_texture_", "VRM",         "FB_ngon_encoding", "MSFT_lod"};
+  constexpr std::string_view kWithout[] = {"KHR_materials_", "KHR_texture_", "KHR_lights_",
+                                           "KHR_mesh_quant", "KHR_node_",    "KHR_xmp",
+                                           "EXT_texture_",   "VRM",          "FB_ngon_encoding",
+                                           "MSFT_lod",       kDraco};
   const auto extensions = json.value("extensionsUsed", std::vector<std::string>());
   return std::all_of(extensions.begin(), extensions.end(), [&](const std::string& extension) {
     return std::any_of(std::begin(kWithout), std::end(kWithout), [&](std::string_view name) {
@@ -111,18 +116,6 @@ GltfMotion motion_of(GltfEdit& edit, const GltfPart& part, const Model& model,
 
 }  // namespace
 
-std::string media_type_of(const std::string& picture) {
-  constexpr std::pair<std::string_view, const char*> kSignatures[] = {
-      {"\x89PNG\r\n\x1a\n", "image/png"},
-      {"\xff\xd8\xff", "image/jpeg"},
-      {"\xabKTX 20", "image/ktx2"}};
-  for (const auto& [signature, type] : kSignatures) {
-    if (picture.compare(0, signature.size(), signature) == 0) return type;
-  }
-  return picture.compare(0, 4, "RIFF") == 0 && picture.compare(8, 4, "WEBP") == 0 ? "image/webp"
-                                                                                  : "";
-}
-
 bool is_about_influences(const std::string& attribute) {
   return attribute.compare(0, 7, "JOINTS_") == 0 || attribute.compare(0, 8, "WEIGHTS_") == 0;
 }
@@ -134,12 +127,29 @@ GltfEdit::GltfEdit(const GltfSource& source) : document(source.path, read_file(s
   find_users();
 }
 
+void drop_compressed_copy(GltfJson& primitive) {
+  if (!primitive.contains("extensions")) return;
+  primitive["extensions"].erase(kDraco);
+  if (primitive["extensions"].empty()) primitive.erase("extensions");
+}
+
 std::string GltfEdit::glb() {
+  drop_unused_compression();
   if (are_references_known(document.json)) {
     drop_unused(document.json, "accessors", kToAccessors, accessors_);
     if (drop_unused(document.json, "bufferViews", kToViews, views_) > 0) document.pack();
   }
   return document.glb();
+}
+
+void GltfEdit::drop_unused_compression() {
+  if (!document.json.contains("extensionsUsed") ||
+      !numbers_at(document.json, {kToViews.back()}).empty()) {
+    return;
+  }
+  auto& used = document.json["extensionsUsed"];
+  used.erase(std::remove(used.begin(), used.end(), kDraco), used.end());
+  if (used.empty()) document.json.erase("extensionsUsed");
 }
 
 // Nodes that show the same mesh get one each, as their vertices move in different ways.
@@ -218,17 +228,34 @@ bool GltfEdit::can_replace(const GltfPart& part, int target, const char* name,
          });
 }
 
-void GltfEdit::set(const GltfPart& part, int target, const char* name,
-                   const Eigen::MatrixXd& columns) {
-  if (!columns.cast<float>().allFinite()) {
+void GltfEdit::set(const GltfPart& part, int target, const char* name, Eigen::MatrixXd columns) {
+  const bool is_finite = columns.cast<float>().allFinite();
+  if (!is_finite && std::string_view(name) == "POSITION") {
     document.fail(
         "a vertex would have a coordinate that is not finite or too large for the single "
         "precision of the file");
+  }
+  // Reading counts directions that are not finite as missing, and no file may have them.
+  if (!is_finite) {
+    columns =
+        columns.unaryExpr([](double x) { return std::isfinite(static_cast<float>(x)) ? x : 0; });
   }
   auto accessor = whole(attributes(part, part.primitives[0], target).at(name));
   if (can_replace(part, target, name, accessor)) return document.replace(accessor, columns);
   accessor = document.add_attribute(columns, std::string_view(name) == "POSITION");
   for (const auto number : part.primitives) attributes(part, number, target)[name] = accessor;
+}
+
+void GltfEdit::reverse(const GltfPart& part) {
+  for (const auto number : part.primitives) {
+    auto& reversed = primitive(part, number);
+    auto triangles = document.triangles(reversed, part.points.size());
+    if (triangles.cols() == 0) continue;
+    triangles.row(1).swap(triangles.row(2));
+    reversed.erase("mode");  // triangles
+    reversed["indices"] =
+        document.add_indices(triangles, static_cast<Eigen::Index>(part.points.size()));
+  }
 }
 
 void GltfEdit::move(const GltfPart& part, const GltfMotion& motion) {
@@ -280,39 +307,17 @@ void GltfEdit::move(const GltfPart& part, const GltfMotion& motion) {
       set(part, target, name, columns);
     }
   }
+  for (const auto number : part.primitives) drop_compressed_copy(primitive(part, number));
   set(part, kBase, "POSITION", positions);
   if (normals.cols() > 0) set(part, kBase, "NORMAL", normals);
   if (tangents.cols() > 0) set(part, kBase, "TANGENT", tangents);
-}
-
-std::vector<std::string> GltfEdit::embed_pictures() {
-  std::vector<std::string> missing;
-  if (!document.json.contains("images")) return missing;
-  for (auto& image : document.json["images"]) {
-    const auto uri = image.value("uri", "data:");
-    if (uri.compare(0, 5, "data:") == 0) continue;
-    try {
-      const auto bytes = document.content_of(uri);
-      const auto type = media_type_of(bytes);
-      if (type.empty()) {
-        missing.push_back("the picture " + document.file_of(uri) + ": glTF has .png and .jpg only");
-        continue;
-      }
-      image.erase("uri");
-      image["mimeType"] = type;
-      image["bufferView"] = document.add_view(bytes);
-    } catch (const IoError& error) {
-      missing.push_back(std::string("a picture: ") + error.what());
-    }
-  }
-  return missing;
 }
 
 std::string moved_gltf(const Model& model) {
   const auto& source = *model.gltf;
   return refusing_damage(source.path, [&] {
     GltfEdit edit(source);
-    if (extension_of(source.path) == "gltf") edit.embed_pictures();
+    edit.document.embed_pictures();  // losses() has those that are missing
     const auto before = points_of(edit, source, model.soup.points.size());
     const auto changes = changes_of_space(model.soup, before);
     for (const auto& part : source.parts) {
@@ -323,7 +328,7 @@ std::string moved_gltf(const Model& model) {
   });
 }
 
-std::string unposed_gltf(const std::string& path) {
+std::string unposed_gltf(const std::string& path, std::vector<std::string>& left_out) {
   return refusing_damage(path, [&] {
     GltfEdit edit(GltfSource{path, {}});
     auto& json = edit.document.json;
@@ -338,10 +343,11 @@ std::string unposed_gltf(const std::string& path) {
         for (const auto& [name, accessor] : primitive.at("attributes").items()) {
           if (!is_about_influences(name)) kept[name] = accessor;
         }
+        if (kept.size() < primitive["attributes"].size()) drop_compressed_copy(primitive);
         primitive["attributes"] = std::move(kept);
       }
     }
-    if (extension_of(path) == "gltf") edit.embed_pictures();
+    left_out = edit.document.embed_pictures();
     return edit.glb();
   });
 }

@@ -34,11 +34,11 @@ class GltfEdit {
   Eigen::MatrixXd places(const GltfPart& part);
   Eigen::MatrixXd normals(const GltfPart& part);
 
+  //! Turns the triangles of a part over, which become indexed ones.
+  void reverse(const GltfPart& part);
+
   //! Replaces positions, normals, tangents, and morph targets.
   void move(const GltfPart& part, const GltfMotion& motion);
-
-  //! Puts pictures from other files into the document. \return those that cannot be read
-  std::vector<std::string> embed_pictures();
 
   //! The .glb file, without numbers that only the edits have left unused.
   std::string glb();
@@ -54,9 +54,10 @@ class GltfEdit {
   };
 
   void part_meshes(const GltfSource& source);
+  void drop_unused_compression();
   void find_users();
   GltfJson& attributes(const GltfPart& part, std::size_t primitive, int target);
-  void set(const GltfPart& part, int target, const char* name, const Eigen::MatrixXd& columns);
+  void set(const GltfPart& part, int target, const char* name, Eigen::MatrixXd columns);
   bool can_replace(const GltfPart& part, int target, const char* name, std::size_t accessor) const;
 
   std::map<Place, std::vector<User>> users_;  // of numbers
@@ -67,13 +68,15 @@ class GltfEdit {
 std::string moved_gltf(const Model& model);
 
 //! The .glb file of a model without skins: each mesh is where its node is, as it was bound.
+//! \param left_out  gets pictures that cannot be read, one phrase each
 //! \throws InputError if there are none; IoError
-std::string unposed_gltf(const std::string& path);
+std::string unposed_gltf(const std::string& path, std::vector<std::string>& left_out);
 
 //! Whether an attribute of vertices belongs to a skin.
 bool is_about_influences(const std::string& attribute);
 
-//! "image/png", "image/jpeg", "image/webp", or "image/ktx2"; empty for other bytes.
-std::string media_type_of(const std::string& picture);
+//! Removes the Draco copy of the attributes and indices of a primitive, which edits make outdated:
+//! readers that decode it ignore what has changed.
+void drop_compressed_copy(GltfJson& primitive);
 
 }  // namespace flbc::io

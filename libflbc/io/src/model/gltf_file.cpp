@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string_view>
 #include <tuple>
 
 #include <Eigen/Geometry>
@@ -26,7 +27,10 @@ using Json = GltfJson;
 
 // Whether points, normals, and texture coordinates do not depend on an extension.
 bool is_understood(const std::string& extension) {
-  return extension == "KHR_mesh_quantization" || extension == "KHR_lights_punctual" ||
+  constexpr std::string_view kNames[] = {"KHR_mesh_quantization", "KHR_lights_punctual",
+                                         "KHR_texture_basisu", "EXT_texture_webp",
+                                         "EXT_texture_avif"};
+  return std::find(std::begin(kNames), std::end(kNames), extension) != std::end(kNames) ||
          extension.compare(0, 14, "KHR_materials_") == 0;
 }
 
@@ -47,12 +51,12 @@ class GltfScanner {
     read_materials();
     visit_scene();
     if (model_.soup.polygons.empty()) {
-      fail("the file has " + (without_triangles_.empty() ? "no" : without_triangles_ + ", but no") +
+      fail("the file has " + (unread_.empty() ? "no" : unread_ + ", but no") +
            " triangles; export the model as a mesh");
     }
-    if (!without_triangles_.empty()) {
-      model_.notes.push_back(without_triangles_ + " are not read");
-      add_other(model_, without_triangles_);
+    if (!unread_.empty()) {
+      model_.notes.push_back(unread_ + " are not read");
+      add_other(model_, unread_);
     }
     finish();
   }
@@ -185,14 +189,18 @@ class GltfScanner {
     known_.clear();
     node_ = k;
     frame_ = world_transform(nodes, k);
-    if (!frame_.matrix().allFinite() || std::abs(frame_.linear().determinant()) < 1e-300) {
-      fail("the transform of a node cannot be inverted");
-    }
     snap_to_identity(frame_, 1);
     joints_.clear();
-    if (nodes[k].contains("skin")) read_skin(nodes, whole(nodes[k].at("skin")));
+    if (nodes[k].contains("skin")) {
+      read_skin(nodes, whole(nodes[k].at("skin")));
+    } else if (!frame_.matrix().allFinite()) {
+      fail("the transform of a node is not finite");
+    } else if (std::abs(frame_.linear().determinant()) < 1e-300) {
+      return note_unread("meshes that a scale of 0 flattens");
+    }
     const auto& primitives = json().at("meshes").at(whole(nodes[k].at("mesh"))).at("primitives");
     for (std::size_t p = 0; p < primitives.size(); ++p) add_primitive(primitives[p], p);
+    if (!joints_.empty() && !known_.empty()) add_posed_others(primitives);
   }
 
   // Bits that only rounding has set in products of transforms would change coordinates.
@@ -269,39 +277,51 @@ class GltfScanner {
   }
 
   void add_primitive(const Json& primitive, std::size_t number) {
-    constexpr std::size_t kTriangles = 4, kStrip = 5, kFan = 6;
-    const auto mode = whole(primitive, "mode", kTriangles);
-    if (mode < kTriangles || mode > kFan) return note_without_triangles(primitive, mode);
+    if (!has_triangles(primitive)) return note_without_triangles(primitive);
     if (primitive.contains("targets")) add_other(model_, "morph targets");
     auto& part = part_of(primitive);
     part.primitives.push_back(number);
     const auto& attributes = primitive.at("attributes");
-    std::vector<std::size_t> corners;
-    if (primitive.contains("indices")) {
-      const auto indices = document_.numbers(whole(primitive.at("indices")), 1);
-      for (const double index : indices.reshaped()) corners.push_back(to_whole(index));
-    } else {
-      for (std::size_t k = 0; k < part.points.size(); ++k) corners.push_back(k);
-    }
+    const auto triangles = document_.triangles(primitive, part.points.size());
     const bool has_material = primitive.contains("material");
     const auto material = whole(primitive, "material", 0);
     if (has_material && material >= model_.materials.size()) fail("a material is out of range");
     const std::array<bool, 2> has{attributes.contains("TEXCOORD_0"), attributes.contains("NORMAL")};
-    for (std::size_t k = 2; k < corners.size(); k += mode == kTriangles ? 3 : 1) {
-      const bool is_odd = mode == kStrip && k % 2 == 1;
-      const std::size_t first = mode == kFan ? 0 : k - 2;
-      add_triangle(part,
-                   {corners[is_odd ? k - 1 : first], corners[is_odd ? k - 2 : k - 1], corners[k]},
-                   has, has_material ? static_cast<Index>(material) : -1);
+    for (const auto& corners : triangles.colwise()) {
+      add_triangle(part, {corners[0], corners[1], corners[2]}, has,
+                   has_material ? static_cast<Index>(material) : -1);
     }
   }
 
-  void note_without_triangles(const Json& primitive, std::size_t mode) {
+  static bool has_triangles(const Json& primitive) {
+    const auto mode = whole(primitive, "mode", kGltfTriangles);
+    return mode >= kGltfTriangles && mode <= kGltfFan;
+  }
+
+  void add_posed_others(const Json& primitives) {
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      const auto& attributes = primitives[p].at("attributes");
+      if (has_triangles(primitives[p]) || !attributes.contains("POSITION")) continue;
+      const auto positions = document_.numbers(whole(attributes["POSITION"]), 3);
+      auto& part = source_->posed_others.emplace_back();
+      part.node = node_;
+      part.primitives = {p};
+      part.points.assign(static_cast<std::size_t>(positions.cols()), -1);
+      set_frames(part, attributes);
+    }
+  }
+
+  void note_without_triangles(const Json& primitive) {
     const auto extensions = primitive.value("extensions", Json::object()).dump();
     const bool are_splats = extensions.find("gaussian_splatting") != std::string::npos;
-    const std::string name = are_splats ? "Gaussian splats" : mode == 0 ? "points" : "lines";
-    if (without_triangles_.find(name) != std::string::npos) return;
-    without_triangles_ += (without_triangles_.empty() ? "" : " and ") + name;
+    note_unread(are_splats                      ? "Gaussian splats"
+                : whole(primitive["mode"]) == 0 ? "points"
+                                                : "lines");
+  }
+
+  void note_unread(const std::string& name) {
+    if (unread_.find(name) != std::string::npos) return;
+    unread_ += (unread_.empty() ? "" : " and ") + name;
   }
 
   void add_triangle(const GltfPart& part, std::array<std::size_t, 3> corners,
@@ -310,8 +330,7 @@ class GltfScanner {
       if (corner >= part.points.size())
         fail("a triangle has the vertex " + std::to_string(corner) + ", which is out of range");
     }
-    // A mirror image has its front at the back.
-    if (part.frame(corners[0]).linear().determinant() < 0) std::swap(corners[1], corners[2]);
+    if (part.is_mirrored) std::swap(corners[1], corners[2]);
     std::vector<Index> polygon;
     std::vector<CornerReferences> references;
     for (const auto corner : corners) {
@@ -340,12 +359,13 @@ class GltfScanner {
     const auto& node = json().at("nodes").at(node_);
     whole(attributes.at("POSITION"));
     const auto places = document_.morphed(node, primitive, "POSITION", 3);
-    part.is_skinned = !joints_.empty() && attributes.contains("JOINTS_0");
-    part.frames = part.is_skinned ? skinned_frames(attributes, places.cols())
-                                  : std::vector<Eigen::Affine3d>{frame_};
+    part.is_mirrored = frame_.linear().determinant() < 0;
+    part.points.resize(static_cast<std::size_t>(places.cols()));
+    set_frames(part, attributes);
     for (Eigen::Index k = 0; k < places.cols(); ++k) {
       const Vector<3> place = places.col(k);
-      part.points.push_back(add_point(part.frame(static_cast<std::size_t>(k)) * place, k));
+      const auto vertex = static_cast<std::size_t>(k);
+      part.points[vertex] = add_point(part.frame(vertex) * place, k);
     }
     add_normals(part, document_.morphed(node, primitive, "NORMAL", 3), attributes);
     add_texture(attributes, places.cols());
@@ -354,6 +374,13 @@ class GltfScanner {
       if (attributes.contains(other)) add_other(model_, other);
     }
     return part;
+  }
+
+  void set_frames(GltfPart& part, const Json& attributes) {
+    part.is_skinned = !joints_.empty() && attributes.contains("JOINTS_0");
+    part.frames = part.is_skinned
+                      ? skinned_frames(attributes, static_cast<Eigen::Index>(part.points.size()))
+                      : std::vector<Eigen::Affine3d>{frame_};
   }
 
   Index add_point(const Vector<3>& point, Eigen::Index k) {
@@ -436,6 +463,7 @@ class GltfScanner {
       model_.polygon_materials.clear();
     }
     source_->path = path_;
+    source_->missing_pictures = document_.embed_pictures();
     model_.gltf = std::move(source_);
   }
 
@@ -450,7 +478,7 @@ class GltfScanner {
   Eigen::Affine3d frame_;                     // of it
   std::vector<Eigen::Affine3d> joints_;       // of its skin, from where it was bound
   std::map<std::string, std::size_t> known_;  // parts of it, by their attributes
-  std::string without_triangles_;             // kinds of primitives
+  std::string unread_;                        // kinds of primitives and meshes
   std::map<std::tuple<double, double, double>, Index> number_of_;
   std::vector<double> normals_, texture_;  // of the vertices of the file
   std::map<Index, Vector<3>> colors_;      // of those of the model

@@ -276,11 +276,12 @@ std::vector<std::string> losses(const Model& model, const std::string& path) {
   const auto content = holds(path, {Content::kModel}) ? Content::kModel : Content::kMesh2D;
   const auto& format = format_of(path, content, "write a model as");
   const auto kept = format.model.attributes;
-  const bool is_gltf = format.extension == "glb", is_stl = format.extension == "stl";
+  const bool is_gltf = format.extension == "glb" || format.extension == "vrm";
+  const bool is_stl = format.extension == "stl";
   const auto& [points, polygons, polylines] = model.soup;
   const auto& attributes = model.attributes;
   auto phrases = model.others;
-  if (is_gltf && model.gltf) return {};  // the document stays
+  if (is_gltf && model.gltf) return model.gltf->missing_pictures;  // the document stays
   const auto add_if = [&](bool is_lost, const char* phrase) {
     if (is_lost) phrases.emplace_back(phrase);
   };
