@@ -231,7 +231,8 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
                      {arguments.weights, arguments.cage, arguments.model});
   if (!arguments.quiet) warn_outside(weights, cage.cage(), points, arguments.model);
   auto options = arguments.options;
-  options.masks = load_locality_inside(arguments.locality, cage.cage(), points, arguments.model);
+  options.masks =
+      load_locality_inside(arguments.locality, cage.cage(), points, arguments.model, weights);
   if (io::extension_of(arguments.output) == "py") {
     return write_vertex_groups<Dim>(cage.cage(), points, model.edges(), weights, options.masks,
                                     arguments);

@@ -197,6 +197,29 @@ void require_model_to_embed(const SolveSettings& settings) {
   throw OptionError("--embed requires MODEL");
 }
 
+// An axis that was named applies to the weights of a model as well.
+void mirror_weights(RunArguments& arguments) {
+  const auto symmetry = arguments.caging.symmetry;
+  if (symmetry == CageSymmetry::kNone || symmetry == CageSymmetry::kAuto) return;
+  if (!arguments.settings.model.empty()) {
+    arguments.settings.mirror_axis =
+        static_cast<int>(symmetry) - static_cast<int>(CageSymmetry::kX);
+  } else if (!arguments.makes_cage) {
+    throw OptionError("--symmetric: there is no model with vertices; leave out this option");
+  }
+}
+
+// Splats move with the mesh, so they have no weights of their own.
+void take_splats(RunArguments& arguments) {
+  auto& settings = arguments.settings;
+  if (!io::is_splat_file(settings.model)) return;
+  arguments.splats = std::exchange(settings.model, "");
+  if (!settings.locality.empty()) {
+    throw OptionError("--locality: " + arguments.splats +
+                      " has splats, which have no weights of their own; leave out this option");
+  }
+}
+
 // The first file of the command line is the model around which a cage is made. A picture cannot
 // move; in its place the mesh of the interior does.
 int run_model(const CLI::App& command, RunArguments& arguments) {
@@ -208,11 +231,11 @@ int run_model(const CLI::App& command, RunArguments& arguments) {
   }
   const auto extension = io::extension_of(settings.cage);
   const bool is_picture = extension == "png" || extension == "svg";
-  const bool is_splats = io::is_splat_file(settings.cage);
   const std::string file = std::exchange(settings.cage, kCage);
   (is_picture ? arguments.picture : settings.model) = file;
   refuse_unread_options(command, settings);
-  if (is_splats) arguments.splats = std::exchange(settings.model, "");
+  take_splats(arguments);
+  mirror_weights(arguments);
   require_model_to_embed(settings);
   const auto run_in_cage = [&](const auto& model) {
     const auto start = std::chrono::steady_clock::now();
@@ -224,27 +247,16 @@ int run_model(const CLI::App& command, RunArguments& arguments) {
   return std::visit(run_in_cage, load_model_facets(file));
 }
 
-// An axis that was named applies to the weights as well.
-void mirror_weights(RunArguments& arguments) {
-  const auto symmetry = arguments.caging.symmetry;
-  if (symmetry == CageSymmetry::kNone || symmetry == CageSymmetry::kAuto) return;
-  if (arguments.settings.model.empty() && !arguments.makes_cage) {
-    throw OptionError("--symmetric: no model is given; leave out this option");
-  }
-  arguments.settings.mirror_axis = static_cast<int>(symmetry) - static_cast<int>(CageSymmetry::kX);
-}
-
 // \return the exit status
 int run_command(const CLI::App& command, RunArguments& arguments) {
   check_arguments(arguments);
-  mirror_weights(arguments);
   arguments.settings.needs_domain = true;
   const auto& settings = arguments.settings;
   arguments.up = up_of(arguments.up, arguments.makes_cage ? settings.cage : settings.model);
   if (arguments.makes_cage) return run_model(command, arguments);
   refuse_unread_options(command, arguments.settings);
-  auto& model = arguments.settings.model;
-  if (io::is_splat_file(model)) arguments.splats = std::exchange(model, "");
+  take_splats(arguments);
+  mirror_weights(arguments);
   require_model_to_embed(arguments.settings);
   const io::ModelFile file(arguments.settings.cage);
   const auto& soup = file.model().soup;

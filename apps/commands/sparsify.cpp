@@ -100,7 +100,8 @@ SparseWeights make_sparse(const Cage<Dim>& cage, const ConnectedPoints<Dim>& mod
   const std::string stage = "reducing influences";
   ProgressBar bar(arguments.quiet, stage);
   auto options = arguments.options;
-  options.masks = load_locality_inside(arguments.locality, cage, model.points, arguments.points);
+  options.masks =
+      load_locality_inside(arguments.locality, cage, model.points, arguments.points, weights);
   options.progress = [&](double done) { bar.show(stage, done); };
   return reduce_influences<Dim>(cage.points, model.points, model.edges, weights, poses, options,
                                 reduction_named(method));

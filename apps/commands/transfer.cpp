@@ -81,8 +81,9 @@ Transferred<Dim> from_model(const Cage<Dim>& cage, const SparseWeights& weights,
   const double size = bounding_box_diagonal(from.points);
   Eigen::VectorXd distances;
   auto transferred = naming(arguments.to, [&] {
-    const PointMasks masks(load_locality_inside(arguments.locality, cage, to, arguments.to),
-                           cage.size(), static_cast<Index>(to.cols()));
+    const auto locality = load_locality(arguments.locality, cage, to, arguments.to);
+    const PointMasks masks(end_at_facets(cage, to, locality.masks), cage.size(),
+                           static_cast<Index>(to.cols()));
     return transfer_weights(cage.points, from, weights, to, arguments.limit * size, &distances,
                             masks);
   });

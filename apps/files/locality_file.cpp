@@ -24,6 +24,7 @@ using LocalityJson = nlohmann::json;
 
 // A misspelled key would mean another mask.
 void require_keys(const LocalityJson& object, const std::set<std::string>& known) {
+  if (!object.is_object()) throw InputError(object.dump() + " is not an object with keys");
   for (const auto& entry : object.items()) {
     if (known.count(entry.key()) > 0) continue;
     std::string names;
@@ -32,18 +33,28 @@ void require_keys(const LocalityJson& object, const std::set<std::string>& known
   }
 }
 
+// Without backslashes at the end of lines, which continue them.
+std::string joined_lines(std::string text) {
+  for (const std::string end : {"\\\n", "\\\r\n"}) {
+    for (auto at = text.find(end); at != std::string::npos; at = text.find(end, at)) {
+      text.replace(at, end.size(), " ");
+    }
+  }
+  return text;
+}
+
 // The vertices of the faces, lines, and points that follow "g NAME" in a .obj file.
 std::vector<Index> vertices_of_group(const std::string& model, const std::string& name) {
   if (io::extension_of(model) != "obj") {
     throw InputError("group \"" + name +
                      "\": only .obj models have groups; give vertices or a box");
   }
-  std::istringstream file(io::read_file(model));
+  std::istringstream file(joined_lines(io::read_file(model)));
   std::vector<Index> vertices;
   Index count = 0;  // of the vertices so far, to which negative numbers refer
   bool is_inside = false, is_known = false;
   for (std::string line; std::getline(file, line);) {
-    std::istringstream words(line);
+    std::istringstream words(line.substr(0, line.find('#')));
     std::string word;
     words >> word;
     if (word == "v") ++count;
@@ -94,6 +105,7 @@ std::vector<Index> points_in_box(const LocalityJson& box, const PointList<Dim>& 
 // Numbers are not rounded and do not wrap around: that would be another mask.
 std::vector<Index> indices_in(const LocalityJson& list) {
   std::vector<Index> indices;
+  if (!list.is_array()) throw InputError(list.dump() + " is not a list of indices");
   for (const auto& number : list) {
     const auto index = number.is_number_integer() ? number.get<std::int64_t>() : -1;
     if (index < 0 || index > std::numeric_limits<Index>::max()) {
@@ -129,12 +141,24 @@ std::vector<double> reach_in(const LocalityJson& json, const PointList<Dim>& con
   SolverOptions options;
   auto& reach = options.reach;
   reach.assign(control_points.cols(), 1);
-  for (const auto& entry : json["reach"]) {
-    for (const Index i : indices_of<Dim>(entry.at("control_points"), control_points, "")) {
+  for (std::size_t k = 0; k < json["reach"].size(); ++k) {
+    if (!json["reach"].is_array()) throw InputError("reach is not a list");
+    const auto& entry = json["reach"][k];
+    require_keys(entry, {"control_points", "factor"});
+    if (!entry.contains("control_points") || !entry.contains("factor") ||
+        !entry["factor"].is_number()) {
+      throw InputError("reach " + std::to_string(k) +
+                       ": give control_points, and a number as factor");
+    }
+    const auto chosen = indices_of<Dim>(entry["control_points"], control_points, "");
+    if (chosen.empty()) {
+      throw InputError("reach " + std::to_string(k) + ": no control points are chosen");
+    }
+    for (const Index i : chosen) {
       if (i >= control_points.cols()) {
         throw InputError("reach: there is no control point " + std::to_string(i));
       }
-      reach[i] = entry.at("factor").get<double>();
+      reach[i] = entry["factor"].get<double>();
     }
   }
   validate(options);
@@ -180,9 +204,10 @@ Locality load_locality(const std::string& path, const Cage<Dim>& cage, const Poi
     const auto list = json.is_array()          ? json
                       : json.contains("reach") ? json.value("masks", LocalityJson::array())
                                                : json.at("masks");
+    if (!list.is_array()) throw InputError("masks is not a list");
     for (const auto& mask : list) {
       entry = "entry " + std::to_string(masks.size()) + ": ";
-      if (mask.is_object()) require_keys(mask, {"control_points", "region"});
+      require_keys(mask, {"control_points", "region"});
       masks.push_back({indices_of<Dim>(mask.at("control_points"), cage.points, ""),
                        indices_of<Dim>(mask.at("region"), points, model)});
       if (masks.back().control_points.empty() || masks.back().points.empty()) {
@@ -208,9 +233,11 @@ Locality load_locality(const std::string& path, const Cage<Dim>& cage, const Poi
 
 template <int Dim>
 std::vector<flbc::Mask> load_locality_inside(const std::string& path, const Cage<Dim>& cage,
-                                             const PointList<Dim>& points,
-                                             const std::string& model) {
-  return end_at_facets(cage, points, load_locality(path, cage, points, model).masks);
+                                             const PointList<Dim>& points, const std::string& model,
+                                             const SparseWeights& weights) {
+  if (path.empty()) return {};
+  return end_at_facets(cage, attached_points(cage, points, weights),
+                       load_locality(path, cage, points, model).masks);
 }
 
 FLBC_INSTANTIATE_FUNCTION(load_locality)

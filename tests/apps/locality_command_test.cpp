@@ -166,6 +166,15 @@ TEST_F(LocalityCommand, DefectiveFilesAreRefused) {
   refused("{\"reach\": [{\"control_points\": [0], \"factor\": 17}]}",
           "bad.json: reach of control point 0 must be in [1/16, 16], not 17");
   refused("{\"reach\": [{\"control_points\": [99], \"factor\": 2}]}", "no control point 99");
+  refused("{\"reach\": [{\"control_points\": [0], \"factor\": 2, \"region\": [0]}]}",
+          "unknown key \"region\"; choose from control_points, factor");
+  refused("{\"reach\": [{\"control_points\": [0], \"factor\": \"2\"}]}",
+          "reach 0: give control_points, and a number as factor");
+  refused("{\"reach\": {\"a\": 1}}", "reach is not a list");
+  refused("{\"reach\": [{\"control_points\": {\"box\": [[8, 8, 8], [9, 9, 9]]}, \"factor\": 2}]}",
+          "reach 0: no control points are chosen");
+  refused("[{\"control_points\": [0], \"region\": {\"vertices\": {\"a\": 1}}}]",
+          "is not a list of indices");
   expect("solve 3d/limb_cage.obj -o w.npy --method gradient --locality bad.json", 1,
          "--locality: the method gradient does not use it");
 }
@@ -178,7 +187,7 @@ TEST_F(LocalityCommand, GroupsOfAnObjModelAreRegions) {
   };
   const double step = 0.01 * (cage.row(0).maxCoeff() - cage.row(0).minCoeff());
   file("model.obj", at(x, y) + at(x + step, y) + at(x, y + step) + "g body\nf 1 2 3\n" +
-                        at(x + step, y + step) + "g belt other\nf -1 -3 -2\n");
+                        at(x + step, y + step) + "g belt other # 1\nf -1 \\\n-3 -2 # not 1\n");
   file("masks.json", "[{\"control_points\": [0], \"region\": {\"group\": \"belt\"}}]");
   expect(
       "solve 2d/figure_cage.obj --model model.obj -o w.npy --vertices 500 -q "
@@ -274,7 +283,43 @@ TEST_F(LocalityCommand, MirroredVerticesAreAlike) {
     }
   }
   EXPECT_NE(slurp("mirrored/weights.npy"), slurp("free/weights.npy"));
-  expect("run cage.obj -q -o out --symmetric x", 1, "--symmetric: no model is given");
+  expect("run cage.obj -q -o out --symmetric x", 1, "--symmetric: there is no model");
+  // A drawing gets a symmetric cage, and has no weights of its own.
+  file("drawing.svg",
+       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 20 20'><path d='M2 "
+       "2h16v16h-6v-9h-4v9h-6z"
+       "'/></svg>");
+  expect("run drawing.svg --auto-cage --symmetric x --vertices 500 -q -o drawn");
+}
+
+TEST_F(LocalityCommand, VerticesOutsideEndAtTheFacetsThatTheyFollow) {
+  const auto cage = points_in<3>("3d/limb_cage.obj");
+  Vector<3> outside = cage.rowwise().mean();
+  outside[2] += 2 * (cage.row(2).maxCoeff() - cage.row(2).minCoeff());
+  char line[100];
+  std::snprintf(line, sizeof line, "v %.17g %.17g %.17g\n", outside[0], outside[1], outside[2]);
+  file("outside.obj", std::string(line) + "v 1 0 0\nv 1.1 0 0\nf 1 2 3\n");
+  expect(
+      "solve 3d/limb_cage.obj --model outside.obj --outside nearest --vertices 1000 -q -o w.npy");
+  const Eigen::VectorXd free = io::read_weights("w.npy").dense().col(0);
+  std::string facet;  // that the vertex follows
+  for (Index i = 0; i < free.size(); ++i) {
+    if (free[i] > 0) facet += (facet.empty() ? "" : ", ") + std::to_string(i);
+  }
+  const std::string masks = " --locality " + file("masks.json", "[{\"control_points\": [" + facet +
+                                                                    "], \"region\": [0]}]");
+  expect(
+      "solve 3d/limb_cage.obj --model outside.obj --outside nearest --vertices 1000 -q -o w.npy" +
+      masks);
+  EXPECT_EQ((io::read_weights("w.npy").dense().col(0) - free).norm(), 0);
+  expect("sparsify w.npy --cage 3d/limb_cage.obj --points outside.obj -k 4 -o few.npy -q" + masks);
+  expect("export outside.obj --cage 3d/limb_cage.obj --weights w.npy -k 4 -q -o out.glb" + masks);
+  // Extended weights cannot obey, which is found before the solve.
+  std::string all;
+  for (Index i = 0; i < cage.cols(); ++i) all += (i > 0 ? ", " : "") + std::to_string(i);
+  file("all.json", "[{\"control_points\": [" + all + "], \"region\": [0]}]");
+  expect("solve 3d/limb_cage.obj --model outside.obj --outside extend -o w.npy --locality all.json",
+         2, "all.json: vertex 0 at");
 }
 
 TEST_F(LocalityCommand, ComposeMultipliesWeights) {

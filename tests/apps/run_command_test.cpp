@@ -305,6 +305,13 @@ TEST_F(RunCommand, SplatsGetACageAndMoveAsByDeform) {
   expect(command + " -q -o own.ply", 1, "need --domain and --rest");
   expect_same(command + " -q --domain posed/domain.mesh --rest out/cage.obj", "own.ply",
               "posed/deformed.ply");
+  // They have no weights of their own to mirror or to mask.
+  expect_run("out", splat_file + " --auto-cage --symmetric z --vertices 800 --force", 0, "out");
+  expect_run("out", "out/cage.obj " + splat_file + " --symmetric z", 1,
+             "--symmetric: there is no model");
+  const auto masks = file("masks.json", "[{\"control_points\": [0], \"region\": [0]}]");
+  expect_run("out", "out/cage.obj " + splat_file + " --locality " + masks, 1,
+             "has splats, which have no weights of their own");
 }
 
 TEST_F(RunCommand, KeyframesOfTheArm) {

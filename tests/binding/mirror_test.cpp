@@ -2,6 +2,8 @@
 // Exact mirror symmetry, in a mesh that is not symmetric.
 #include "flbc/mirror.h"
 
+#include "flbc/deform.h"
+#include "flbc/mask_conflicts.h"
 #include "flbc/rig.h"
 #include "support/errors.h"
 #include "support/refined_sample.h"
@@ -37,10 +39,11 @@ EdgeList mirrored_edges() {
   return edges;
 }
 
+// \param twice  the place of the plane, x = twice / 2
 template <int Dim>
-Index image_of(const PointList<Dim>& points, Index p) {
+Index image_of(const PointList<Dim>& points, Index p, double twice = 1) {
   Vector<Dim> image = points.col(p);
-  image[0] = 1 - image[0];
+  image[0] = twice - image[0];
   for (Index q = 0; q < points.cols(); ++q) {
     if ((points.col(q) - image).norm() < 1e-9) return q;
   }
@@ -87,10 +90,10 @@ TEST_IN_2D_AND_3D(MirrorTest, MirroredPointsHaveMirroredWeights) {
 // Two mirrored lists of weights, exactly.
 template <int Dim>
 void expect_mirrored(const SparseWeights& weights, Index p, Index q,
-                     const PointList<Dim>& control_points) {
+                     const PointList<Dim>& control_points, double twice = 1) {
   const Eigen::VectorXd here = weights.at(p), there = weights.at(q);
   for (Index i = 0; i < control_points.cols(); ++i) {
-    ASSERT_EQ(here[i], there[image_of<Dim>(control_points, i)]) << p << ' ' << i;
+    ASSERT_EQ(here[i], there[image_of<Dim>(control_points, i, twice)]) << p << ' ' << i;
   }
 }
 
@@ -164,6 +167,58 @@ TEST_IN_2D_AND_3D(MirrorTest, PointsOutsideDoNotSpoilTheOthers) {
   const auto all = rig.weights_of_points();
   const auto reduced = rig.reduced(SparsifyOptions{2 * cage.size()});  // to no fewer
   EXPECT_LT((all.dense() - reduced.dense()).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+// The nearest points of the cage are not unique in a notch, and in the plane over one.
+TEST(MirrorTest, PointsOutsideInNotchesAreMirrored) {
+  Cage<2> cage{PointList<2>(2, 7), FacetList<2>(2, 7)};
+  cage.points << -4, 4, 4, 2, 0, -2, -4,  //
+      0, 0, 3, 1, 2.5, 1, 3;
+  for (Index k = 0; k < 7; ++k) cage.facets.col(k) << k, (k + 1) % 7;
+  DomainMesh<2> mesh{cage.points, CellList<2>(3, 5)};
+  mesh.cells << 0, 0, 1, 0, 3,  //
+      5, 1, 2, 3, 4,            //
+      6, 3, 3, 5, 5;
+  PointList<2> points(2, 7);
+  points << 2, -2, 3, -3, 0, 1.2, -1.2,  //
+      2.5, 2.5, 2.9, 2.9, 3, 0.5, 0.5;
+  BindOptions options;
+  options.mirror_axis = 0;
+  options.outside = OutsidePoints::kNearest;
+  for (const bool masked : {false, true}) {
+    if (masked) options.masks = {{{1}, {1, 3, 6}}};
+    for (const Index most : {0, 4}) {
+      options.max_influences = most;
+      const auto binding = bind<2>(cage, mesh, points, {}, options);
+      for (const Index p : {0, 2, 5}) expect_mirrored<2>(binding.weights, p, p + 1, cage.points, 0);
+      expect_mirrored<2>(binding.weights, 4, 4, cage.points, 0);
+      EXPECT_LT((binding.deform(cage.points) - points).cwiseAbs().maxCoeff(), 1e-13);
+      EXPECT_LT((binding.offsets.row(0) + binding.offsets(Eigen::all, {1, 0, 3, 2, 4, 6, 5}).row(0))
+                    .norm(),
+                1e-13);
+      const auto attached = attached_points(cage, points, binding.weights);
+      EXPECT_LT((deform<2>(binding.weights, cage.points) - attached).cwiseAbs().maxCoeff(), 1e-13);
+    }
+  }
+}
+
+TEST_IN_2D_AND_3D(MirrorTest, TheCureOfAConflictIsSymmetric) {
+  const auto [cage, mesh, name] = with_fine_cage<Dim>(Shape::kBox, 2, 4);
+  const auto points = mirrored_points<Dim>();
+  BindOptions options;
+  options.mirror_axis = 0;
+  options.masks = {{{}, {0, 4, 40, 48}}};
+  for (Index i = 1; i < cage.size(); ++i) options.masks[0].control_points.push_back(i);
+  try {
+    bind<Dim>(cage, mesh, points, {}, options);
+    FAIL();
+  } catch (const MaskConflict& conflict) {
+    auto& left = options.masks[0].control_points;
+    for (const Index i : conflict.control_points) {
+      left.erase(std::remove(left.begin(), left.end(), i), left.end());
+    }
+  }
+  EXPECT_NO_THROW(bind<Dim>(cage, mesh, points, {}, options));
 }
 
 TEST(MirrorTest, QuadsThatAreCutDifferentlyMustBeFlat) {

@@ -42,7 +42,7 @@ export type Locality = LocalityMask[] | {
 };
 export interface LocalityMask {
   control_points: number[] | { vertices: number[] } | { box: [number[], number[]] };
-  region: number[] | { vertices: number[] } | { box: [number[], number[]] } | { group: string };
+  region: number[] | { vertices: number[] } | { box: [number[], number[]] } | { group: string } | { attribute: string };
 }
 
 export interface Protection {

@@ -36,13 +36,19 @@ class MirroredModel {
   //! Adds the mirror images of masks of P points.
   std::vector<Mask> symmetrized(const std::vector<Mask>& masks) const;
 
-  //! The mirror images of control points.
-  std::vector<Index> images(const std::vector<Index>& control_points) const;
+  //! The mirror image of each control point.
+  const std::vector<Index>& images() const { return image_; }
+
+  //! Moves points that a placement put onto the cage to where symmetric weights put them: the mean
+  //! of the place and of the mirrored place of the image.
+  //! \param placement  of the P points \param at  returns where given points are put
+  void symmetrize(Placement<Dim>& placement,
+                  const std::function<PointList<Dim>(const PointList<Dim>& points)>& at) const;
 
   //! Frees control points whose image is free at the image of a point. Masks may end at facets on
   //! one side only, because flat quads may be cut differently.
-  //! \param masks  from symmetrized(), placed
-  void keep_common(PlacedMasks& masks) const;
+  //! \param given  from symmetrized() \param masks  the same, placed
+  void keep_common(const std::vector<Mask>& given, PlacedMasks& masks) const;
 
   //! The masks of points without a mirror image.
   PlacedMasks of_single_points(PlacedMasks masks) const;

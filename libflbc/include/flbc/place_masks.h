@@ -40,18 +40,21 @@ std::vector<Mask> relax_masks(const Cage<Dim>& cage, const PointList<Dim>& point
 
 //! Prepares masks. Vertices of the mesh that cannot obey are left out, because enforce_masks()
 //! makes weights of the points exactly 0.
-//! \param placement  of P points, in the mesh \param masks  of the P points
+//! \param placement  of P points, in the mesh; without places: of its vertices
+//! \param masks  of the P points
+//! \param images  MirroredModel::images() for symmetric masks; empty: no mirror
 //! \throws MaskConflict if points cannot obey, naming their number, the first, and the control
-//! points to free; InputError as PointMasks
+//! points to free; InputError as PointMasks, and for a point outside (OutsidePoints::kExtend) that
+//! is no affine combination of the control points that may move it
 template <int Dim>
 PlacedMasks place_masks(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-                        const Placement<Dim>& placement, const std::vector<Mask>& masks);
+                        const Placement<Dim>& placement, const std::vector<Mask>& masks,
+                        const std::vector<Index>& images = {});
 
 //! Makes masked weights exactly 0, with the smallest change of the others. Weights that obey are
 //! unchanged.
 //! \param weights  of P points, as returned by weights_at() \param masks  of the placement
 //! \return weights of P points, which reproduce placement.points
-//! \throws InputError if the control points that may move a point outside are coplanar
 template <int Dim>
 SparseWeights enforce_masks(const Cage<Dim>& cage, const Placement<Dim>& placement,
                             const SparseWeights& weights, const PlacedMasks& masks);

@@ -42,6 +42,11 @@ void require_inside(const Cage<Dim>& cage, const PointList<Dim>& points,
   if (options.outside == OutsidePoints::kFail) place_points(cage, points);
 }
 
+// Images of points that are inside up to a tolerance may be outside by rounding.
+OutsidePoints policy_of_images(const BindOptions& options) {
+  return options.outside == OutsidePoints::kFail ? OutsidePoints::kNearest : options.outside;
+}
+
 // What the weights do not reproduce.
 template <int Dim>
 PointList<Dim> offsets_of(const PointList<Dim>& points, const Placement<Dim>& placement) {
@@ -52,17 +57,6 @@ PointList<Dim> offsets_of(const PointList<Dim>& points, const Placement<Dim>& pl
         placement.policy == OutsidePoints::kKeep ? Vector<Dim>(points.col(point)) : offset;
   }
   return offsets;
-}
-
-// Masks of the vertices of the mesh.
-template <int Dim>
-PlacedMasks masks_of_mesh(const Cage<Dim>& cage, const PointList<Dim>& vertices,
-                          const std::vector<Mask>& masks) {
-  PlacedMasks placed;
-  placed.of_mesh = placed.of_points = end_at_facets(cage, vertices, masks, &placed.on_facets);
-  const auto count = static_cast<Index>(vertices.cols());
-  placed.masked = static_cast<Index>(PointMasks(masks, cage.size(), count).points().size());
-  return placed;
 }
 
 // The masks of a model join those that the caller gave for the mesh.
@@ -137,6 +131,13 @@ typename Rig<Dim>::Placed Rig<Dim>::place(const Cage<Dim>& cage, const DomainMes
   } else {
     placed.placement.points = mesh.points;
   }
+  if (options.mirror_axis >= 0) {
+    if (points.cols() == 0) throw OptionError("mirror_axis is for weights of a model");
+    placed.mirror.emplace(cage, options.mirror_axis, points);
+    placed.mirror->symmetrize(placed.placement, [&](const PointList<Dim>& images) {
+      return place_points(cage, mesh, images, policy_of_images(options)).points;
+    });
+  }
   constrain(placed, cage, mesh, options);
   placed.seconds = watch.seconds();
   return placed;
@@ -145,19 +146,13 @@ typename Rig<Dim>::Placed Rig<Dim>::place(const Cage<Dim>& cage, const DomainMes
 template <int Dim>
 void Rig<Dim>::constrain(Placed& placed, const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                          const BindOptions& options) {
-  const auto& points = placed.placement.points;
-  const bool has_model = !placed.placement.places.empty();
-  placed.mirror.reset();
   placed.masks = {};
-  if (options.mirror_axis >= 0) {
-    if (!has_model) throw OptionError("mirror_axis is for weights of a model, not of the mesh");
-    placed.mirror.emplace(cage, options.mirror_axis, points);
-  }
   if (options.masks.empty()) return;
-  const auto masks = placed.mirror ? placed.mirror->symmetrized(options.masks) : options.masks;
-  placed.masks = has_model ? place_masks(cage, mesh, placed.placement, masks)
-                           : masks_of_mesh(cage, points, masks);
-  if (placed.mirror) placed.mirror->keep_common(placed.masks);
+  const auto& [placement, mirror, unused, seconds] = placed;
+  const auto masks = mirror ? mirror->symmetrized(options.masks) : options.masks;
+  const auto images = mirror ? mirror->images() : std::vector<Index>{};
+  placed.masks = place_masks(cage, mesh, placement, masks, images);
+  if (mirror) mirror->keep_common(masks, placed.masks);
 }
 
 template <int Dim>
@@ -227,9 +222,9 @@ template <int Dim>
 void Rig<Dim>::set_options(const BindOptions& options) {
   require_valid<Dim>(options);
   std::optional<Placed> changed;
-  if (options.outside != options_.outside) {
+  if (options.outside != options_.outside || options.mirror_axis != options_.mirror_axis) {
     changed = place(cage(), mesh(), points_, options);
-  } else if (options.masks != options_.masks || options.mirror_axis != options_.mirror_axis) {
+  } else if (options.masks != options_.masks) {
     changed = placed_;
     constrain(*changed, cage(), mesh(), options);
   }
@@ -266,11 +261,8 @@ const SparseWeights& Rig<Dim>::weights_of_points() {
   auto weights = points_.cols() > 0 ? evaluated(placement) : solution().weights;
   if (masks.masked > 0) weights = enforce_masks(cage(), placement, weights, masks);
   if (mirror) {
-    // Images of points that are inside up to a tolerance may be outside by rounding.
-    const auto policy =
-        options_.outside == OutsidePoints::kFail ? OutsidePoints::kNearest : options_.outside;
     weights = mirror->symmetrized(weights, [&](const PointList<Dim>& points) {
-      return evaluated(place_points(cage(), mesh(), points, policy));
+      return evaluated(place_points(cage(), mesh(), points, policy_of_images(options_)));
     });
     if (masks.masked > 0) {
       weights = enforce_masks(cage(), placement, weights, mirror->of_single_points(masks));

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <iterator>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string>
 
 #include "base/messages.h"
@@ -71,8 +73,7 @@ std::vector<Index> find_partners(const PointList<Dim>& points, const PointList<D
 template <int Dim>
 void require_mirrored_facets(const Cage<Dim>& cage, const PointList<Dim>& images,
                              const std::string& plane) {
-  constexpr double kNear = 1e-9;
-  const FacetLocator<Dim> locator(cage, kNear * bounding_box_diagonal(cage.points));
+  const FacetLocator<Dim> locator(cage, kBoundaryTolerance * bounding_box_diagonal(cage.points));
   for (Index f = 0; f < cage.facets.cols(); ++f) {
     std::string corners;
     for (int k = 0; k < Dim; ++k)
@@ -148,32 +149,58 @@ std::vector<Mask> MirroredModel<Dim>::symmetrized(const std::vector<Mask>& masks
     add_partners(here, there);
     add_partners(there, here);
     add(both, control_points, here);
-    add(both, images(control_points), there);
+    Mask images{{}, {}};
+    for (const Index i : control_points) images.control_points.push_back(image_[i]);
+    add(both, images.control_points, there);
   }
   return both;
 }
 
 template <int Dim>
-std::vector<Index> MirroredModel<Dim>::images(const std::vector<Index>& control_points) const {
-  std::vector<Index> images;
-  for (const Index i : control_points) images.push_back(image_[i]);
-  return images;
+void MirroredModel<Dim>::symmetrize(
+    Placement<Dim>& placement,
+    const std::function<PointList<Dim>(const PointList<Dim>&)>& at) const {
+  std::set<Index> moved;
+  for (const auto* list : {&placement.on_cage, &placement.outside}) {
+    for (const auto& nearest : *list) moved.insert(nearest.point);
+  }
+  for (const Index p : std::set<Index>(moved)) moved.insert(partner_[p] < 0 ? p : partner_[p]);
+  std::vector<Index> alone;
+  std::copy_if(moved.begin(), moved.end(), std::back_inserter(alone),
+               [&](Index p) { return partner_[p] < 0; });
+  PointList<Dim> elsewhere(Dim, alone.size());
+  if (!alone.empty()) elsewhere = at(mirrored(points_)(Eigen::all, alone));
+  const PointList<Dim> images = mirrored(placement.points), others = mirrored(elsewhere);
+  Eigen::Index next = 0;
+  for (const Index p : moved) {
+    const Vector<Dim> image = partner_[p] < 0 ? others.col(next++) : images.col(partner_[p]);
+    placement.points.col(p) = (placement.points.col(p) + image) / 2;
+  }
+  if (placement.policy != OutsidePoints::kNearest) return;
+  for (auto& nearest : placement.outside) {
+    nearest.offset = points_.col(nearest.point) - placement.points.col(nearest.point);
+  }
 }
 
 template <int Dim>
-void MirroredModel<Dim>::keep_common(PlacedMasks& masks) const {
+void MirroredModel<Dim>::keep_common(const std::vector<Mask>& given, PlacedMasks& masks) const {
   const auto n = static_cast<Index>(image_.size()), count = static_cast<Index>(partner_.size());
   auto all = masks.of_points;
   all.insert(all.end(), masks.of_outside.begin(), masks.of_outside.end());
-  const PointMasks before(all, n, count);
+  const PointMasks before(all, n, count), wanted(given, n, count);
   for (auto* list : {&masks.of_points, &masks.of_outside}) {
     const PointMasks own(*list, n, count);
     std::vector<Mask> kept(n);
     for (Index i = 0; i < n; ++i) kept[i].control_points = {i};
     for (const Index p : own.points()) {
+      std::size_t left = 0;
       for (const Index i : own.forbidden(p)) {
-        if (partner_[p] < 0 || before.forbids(partner_[p], image_[i])) kept[i].points.push_back(p);
+        if (partner_[p] >= 0 && !before.forbids(partner_[p], image_[i])) continue;
+        kept[i].points.push_back(p);
+        ++left;
       }
+      const auto all_of_them = wanted.forbidden(p).size();
+      if (left < all_of_them && own.forbidden(p).size() == all_of_them) ++masks.on_facets;
     }
     *list = std::move(kept);
   }
@@ -238,7 +265,7 @@ SparseWeights MirroredModel<Dim>::reduced(
     const Index other = partner_[p];
     if (other == p) plane.push_back(p);
     // One side, so that neighbors are reduced together.
-    const bool is_image = other >= 0 && model.points(axis_, p) < model.points(axis_, other);
+    const bool is_image = other >= 0 && points_(axis_, p) < points_(axis_, other);
     if (!is_image || other == p) half.push_back(p);
   }
   std::vector<Index> in_half, in_plane;

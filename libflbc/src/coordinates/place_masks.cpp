@@ -113,31 +113,58 @@ std::vector<Mask> masks_of_cells(const Cage<Dim>& cage, const DomainMesh<Dim>& m
       [&](Index v) { return !std::binary_search(conflicts.begin(), conflicts.end(), v); });
 }
 
-// The nearest weights without the masked ones, of any sign; on their support if that suffices.
+// The weights of some control points nearest to given ones, of any sign, that reproduce a point.
+// \return empty if there are none
+template <int Dim>
+std::optional<Eigen::VectorXd> affine_weights(const PointList<Dim>& control_points,
+                                              const Vector<Dim>& point,
+                                              const std::vector<Index>& some,
+                                              Eigen::VectorXd weights) {
+  constexpr double kExact = 1e-13;
+  if (some.empty()) return {};
+  const double size = bounding_box_diagonal(control_points);
+  Eigen::MatrixXd sums(Dim + 1, some.size());
+  sums.row(0).setOnes();
+  sums.bottomRows(Dim) = (control_points(Eigen::all, some).colwise() - point) / size;
+  const Vector<Dim + 1> wanted = Vector<Dim + 1>::Unit(0);
+  Eigen::VectorXd few = weights(some);
+  for (int pass = 0; pass < 2; ++pass) few += dense::least_squares(sums, wanted - sums * few);
+  if (!((sums * few - wanted).norm() <= kExact)) return {};
+  weights(some) = few;
+  return weights;
+}
+
+// The nearest weights without the masked ones; on their support if that suffices.
 template <int Dim>
 Eigen::VectorXd without_masked(const PointList<Dim>& control_points, const Vector<Dim>& point,
                                const PointMasks& masks, Index p, Eigen::VectorXd weights) {
-  constexpr double kExact = 1e-13;
-  const double size = bounding_box_diagonal(control_points);
   weights(masks.forbidden(p)).setZero();
   std::vector<Index> support;
   for (const Index i : masks.allowed(p)) {
     if (weights[i] != 0) support.push_back(i);
   }
-  for (const auto& some : {support, masks.allowed(p)}) {
-    Eigen::MatrixXd sums(Dim + 1, some.size());
-    sums.row(0).setOnes();
-    sums.bottomRows(Dim) = (control_points(Eigen::all, some).colwise() - point) / size;
-    const Vector<Dim + 1> wanted = Vector<Dim + 1>::Unit(0);
-    Eigen::VectorXd few = weights(some);
-    for (int pass = 0; pass < 2; ++pass) few += dense::least_squares(sums, wanted - sums * few);
-    if (!((sums * few - wanted).norm() <= kExact)) continue;
-    weights(some) = few;
-    return weights;
+  if (const auto found = affine_weights<Dim>(control_points, point, support, weights)) {
+    return *found;
   }
-  throw InputError("vertex " + std::to_string(p) + " at " + format_point(point) +
-                   ", outside the cage, cannot follow the control points that may move it, which "
-                   "are coplanar; free others, or make the region smaller");
+  return affine_weights<Dim>(control_points, point, masks.allowed(p), weights).value();
+}
+
+// \param masks  of points with OutsidePoints::kExtend
+template <int Dim>
+void require_affine_weights(const Cage<Dim>& cage, const PointList<Dim>& points,
+                            const PointMasks& masks) {
+  for (const Index p : masks.points()) {
+    if (affine_weights<Dim>(cage.points, points.col(p), masks.allowed(p),
+                            Eigen::VectorXd::Zero(cage.size()))) {
+      continue;
+    }
+    throw InputError(
+        "vertex " + std::to_string(p) + " at " + format_point(points.col(p)) +
+        ", outside the cage, cannot follow the control points that may move it, " +
+        (masks.allowed(p).empty() ? "of which there are none" : "which are in one plane or line") +
+        "; leave it out of the region, or let it follow the nearest point of the cage "
+        "(outside nearest)");
+  }
 }
 
 }  // namespace
@@ -162,23 +189,23 @@ template <int Dim>
 std::vector<Mask> relax_masks(const Cage<Dim>& cage, const PointList<Dim>& points,
                               std::vector<Mask> masks, std::vector<Index>& freed, int mirror_axis) {
   freed.clear();
-  const auto places = place_points(cage, points, OutsidePoints::kNearest).points;
-  std::optional<MirroredModel<Dim>> mirror;
+  const auto place = [&](const PointList<Dim>& given) {
+    return place_points(cage, given, OutsidePoints::kNearest);
+  };
+  auto placement = place(points);
+  std::vector<Index> images;
   if (mirror_axis >= 0) {
-    mirror.emplace(cage, mirror_axis, places);
-    masks = mirror->symmetrized(masks);
+    const MirroredModel<Dim> mirror(cage, mirror_axis, points);
+    mirror.symmetrize(placement, [&](const PointList<Dim>& given) { return place(given).points; });
+    masks = mirror.symmetrized(masks);
+    images = mirror.images();
   }
-  const PointMasks inside(end_at_facets(cage, places, masks), cage.size(),
-                          static_cast<Index>(places.cols()));
+  const PointMasks inside(end_at_facets(cage, placement.points, masks), cage.size(),
+                          static_cast<Index>(points.cols()));
   try {
-    refuse_mask_conflicts(cage.points, places, inside);
+    refuse_mask_conflicts(cage.points, placement.points, inside, images);
   } catch (const MaskConflict& conflict) {
     freed = conflict.control_points;
-  }
-  if (mirror) {
-    for (const Index i : mirror->images(freed)) freed.push_back(i);
-    std::sort(freed.begin(), freed.end());
-    freed.erase(std::unique(freed.begin(), freed.end()), freed.end());
   }
   for (auto& [control_points, region] : masks) {
     const auto is_free = [&](Index i) { return std::binary_search(freed.begin(), freed.end(), i); };
@@ -190,7 +217,8 @@ std::vector<Mask> relax_masks(const Cage<Dim>& cage, const PointList<Dim>& point
 
 template <int Dim>
 PlacedMasks place_masks(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-                        const Placement<Dim>& placement, const std::vector<Mask>& masks) {
+                        const Placement<Dim>& placement, const std::vector<Mask>& masks,
+                        const std::vector<Index>& images) {
   if (masks.empty()) return {};
   const auto num_points = static_cast<Index>(placement.points.cols());
   auto forbidden = forbidden_at(PointMasks(masks, cage.size(), num_points));
@@ -214,8 +242,11 @@ PlacedMasks place_masks(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
   for (const auto& [point, control_points] : inside) forbidden[point] = control_points;
   placed.of_points = list(forbidden);
   refuse_mask_conflicts(cage.points, placement.points,
-                        PointMasks(placed.of_points, cage.size(), num_points));
-  placed.of_mesh = masks_of_cells(cage, mesh, placement, forbidden);
+                        PointMasks(placed.of_points, cage.size(), num_points), images);
+  require_affine_weights(cage, placement.points,
+                         PointMasks(placed.of_outside, cage.size(), num_points));
+  placed.of_mesh = placement.places.empty() ? placed.of_points
+                                            : masks_of_cells(cage, mesh, placement, forbidden);
   return placed;
 }
 

@@ -302,9 +302,10 @@ PointList<Dim> attached_points(const Cage<Dim>& cage, const PointList<Dim>& poin
   PointList<Dim> result = points;
   for (const auto& nearest : nearest_on_cage(cage, points, elsewhere)) {
     const Index p = nearest.point;
-    // By the distance, because several points of the cage may be equally near.
+    // By the distance, because several points of the cage may be equally near. A mirror puts the
+    // point between two of them.
     const double error = (reproduced.col(p) - points.col(p)).norm();
-    if (std::abs(error - nearest.distance()) > tolerance) continue;
+    if (error > nearest.distance() + tolerance) continue;
     if (locator.is_outside(points.col(p))) result.col(p) = reproduced.col(p);
   }
   return result;

@@ -87,7 +87,8 @@ class Feasibility {
 // Control points that are allowed everywhere then, ascending.
 template <int Dim>
 std::vector<Index> find_cure(const Feasibility<Dim>& feasibility, const PointMasks& masks,
-                             const std::vector<Index>& conflicts) {
+                             const std::vector<Index>& conflicts,
+                             const std::vector<Index>& images) {
   std::vector<Index> freed;
   for (const Index point : conflicts) {
     auto allowed = masks.allowed(point);
@@ -98,9 +99,13 @@ std::vector<Index> find_cure(const Feasibility<Dim>& feasibility, const PointMas
       const Index i = feasibility.free_one(point, allowed);
       if (i < 0) break;  // the point is outside the hull of all
       freed.push_back(i);
+      if (images.empty() || images[i] == i) continue;
+      freed.push_back(images[i]);
+      allowed.push_back(images[i]);
     }
   }
   std::sort(freed.begin(), freed.end());
+  freed.erase(std::unique(freed.begin(), freed.end()), freed.end());
   return freed;
 }
 
@@ -144,12 +149,12 @@ std::vector<Index> mask_conflicts(const PointList<Dim>& control_points,
 
 template <int Dim>
 void refuse_mask_conflicts(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                           const PointMasks& masks) {
+                           const PointMasks& masks, const std::vector<Index>& images) {
   const auto conflicts = mask_conflicts(control_points, points, masks);
   if (conflicts.empty()) return;
   const Feasibility<Dim> feasibility(control_points, points);
   const auto allowed = masks.allowed(conflicts.front());
-  const auto cure = find_cure(feasibility, masks, conflicts);
+  const auto cure = find_cure(feasibility, masks, conflicts, images);
   throw MaskConflict(
       std::to_string(conflicts.size()) + " of " + std::to_string(masks.points().size()) +
           " masked vertices cannot follow the control points that may move them; the first is "

@@ -17,8 +17,9 @@ std::vector<Index> mask_conflicts(const PointList<Dim>& control_points,
 
 //! \throws MaskConflict if there are such points, naming their number, the first, and control
 //! points without whose masks there are none
+//! \param images  control points that are freed together with each; empty: none
 template <int Dim>
 void refuse_mask_conflicts(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                           const PointMasks& masks);
+                           const PointMasks& masks, const std::vector<Index>& images = {});
 
 }  // namespace flbc
