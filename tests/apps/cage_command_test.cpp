@@ -201,7 +201,7 @@ TEST_F(CageCommand, RunFromTheModelAlone) {
   expect("run " + model + " --auto-cage --control-points two" + into("none"), 1,
          "--control-points");
   expect("run " + model + " --control-points 30" + into("none"), 1, "requires --auto-cage");
-  expect("run " + model + " --symmetric x" + into("none"), 1, "no model is given");
+  expect("run " + model + " --symmetric x" + into("none"), 1, "there is no model");
   expect("run " + model + " " + model + " --auto-cage" + into("none"), 1, "--auto-cage");
   expect("run " + model + " --auto-cage 30" + into("none"), 1, "by --control-points");
 }

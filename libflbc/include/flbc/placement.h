@@ -81,8 +81,9 @@ template <int Dim>
 std::vector<NearestOnCage<Dim>> nearest_on_cage(const Cage<Dim>& cage, const PointList<Dim>& points,
                                                 const std::vector<Index>& which);
 
-//! The points that weights should reproduce: the nearest point of the cage for a point outside that
-//! has the weights of OutsidePoints::kNearest, else the point itself.
+//! The points that weights should reproduce: the nearest point of the cage, or a mean of several
+//! equally near ones, for a point outside that has the weights of OutsidePoints::kNearest, else the
+//! point itself.
 //! \param cage  its facets may be missing; then all points are unchanged
 //! \param points  Dim x P, finite, in the units of the cage
 //! \param weights  of P points

@@ -232,6 +232,19 @@ class WeightsAt {
   std::map<Index, AffineFit<Dim>> fits_;
 };
 
+// Whether all control points that move a point are corners of facets within a distance from it. A
+// mirror puts a point between two facets that are equally near.
+template <int Dim>
+bool follows_facets(const Cage<Dim>& cage, const PointList<Dim>& points, Index p,
+                    Eigen::VectorXd weights, double distance) {
+  for (const auto& facet : cage.facets.colwise()) {
+    if ((weights(facet).array() == 0).all()) continue;
+    const Cage<Dim> alone{cage.points, facet};
+    if (nearest_on_cage(alone, points, {p})[0].distance() <= distance) weights(facet).setZero();
+  }
+  return (weights.array() == 0).all();
+}
+
 }  // namespace
 
 template <int Dim>
@@ -302,10 +315,14 @@ PointList<Dim> attached_points(const Cage<Dim>& cage, const PointList<Dim>& poin
   PointList<Dim> result = points;
   for (const auto& nearest : nearest_on_cage(cage, points, elsewhere)) {
     const Index p = nearest.point;
-    // By the distance, because several points of the cage may be equally near. A mirror puts the
-    // point between two of them.
-    const double error = (reproduced.col(p) - points.col(p)).norm();
-    if (error > nearest.distance() + tolerance) continue;
+    // By the distance, because several points of the cage may be equally near.
+    const double error = (reproduced.col(p) - points.col(p)).norm(),
+                 limit = nearest.distance() + tolerance;
+    if (error > limit) continue;
+    if (error < nearest.distance() - tolerance &&
+        !follows_facets(cage, points, p, weights.at(p), limit)) {
+      continue;
+    }
     if (locator.is_outside(points.col(p))) result.col(p) = reproduced.col(p);
   }
   return result;
