@@ -23,7 +23,7 @@ declare -A groups=(
   [pictures]="python3-pil python3-matplotlib fonts-lato gifsicle chromium"
   [site]="doxygen mkdocs mkdocs-material libjs-katex"
   [openfoam]="openfoam openmpi-bin bzip2"
-  [web]="emscripten nodejs libboost-dev libfast-float-dev"
+  [web]="emscripten nodejs libboost-dev libfast-float-dev zopfli"
   [windows]="g++-mingw-w64-x86-64-posix wine64 libboost-dev googletest"
   [aarch64]="g++-aarch64-linux-gnu qemu-user libboost-dev googletest"
 )
