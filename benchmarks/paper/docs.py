@@ -108,6 +108,8 @@ def differences(before, now):
 
 
 SKIPPED = 77  # as CMake knows it
+OF_AUTOMATIC_CAGE = {"cage of star", "8 influences"}
+WITH_AUTOMATIC_CAGES = {"cages", "many", "pipeline", "sparsify"}
 
 
 def check_behavior(program):
@@ -120,7 +122,9 @@ def check_behavior(program):
             continue
         commit = next((comment for comment in comments if comment.startswith("commit ")), "")
         before = behavior_of(commit.partition(";")[2])
-        differ = sorted(differences(before, now))
+        differ = set(differences(before, now))
+        if path.stem not in WITH_AUTOMATIC_CAGES:
+            differ -= OF_AUTOMATIC_CAGE
         if differ:
             stale.append(path.name)
     if not stale:
