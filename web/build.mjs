@@ -41,10 +41,16 @@ function module(assets, license) {
   return text.replace("/*{{assets}}*/ {}", () => JSON.stringify(assets));
 }
 
+function decoders() {
+  const at = (path) => packed(readFileSync(new URL(`decoders/node_modules/${path}`, import.meta.url)));
+  return { draco: at("draco3dgltf/draco_decoder_gltf_nodejs.js"), dracoWasm: at("draco3dgltf/draco_decoder_gltf.wasm"),
+           meshopt: at("meshoptimizer/meshopt_decoder.mjs") };
+}
+
 function page(assets) {
   const names = /set\(page_modules\s+([^)]*)\)/.exec(read("../apps/view/CMakeLists.txt"))[1].trim().split(/\s+/);
   const program = packed(joined([...names.map((name) => `${view}${name}.mjs`), "js/unpacked.mjs", "js/flbc.mjs",
-                                 "page/reshaping.mjs", "page/protecting.mjs", "page/shapes.mjs", "page/cage_edits.mjs", "page/app.mjs"]));
+                                 "page/reshaping.mjs", "page/protecting.mjs", "page/shapes.mjs", "page/cage_edits.mjs", "page/decoding.mjs", "page/app.mjs"]));
   const kSamples = { Character: "3d/character", Limb: "3d/limb", Torus: "3d/torus", "Figure, in 2D": "2d/figure" };
   const samples = {};
   let buttons = "";
@@ -58,11 +64,11 @@ function page(assets) {
   const app = read("page/app.html").replace("{{version}}", version).replace("{{source}}", source)
     .replace("{{samples}}", buttons).replace("{{moving}}", read("../meshes/pictures/figure_moving.svg"));
   // Base64 has no "<". It comes last, and is read after the page has been drawn.
-  const late = `<script type="application/json" id="assets">${JSON.stringify({ program, ...assets, samples })}</script>\n`;
+  const late = `<script type="application/json" id="assets">${JSON.stringify({ program, ...assets, samples, decoders: decoders() })}</script>\n`;
   const parts = { style: read(`${view}page.css`) + read("page/app.css"), data: "null",
                   script: joined(["js/unpacked.mjs", "page/loading.mjs"]) };
   return read(`${view}page.html`)
-    .replace("<!-- SPDX-License-Identifier: BSD-3-Clause -->", `<!-- ${kLicense} -->`)
+    .replace("<!-- SPDX-License-Identifier: BSD-3-Clause -->", `<!-- ${kLicense} Draco (Apache-2.0) and meshoptimizer (MIT) decode compressed glTF. -->`)
     .replace('<script type="application/json"', () => `${app}<script type="application/json"`)
     .replace("</body>", () => `${late}</body>`)
     .replace(/\{\{(style|data|script)\}\}/g, (_, part) => parts[part]);

@@ -641,6 +641,24 @@ async function testGltf() {
   await app.close();
 }
 
+// Files that decoding_test.mjs has compressed open as the others, and are saved without compression.
+async function testCompressed() {
+  const app = await new App().open(browser, url);
+  for (const name of ["limb_draco", "limb_meshopt"]) {
+    const file = join(work, `${name}.glb`);
+    await app.drop([file]);
+    await app.tab.waitForFunction((word) => document.title.startsWith(word) || !document.getElementById("problem").hidden, { timeout: 60000 }, name);
+    assert.equal(await app.text("problem"), "", name);
+    await app.shown();
+    await app.shot(name);
+    const saved = documentIn(await app.saved("[data-save=glb8]", `${name}_8.glb`)), given = documentIn(file);
+    assert.deepEqual(saved.materials, given.materials);
+    assert.equal(saved.extensionsRequired, undefined);
+    boxOf({ ...saved, meshes: saved.meshes.slice(0, 1) }).forEach((x, k) => assert.ok(Math.abs(x - boxOf(given)[k]) < 1e-3, `${name}: another box`));
+  }
+  await app.close();
+}
+
 if (measured.length > 0) {
   await measure();
 } else {
@@ -654,5 +672,6 @@ if (measured.length > 0) {
   await testShapes();
   await testIcons();
   await testGltf();
+  await testCompressed();
 }
 await browser.close();

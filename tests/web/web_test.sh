@@ -35,5 +35,6 @@ else
     skip "there is no browser (Debian: chromium)"
   [ -d "$here/../browser/node_modules/puppeteer-core" ] ||
     skip "the module puppeteer-core is missing; run npm ci in tests/browser"
+  node "$here/decoding_test.mjs" "$flbc" "$meshes" "$work"
   node "$here/page_test.mjs" "$browser" "$dist/flbc.html" "$flbc" "$meshes" "$work"
 fi

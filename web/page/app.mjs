@@ -9,6 +9,7 @@ import { download } from "../../apps/view/page/saving.mjs";
 import { Flbc } from "../js/flbc.mjs";
 import { unpacked } from "../js/unpacked.mjs";
 import { cageToObj, mergePoints, splitEdge } from "./cage_edits.mjs";
+import { decoded } from "./decoding.mjs";
 import { bindProtecting, Protector } from "./protecting.mjs";
 import { bindReshaping, Reshaper } from "./reshaping.mjs";
 import { readPicture, Sketch } from "./shapes.mjs";
@@ -145,7 +146,8 @@ class App {
     const pictures = /obj$/i.test(main.name) ? files.filter(({ name }) => kPicture.test(name)) : [];
     const isNamed = Object.keys(others).some((name) => /\.mtl$/i.test(name));
     const { picture = "" } = pictures.length === 1 && !isNamed ? await readPicture(pictures[0]) : {};
-    return { name: main.name, bytes: await main.arrayBuffer(), files: others, picture };
+    const model = { name: main.name, bytes: await main.arrayBuffer(), files: others, picture };
+    return /\.(glb|gltf|vrm)$/i.test(main.name) ? decoded(model, globalThis.flbcAssets.decoders) : model;
   }
 
   async cageFile() {

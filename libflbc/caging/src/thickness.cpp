@@ -34,15 +34,18 @@ struct Ray {
     return begin <= end;
   }
 
-  // The distance to a triangle, by Cramer's rule.
+  // The distance to a triangle, by Cramer's rule. It is a bit larger, so that no ray passes between
+  // two triangles by rounding.
   double distance_to(const Eigen::Matrix3d& corners) const {
+    constexpr double kRounding = 1e-9;
     const Vector<3> u = corners.col(1) - corners.col(0), v = corners.col(2) - corners.col(0);
     const Vector<3> across = direction.cross(v), from = origin - corners.col(0);
     const double determinant = u.dot(across);
     const Vector<3> turned = from.cross(u);
     const double s = from.dot(across) / determinant, t = direction.dot(turned) / determinant;
     const double distance = v.dot(turned) / determinant;
-    return s >= 0 && t >= 0 && s + t <= 1 && distance > 0 ? distance : kNothing;
+    const bool is_hit = s >= -kRounding && t >= -kRounding && s + t <= 1 + kRounding;
+    return is_hit && distance > 0 ? distance : kNothing;
   }
 };
 
