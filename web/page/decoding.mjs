@@ -143,12 +143,12 @@ async function decodedDocument(model, document, assets) {
     return { buffer: 0, byteOffset, byteLength: bytes.length };
   };
   const add = (bytes, byteStride) => json.bufferViews.push({ ...place(bytes), ...(byteStride && { byteStride }) }) - 1;
-  const primitives = json.meshes.flatMap(({ primitives }) => primitives).filter(({ extensions }) => extensions?.[kDraco]);
+  const primitives = (json.meshes ?? []).flatMap(({ primitives }) => primitives).filter(({ extensions }) => extensions?.[kDraco]);
   const sources = primitives.map(({ extensions }) => extensions[kDraco].bufferView);
   const bytesOf = ({ buffer = 0, byteOffset = 0, byteLength }) => buffers[buffer].subarray(byteOffset, byteOffset + byteLength);
   const compressed = sources.map((source) => bytesOf(json.bufferViews[source]));
   const meshopt = needs(kMeshopt) ? await makeMeshopt(assets) : null;
-  json.bufferViews.forEach((view, k) => {
+  json.bufferViews?.forEach((view, k) => {
     const { [kMeshopt]: packed, ...extensions } = view.extensions ?? {};
     if (sources.includes(k)) return Object.assign(view, place(new Uint8Array(4)));  // nothing refers to it any more
     if (!packed || !meshopt) return Object.assign(view, place(bytesOf(view)));
