@@ -84,9 +84,9 @@ function bounds(numbers, columns) {
   return { min, max };
 }
 
-// \param add  takes bytes, and returns the number of their buffer view
+// \param add  takes bytes, the rest of their buffer view, and maybe its number; returns this number
 function decodeDraco(draco, json, primitive, bytes, add) {
-  const { attributes } = primitive.extensions[kDraco];
+  const { attributes, bufferView } = primitive.extensions[kDraco];
   const decoder = new draco.Decoder(), mesh = new draco.Mesh();
   try {
     if (!decoder.DecodeArrayToMesh(bytes, bytes.length, mesh).ok()) throw new Error("the compressed mesh is damaged");
@@ -94,7 +94,8 @@ function decodeDraco(draco, json, primitive, bytes, add) {
     primitive.indices ??= json.accessors.push({ type: "SCALAR" }) - 1;
     delete primitive.mode;  // strips, too, are decoded as triangles
     const indices = copied(draco, Uint32Array, corners, (size, at) => decoder.GetTrianglesUInt32Array(mesh, size, at));
-    Object.assign(json.accessors[primitive.indices], { bufferView: add(indices), byteOffset: 0, componentType: 5125, count: corners });
+    Object.assign(json.accessors[primitive.indices], { bufferView: add(indices, { target: 34963 }, bufferView), byteOffset: 0,
+                                                        componentType: 5125, count: corners });
     for (const [name, id] of Object.entries(attributes)) {
       const accessor = json.accessors[primitive.attributes[name]];
       const [Type, kind] = arraysOf(draco)[accessor.componentType];
@@ -103,7 +104,7 @@ function decodeDraco(draco, json, primitive, bytes, add) {
         mesh, decoder.GetAttributeByUniqueId(mesh, id), kind, size, at));
       const rows = new Uint8Array(stride * count), row = columns * Type.BYTES_PER_ELEMENT;
       for (let v = 0; v < count; ++v) rows.set(dense.subarray(v * row, (v + 1) * row), v * stride);
-      Object.assign(accessor, { bufferView: add(rows, stride), byteOffset: 0, count });
+      Object.assign(accessor, { bufferView: add(rows, { byteStride: stride, target: 34962 }), byteOffset: 0, count });
       if (accessor.min) Object.assign(accessor, bounds(new Type(dense.buffer), columns));
     }
   } finally {
@@ -142,16 +143,25 @@ async function decodedDocument(model, document, assets) {
     size += align(bytes.length);
     return { buffer: 0, byteOffset, byteLength: bytes.length };
   };
-  const add = (bytes, byteStride) => json.bufferViews.push({ ...place(bytes), ...(byteStride && { byteStride }) }) - 1;
   const primitives = (json.meshes ?? []).flatMap(({ primitives }) => primitives).filter(({ extensions }) => extensions?.[kDraco]);
   const sources = primitives.map(({ extensions }) => extensions[kDraco].bufferView);
+  const free = new Set(sources);
+  const add = (bytes, rest, source) => {
+    const view = { ...place(bytes), ...rest };
+    if (!free.delete(source)) return json.bufferViews.push(view) - 1;
+    json.bufferViews[source] = view;
+    return source;
+  };
   const bytesOf = ({ buffer = 0, byteOffset = 0, byteLength }) => buffers[buffer].subarray(byteOffset, byteOffset + byteLength);
   const compressed = sources.map((source) => bytesOf(json.bufferViews[source]));
   const meshopt = needs(kMeshopt) ? await makeMeshopt(assets) : null;
   json.bufferViews?.forEach((view, k) => {
     const { [kMeshopt]: packed, ...extensions } = view.extensions ?? {};
-    if (sources.includes(k)) return Object.assign(view, place(new Uint8Array(4)));  // nothing refers to it any more
-    if (!packed || !meshopt) return Object.assign(view, place(bytesOf(view)));
+    if (sources.includes(k)) return;  // becomes that of the indices
+    if (!packed || !meshopt) {
+      Object.assign(view, place(bytesOf(view)));
+      return;
+    }
     const bytes = new Uint8Array(packed.count * packed.byteStride);
     meshopt.decodeGltfBuffer(bytes, packed.count, packed.byteStride, bytesOf(packed), packed.mode, packed.filter);
     Object.assign(view, place(bytes), { extensions });
