@@ -298,10 +298,10 @@ Eigen::Matrix<std::size_t, 3, Eigen::Dynamic> GltfDocument::triangles(
   for (Eigen::Index t = 0; t < result.cols(); ++t) {
     const auto first = static_cast<std::size_t>(t) * step;
     const bool is_odd = mode == kGltfStrip && first % 2 == 1;
-    result.col(t) << corner(is_odd             ? first + 1
-                            : mode == kGltfFan ? 0
-                                               : first),
-        corner(is_odd ? first : first + 1), corner(first + 2);
+    const std::size_t a = is_odd ? first + 1 : mode == kGltfFan ? 0 : first;
+    const std::size_t b = is_odd ? first : first + 1;
+    // Not by <<, which an exception would leave unfinished.
+    result.col(t) = Eigen::Matrix<std::size_t, 3, 1>(corner(a), corner(b), corner(first + 2));
   }
   return result;
 }
