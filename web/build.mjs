@@ -42,9 +42,9 @@ function module(assets, license) {
 }
 
 function decoders() {
-  const at = (path) => packed(readFileSync(new URL(`decoders/node_modules/${path}`, import.meta.url)));
-  return { draco: at("draco3dgltf/draco_decoder_gltf_nodejs.js"), dracoWasm: at("draco3dgltf/draco_decoder_gltf.wasm"),
-           meshopt: at("meshoptimizer/meshopt_decoder.mjs") };
+  const of = (path) => packed(readFileSync(at(`decoders/node_modules/${path}`)));
+  return { draco: of("draco3dgltf/draco_decoder_gltf_nodejs.js"), dracoWasm: of("draco3dgltf/draco_decoder_gltf.wasm"),
+           meshopt: of("meshoptimizer/meshopt_decoder.mjs") };
 }
 
 function page(assets) {

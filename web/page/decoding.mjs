@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compressed glTF files become plain ones, which the library reads.
+import { extremes, GlbBuffer, kSizes } from "../../apps/view/page/glb.mjs";
 import { unpacked } from "../js/unpacked.mjs";
 
 const kDraco = "KHR_draco_mesh_compression", kMeshopt = "EXT_meshopt_compression";
 const kJson = 0x4e4f534a, kBinary = 0x4e4942;  // chunks of .glb
-const kTypes = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4 };
 
 const align = (size) => 4 * Math.ceil(size / 4);
 
@@ -19,19 +19,6 @@ function parsed(name, bytes) {
     at += 8 + align(length);
   }
   return { json: JSON.parse(new TextDecoder().decode(chunks[kJson])), binary: chunks[kBinary] ?? null };
-}
-
-function joined(json, binary) {
-  const text = new TextEncoder().encode(JSON.stringify(json));
-  const padded = align(text.length), total = 12 + 8 + padded + 8 + binary.length;
-  const bytes = new Uint8Array(total).fill(32, 0, 20 + padded);
-  const words = new DataView(bytes.buffer);
-  [0x46546c67, 2, total, padded, kJson].forEach((word, k) => words.setUint32(4 * k, word, true));
-  bytes.set(text, 20);
-  words.setUint32(20 + padded, binary.length, true);
-  words.setUint32(24 + padded, kBinary, true);
-  bytes.set(binary, 28 + padded);
-  return bytes;
 }
 
 // The bytes of all buffers; empty for those that only stand for what is compressed.
@@ -74,16 +61,6 @@ function copied(draco, Type, length, write) {
   }
 }
 
-// Quantization moves the smallest and largest numbers, too.
-function bounds(numbers, columns) {
-  const min = Array(columns).fill(Infinity), max = Array(columns).fill(-Infinity);
-  numbers.forEach((x, k) => {
-    min[k % columns] = Math.min(min[k % columns], x);
-    max[k % columns] = Math.max(max[k % columns], x);
-  });
-  return { min, max };
-}
-
 // \param add  takes bytes, the rest of their buffer view, and maybe its number; returns this number
 function decodeDraco(draco, json, primitive, bytes, add) {
   const { attributes, bufferView } = primitive.extensions[kDraco];
@@ -99,13 +76,14 @@ function decodeDraco(draco, json, primitive, bytes, add) {
     for (const [name, id] of Object.entries(attributes)) {
       const accessor = json.accessors[primitive.attributes[name]];
       const [Type, kind] = arraysOf(draco)[accessor.componentType];
-      const columns = kTypes[accessor.type], stride = align(columns * Type.BYTES_PER_ELEMENT), count = mesh.num_points();
+      const columns = kSizes[accessor.type], stride = align(columns * Type.BYTES_PER_ELEMENT), count = mesh.num_points();
       const dense = copied(draco, Type, columns * count, (size, at) => decoder.GetAttributeDataArrayForAllPoints(
         mesh, decoder.GetAttributeByUniqueId(mesh, id), kind, size, at));
       const rows = new Uint8Array(stride * count), row = columns * Type.BYTES_PER_ELEMENT;
       for (let v = 0; v < count; ++v) rows.set(dense.subarray(v * row, (v + 1) * row), v * stride);
       Object.assign(accessor, { bufferView: add(rows, { byteStride: stride, target: 34962 }), byteOffset: 0, count });
-      if (accessor.min) Object.assign(accessor, bounds(new Type(dense.buffer), columns));
+      // Quantization moves the smallest and largest numbers, too.
+      if (accessor.min) Object.assign(accessor, extremes(new Type(dense.buffer), columns));
     }
   } finally {
     draco.destroy(mesh);
@@ -135,19 +113,12 @@ async function decodedDocument(model, document, assets) {
   const { json } = document;
   const needs = (name) => json.extensionsRequired.includes(name);
   const buffers = await buffersOf(document, model.files);
-  const parts = [];  // of the new buffer
-  let size = 0;
-  const place = (bytes) => {
-    const byteOffset = size;
-    parts.push([bytes, byteOffset]);
-    size += align(bytes.length);
-    return { buffer: 0, byteOffset, byteLength: bytes.length };
-  };
+  const buffer = new GlbBuffer();
   const primitives = (json.meshes ?? []).flatMap(({ primitives }) => primitives).filter(({ extensions }) => extensions?.[kDraco]);
   const sources = primitives.map(({ extensions }) => extensions[kDraco].bufferView);
   const free = new Set(sources);
   const add = (bytes, rest, source) => {
-    const view = { ...place(bytes), ...rest };
+    const view = { ...buffer.put(bytes), ...rest };
     if (!free.delete(source)) return json.bufferViews.push(view) - 1;
     json.bufferViews[source] = view;
     return source;
@@ -159,12 +130,12 @@ async function decodedDocument(model, document, assets) {
     const { [kMeshopt]: packed, ...extensions } = view.extensions ?? {};
     if (sources.includes(k)) return;  // becomes that of the indices
     if (!packed || !meshopt) {
-      Object.assign(view, place(bytesOf(view)));
+      Object.assign(view, buffer.put(bytesOf(view)));
       return;
     }
     const bytes = new Uint8Array(packed.count * packed.byteStride);
     meshopt.decodeGltfBuffer(bytes, packed.count, packed.byteStride, bytesOf(packed), packed.mode, packed.filter);
-    Object.assign(view, place(bytes), { extensions });
+    Object.assign(view, buffer.put(bytes), { extensions });
     if (Object.keys(extensions).length === 0) delete view.extensions;
   });
   if (needs(kDraco)) {
@@ -175,8 +146,5 @@ async function decodedDocument(model, document, assets) {
     json[list] = json[list]?.filter((name) => name !== kDraco && name !== kMeshopt);
     if (!json[list]?.length) delete json[list];
   }
-  const binary = new Uint8Array(align(size));
-  for (const [bytes, at] of parts) binary.set(bytes, at);
-  json.buffers = [{ byteLength: binary.length }];
-  return { ...model, name: model.name.replace(/gltf$/i, "glb"), bytes: joined(json, binary) };
+  return { ...model, name: model.name.replace(/gltf$/i, "glb"), bytes: new Uint8Array(await buffer.file(json).arrayBuffer()) };
 }

@@ -5,7 +5,37 @@ import { decodeBytes } from "./data.mjs";
 import { Deformer } from "./deformer.mjs";
 import { atVertices, sumNormals } from "./surface_normals.mjs";
 
-const kSizes = { SCALAR: 1, VEC2: 2, VEC3: 3 };
+export const kSizes = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4 };
+
+// The binary chunk of a .glb file, part by part.
+export class GlbBuffer {
+  parts = [];
+  byteLength = 0;
+
+  // \return the buffer view of the bytes
+  put(bytes) {
+    const byteOffset = this.byteLength, padding = -bytes.byteLength & 3;
+    this.parts.push(bytes, new Uint8Array(padding));
+    this.byteLength += bytes.byteLength + padding;
+    return { buffer: 0, byteOffset, byteLength: bytes.byteLength };
+  }
+
+  // \param document  whose buffer views are in this buffer
+  file(document) {
+    const { byteLength } = this;
+    const text = new TextEncoder().encode(JSON.stringify({ ...document, buffers: [{ byteLength }] }));
+    const padding = -text.length & 3, length = text.length + padding;
+    return new Blob([Uint32Array.of(0x46546C67, 2, 28 + length + byteLength, length, 0x4E4F534A), text, " ".repeat(padding),
+                     Uint32Array.of(byteLength, 0x004E4942), ...this.parts]);
+  }
+}
+
+// The smallest and largest numbers of each column of an accessor.
+export function extremes(numbers, size) {
+  const extreme = (best) => Array.from({ length: size }, (_, k) =>
+    numbers.reduce((far, value, j) => (j % size === k ? best(far, value) : far), numbers[k]));
+  return { min: extreme(Math.min), max: extreme(Math.max) };
+}
 
 // Places and normals of the vertices in a pose.
 function shapeOf({ sources, triangles, groups, numVertices }, deformer, pose) {
@@ -28,21 +58,12 @@ function materialOf({ color, opacity = 1, cutoff = 0, picture = -1 }) {
 
 // \param basis  right, up and toward the viewer
 export function glbOf({ center, poses, rest, surface, title, weights, base }, basis) {
-  const accessors = [], bufferViews = [], arrays = [];
-  let byteLength = 0;
-  const putBytes = (bytes) => {
-    const padding = -bytes.byteLength & 3;
-    arrays.push(bytes, new Uint8Array(padding));
-    byteLength += bytes.byteLength + padding;
-    return bufferViews.push({ buffer: 0, byteOffset: byteLength - padding - bytes.byteLength, byteLength: bytes.byteLength }) - 1;
-  };
+  const accessors = [], bufferViews = [], buffer = new GlbBuffer();
+  const putBytes = (bytes) => bufferViews.push(buffer.put(bytes)) - 1;
   const put = (numbers, type = "SCALAR") => {
     const size = kSizes[type];
-    const extreme = (best) => Array.from({ length: size }, (_, k) =>
-      numbers.reduce((far, value, j) => (j % size === k ? best(far, value) : far), numbers[k]));
     return accessors.push({ bufferView: putBytes(numbers), type, count: numbers.length / size,
-                            componentType: numbers instanceof Uint32Array ? 5125 : 5126,
-                            min: extreme(Math.min), max: extreme(Math.max) }) - 1;
+                            componentType: numbers instanceof Uint32Array ? 5125 : 5126, ...extremes(numbers, size) }) - 1;
   };
   const putShape = ({ POSITION, NORMAL }) => ({ POSITION: put(POSITION, "VEC3"), NORMAL: put(NORMAL, "VEC3") });
   const deformer = new Deformer(weights, base, rest);
@@ -63,15 +84,12 @@ export function glbOf({ center, poses, rest, surface, title, weights, base }, ba
   const output = put(Float32Array.from({ length: poses.length ** 2 }, (_, k) => Number(k % (poses.length + 1) === 0)));
   // Of a node with children, because an animation has no node with a matrix.
   const matrix = [0, 1, 2].flatMap((k) => [...basis.map((axis) => axis[k]), 0]);
-  const text = new TextEncoder().encode(JSON.stringify({
-    asset: { version: "2.0" }, buffers: [{ byteLength }], bufferViews, accessors, scene: 0, scenes: [{ nodes: [0] }],
+  return buffer.file({
+    asset: { version: "2.0" }, bufferViews, accessors, scene: 0, scenes: [{ nodes: [0] }],
     nodes: [{ children: [1], matrix: [...matrix, 0, 0, 0, 1] }, { mesh: 0, translation: center }],
     meshes: [{ name: title, primitives, extras: { targetNames: poses.map(({ name }) => name) } }],
     materials: surface.parts.map(materialOf),
     ...(images.length > 0 && { images, textures: images.map((_, source) => ({ source })) }),
     animations: [{ samplers: [{ input, output }], channels: [{ sampler: 0, target: { node: 1, path: "weights" } }] }],
-  }));
-  const padding = -text.length & 3, length = text.length + padding;
-  return new Blob([Uint32Array.of(0x46546C67, 2, 28 + length + byteLength, length, 0x4E4F534A), text, " ".repeat(padding),
-                   Uint32Array.of(byteLength, 0x004E4942), ...arrays]);
+  });
 }
