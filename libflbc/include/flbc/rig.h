@@ -113,7 +113,7 @@ class Rig {
   static Placed place(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                       const PointList<Dim>& points, const BindOptions& options);
   static void constrain(Placed& placed, const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-                        const BindOptions& options);
+                        const PointList<Dim>& points, const BindOptions& options);
   SparseWeights evaluated(const Placement<Dim>& placement) const;
 
   Cage<Dim> cage_;

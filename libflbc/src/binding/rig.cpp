@@ -131,21 +131,21 @@ typename Rig<Dim>::Placed Rig<Dim>::place(const Cage<Dim>& cage, const DomainMes
   } else {
     placed.placement.points = mesh.points;
   }
-  if (options.mirror_axis >= 0) {
-    if (points.cols() == 0) throw OptionError("mirror_axis is for weights of a model");
-    placed.mirror.emplace(cage, options.mirror_axis, points);
-    placed.mirror->symmetrize(placed.placement, [&](const PointList<Dim>& images) {
-      return place_points(cage, mesh, images, policy_of_images(options)).points;
-    });
-  }
-  constrain(placed, cage, mesh, options);
+  constrain(placed, cage, mesh, points, options);
   placed.seconds = watch.seconds();
   return placed;
 }
 
 template <int Dim>
 void Rig<Dim>::constrain(Placed& placed, const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-                         const BindOptions& options) {
+                         const PointList<Dim>& points, const BindOptions& options) {
+  if (options.mirror_axis >= 0 && !placed.mirror) {
+    if (points.cols() == 0) throw OptionError("mirror_axis is for weights of a model");
+    placed.mirror.emplace(cage, options.mirror_axis, points);
+    placed.mirror->symmetrize(placed.placement, [&](const PointList<Dim>& images) {
+      return place_points(cage, mesh, images, policy_of_images(options)).points;
+    });
+  }
   placed.masks = {};
   if (options.masks.empty()) return;
   const auto& [placement, mirror, unused, seconds] = placed;
@@ -222,11 +222,12 @@ template <int Dim>
 void Rig<Dim>::set_options(const BindOptions& options) {
   require_valid<Dim>(options);
   std::optional<Placed> changed;
-  if (options.outside != options_.outside || options.mirror_axis != options_.mirror_axis) {
+  const bool has_other_mirror = options.mirror_axis != options_.mirror_axis;
+  if (options.outside != options_.outside || (has_other_mirror && placed_.mirror)) {
     changed = place(cage(), mesh(), points_, options);
-  } else if (options.masks != options_.masks) {
+  } else if (has_other_mirror || options.masks != options_.masks) {
     changed = placed_;
-    constrain(*changed, cage(), mesh(), options);
+    constrain(*changed, cage(), mesh(), points_, options);
   }
   if (solver_) {
     const auto& masks = changed ? changed->masks : placed_.masks;

@@ -149,9 +149,9 @@ std::vector<Mask> MirroredModel<Dim>::symmetrized(const std::vector<Mask>& masks
     add_partners(here, there);
     add_partners(there, here);
     add(both, control_points, here);
-    Mask images{{}, {}};
-    for (const Index i : control_points) images.control_points.push_back(image_[i]);
-    add(both, images.control_points, there);
+    std::vector<Index> images;
+    for (const Index i : control_points) images.push_back(image_[i]);
+    add(both, images, there);
   }
   return both;
 }
