@@ -95,10 +95,7 @@ void convert_to_bind_pose(const ConvertArguments& files) {
   std::vector<std::string> left_out;
   write_text(files.output, io::unposed_gltf(files.input, left_out));
   if (!files.quiet) std::cerr << files.output << ": " << files.input << " as it was bound\n";
-  for (const auto& phrase : left_out) {
-    std::cerr << "flbc: " << files.output << " does not contain all of " << files.input << ": "
-              << phrase << '\n';
-  }
+  warn_left_out(files.output, files.input, left_out);
 }
 
 }  // namespace

@@ -247,10 +247,7 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
   write_text(arguments.output, skin.content);
   const double size = bounding_box_diagonal<Dim>(points);
   if (!arguments.quiet) print_summary(skin, animation, size, arguments);
-  for (const auto& phrase : skin.left_out) {
-    std::cerr << "flbc: " << arguments.output << " does not contain all of " << arguments.model
-              << ": " << phrase << '\n';
-  }
+  warn_left_out(arguments.output, arguments.model, skin.left_out);
   const double change = skin.position_change / size;
   if (change > gltf::kVisibleChange) {
     const bool is_usd = arguments.options.format == gltf::SkinFormat::kUsda;

@@ -220,6 +220,13 @@ void take_splats(RunArguments& arguments) {
   }
 }
 
+void prepare_model(const CLI::App& command, RunArguments& arguments) {
+  refuse_unread_options(command, arguments.settings);
+  take_splats(arguments);
+  mirror_weights(arguments);
+  require_model_to_embed(arguments.settings);
+}
+
 // The first file of the command line is the model around which a cage is made. A picture cannot
 // move; in its place the mesh of the interior does.
 int run_model(const CLI::App& command, RunArguments& arguments) {
@@ -233,10 +240,7 @@ int run_model(const CLI::App& command, RunArguments& arguments) {
   const bool is_picture = extension == "png" || extension == "svg";
   const std::string file = std::exchange(settings.cage, kCage);
   (is_picture ? arguments.picture : settings.model) = file;
-  refuse_unread_options(command, settings);
-  take_splats(arguments);
-  mirror_weights(arguments);
-  require_model_to_embed(settings);
+  prepare_model(command, arguments);
   const auto run_in_cage = [&](const auto& model) {
     const auto start = std::chrono::steady_clock::now();
     const auto cage = make_cage(file, model, arguments.caging, arguments.quiet).cage;
@@ -254,10 +258,7 @@ int run_command(const CLI::App& command, RunArguments& arguments) {
   const auto& settings = arguments.settings;
   arguments.up = up_of(arguments.up, arguments.makes_cage ? settings.cage : settings.model);
   if (arguments.makes_cage) return run_model(command, arguments);
-  refuse_unread_options(command, arguments.settings);
-  take_splats(arguments);
-  mirror_weights(arguments);
-  require_model_to_embed(arguments.settings);
+  prepare_model(command, arguments);
   const io::ModelFile file(arguments.settings.cage);
   const auto& soup = file.model().soup;
   refuse_model_as_cage(soup, arguments.settings);

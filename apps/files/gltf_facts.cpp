@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <iostream>
 #include <set>
 #include <sstream>
 
@@ -24,8 +25,7 @@ struct Counts {
 // Primitives may share their vertices.
 void count_triangles(const GltfJson& gltf, const GltfJson& primitive,
                      std::set<std::size_t>& positions, Counts& counts) {
-  constexpr std::size_t kTriangles = 4;
-  if (io::whole(primitive, "mode", kTriangles) != kTriangles) return;
+  if (io::whole(primitive, "mode", io::kGltfTriangles) != io::kGltfTriangles) return;
   const auto& attributes = primitive.at("attributes");
   const auto& accessors = gltf.at("accessors");
   const auto position = io::whole(attributes.at("POSITION"));
@@ -79,6 +79,14 @@ std::string describe_gltf(const std::string& path) {
     if (counts.seconds > 0) text << "  animation of " << counts.seconds << " s\n";
     return text.str();
   });
+}
+
+void warn_left_out(const std::string& result, const std::string& model,
+                   const std::vector<std::string>& phrases) {
+  for (const auto& phrase : phrases) {
+    std::cerr << "flbc: " << result << " does not contain all of " << model << ": " << phrase
+              << '\n';
+  }
 }
 
 }  // namespace flbc::app

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "flbc/io/files.h"
 
@@ -18,5 +19,9 @@ inline bool is_gltf_file(const std::string& path) {
 //! Counts of vertices, triangles, joints, and influences, and the length of the animation, as lines
 //! for a terminal. \throws IoError, InputError
 std::string describe_gltf(const std::string& path);
+
+//! Warns of what a result does not have of a model. \param phrases  one for each part
+void warn_left_out(const std::string& result, const std::string& model,
+                   const std::vector<std::string>& phrases);
 
 }  // namespace flbc::app

@@ -45,7 +45,6 @@ struct GltfSource {
   std::string path{};
   std::vector<GltfPart> parts{};
   std::vector<GltfPart> posed_others{};  //!< points and lines in skinned meshes with triangles
-  std::vector<std::string> missing_pictures{};  //!< that cannot be read, one phrase each
 };
 
 //! Places of numbers in JSON, such as "nodes/*/mesh"; "*" stands for all entries.

@@ -317,7 +317,7 @@ std::string moved_gltf(const Model& model) {
   const auto& source = *model.gltf;
   return refusing_damage(source.path, [&] {
     GltfEdit edit(source);
-    edit.document.embed_pictures();  // losses() has those that are missing
+    edit.document.embed_pictures();
     const auto before = points_of(edit, source, model.soup.points.size());
     const auto changes = changes_of_space(model.soup, before);
     for (const auto& part : source.parts) {
@@ -326,6 +326,10 @@ std::string moved_gltf(const Model& model) {
     }
     return edit.glb();
   });
+}
+
+std::vector<std::string> missing_pictures(const GltfSource& source) {
+  return GltfDocument(source.path, read_file(source.path)).embed_pictures();
 }
 
 std::string unposed_gltf(const std::string& path, std::vector<std::string>& left_out) {

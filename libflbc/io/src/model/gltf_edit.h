@@ -67,6 +67,9 @@ class GltfEdit {
 //! The .glb file of a model that was read from such a file, with its vertices and normals moved.
 std::string moved_gltf(const Model& model);
 
+//! Pictures in other files that moved_gltf() cannot embed, one phrase each. \throws IoError
+std::vector<std::string> missing_pictures(const GltfSource& source);
+
 //! The .glb file of a model without skins: each mesh is where its node is, as it was bound.
 //! \param left_out  gets pictures that cannot be read, one phrase each
 //! \throws InputError if there are none; IoError

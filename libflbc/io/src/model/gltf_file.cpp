@@ -463,7 +463,6 @@ class GltfScanner {
       model_.polygon_materials.clear();
     }
     source_->path = path_;
-    source_->missing_pictures = document_.embed_pictures();
     model_.gltf = std::move(source_);
   }
 

@@ -281,7 +281,7 @@ std::vector<std::string> losses(const Model& model, const std::string& path) {
   const auto& [points, polygons, polylines] = model.soup;
   const auto& attributes = model.attributes;
   auto phrases = model.others;
-  if (is_gltf && model.gltf) return model.gltf->missing_pictures;  // the document stays
+  if (is_gltf && model.gltf) return missing_pictures(*model.gltf);  // all else stays
   const auto add_if = [&](bool is_lost, const char* phrase) {
     if (is_lost) phrases.emplace_back(phrase);
   };
