@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/bind.h"
+#include "flbc/binding.h"
 
 #include <cmath>
 #include <limits>

@@ -31,7 +31,8 @@ SparseWeights vertex_gradients(const DomainMesh<Dim>& mesh, const SparseWeights&
 //! Gradients at located points.
 //! \param mesh  V vertices
 //! \param weights  of V points
-//! \param places  P locations in cells, as returned by locate_points() or places_in_mesh()
+//! \param places  P locations, as returned by locate_points() or places_in_mesh(); gradients are
+//! 0 where the cell is -1
 //! \param kind  see GradientKind
 //! \return Dim n numbers per location
 template <int Dim>
@@ -39,18 +40,18 @@ SparseWeights gradients_at(const DomainMesh<Dim>& mesh, const SparseWeights& wei
                            const std::vector<Location<Dim>>& places,
                            GradientKind kind = GradientKind::kSmooth);
 
-//! A location in a cell for every placed point. Points outside the mesh get the location of the
-//! nearest point of the cage.
+//! A location in a cell for every placed point that moves. Points outside the mesh get the location
+//! of the nearest point of the cage, except for OutsidePoints::kKeep: cell -1.
 //! \param cage, mesh  as for place_points()
 //! \param placement  as returned by place_points(), P points
-//! \return P locations, all with a cell
+//! \return P locations
 //! \throws InputError if the boundary of the mesh is not the cage
 template <int Dim>
 std::vector<Location<Dim>> places_in_mesh(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                                           const Placement<Dim>& placement);
 
 //! Jacobians J = sum_i c_i (grad w_i)^T of a deformation. An affine pose c_i = A v_i + b of the
-//! rest cage v_i gives J = A.
+//! rest cage v_i gives J = A. A point without gradients does not move, so its J is the identity.
 //! \param gradients  of P points
 //! \param control_points  Dim x n, the pose
 //! \return (Dim Dim) x P: each column has J column by column, in units of the pose / units of the
@@ -58,5 +59,24 @@ std::vector<Location<Dim>> places_in_mesh(const Cage<Dim>& cage, const DomainMes
 //! \throws InputError if the numbers of control points differ
 template <int Dim>
 Eigen::MatrixXd jacobians(const SparseWeights& gradients, const PointList<Dim>& control_points);
+
+//! Smooth Jacobians at fixed points for many poses. They cost little per pose: they are made at the
+//! vertices of the mesh and interpolated.
+template <int Dim>
+class PointJacobians {
+ public:
+  //! \param cage, mesh  as for place_points() \param weights  of V points \param placement  P points
+  //! \throws InputError as places_in_mesh() and vertex_gradients()
+  PointJacobians(const Cage<Dim>& cage, DomainMesh<Dim> mesh, const SparseWeights& weights,
+                 const Placement<Dim>& placement);
+
+  //! \param control_points  Dim x n, the pose \return as jacobians()
+  Eigen::MatrixXd at(const PointList<Dim>& control_points) const;
+
+ private:
+  DomainMesh<Dim> mesh_;
+  SparseWeights gradients_;  // at its vertices
+  std::vector<Location<Dim>> places_;
+};
 
 }  // namespace flbc

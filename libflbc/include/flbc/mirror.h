@@ -18,6 +18,17 @@ struct ModelPart {
   EdgeList edges;
   SparseWeights weights;
   std::vector<Mask> masks;
+
+  //! Some of its points, with the edges between them.
+  //! \param chosen  points \param numbers  output: the number of each point in the part, -1: none
+  ModelPart taken(const std::vector<Index>& chosen, std::vector<Index>& numbers) const;
+};
+
+//! What a mirror maps to what.
+struct Mirror {
+  int axis = 0;                   //!< normal to the plane, 0 to Dim - 1
+  std::vector<Index> images{};    //!< the mirror image of each control point
+  std::vector<Index> partners{};  //!< that of each point, itself in the plane; -1: none
 };
 
 //! A model in a cage that is symmetric across a plane (2D: line) x, y, or z = constant. With s(i)
@@ -32,6 +43,12 @@ class MirroredModel {
   //! \throws OptionError if there is no such axis; InputError naming the first control point or
   //! facet without a mirror image
   MirroredModel(const Cage<Dim>& cage, int axis, const PointList<Dim>& points);
+
+  //! With a known mirror. \throws InputError if it is not one of this cage and these points
+  MirroredModel(const Cage<Dim>& cage, const Mirror& mirror, const PointList<Dim>& points);
+
+  //! Which images were found.
+  Mirror mirror() const { return {axis_, image_, partner_}; }
 
   //! Adds the mirror images of masks of P points.
   std::vector<Mask> symmetrized(const std::vector<Mask>& masks) const;

@@ -3,12 +3,11 @@
 //! A model in a cage whose rest shape may change.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "flbc/bind.h"
+#include "flbc/binding.h"
 #include "flbc/mirror.h"
 #include "flbc/place_masks.h"
 #include "flbc/solver.h"
@@ -42,16 +41,21 @@ class Rig {
   Rig(Cage<Dim> cage, MadeDomain<Dim> domain, PointList<Dim> points, EdgeList edges,
       const BindOptions& options);
 
-  //! Solves, or resumes the last solve. A budget does not limit a cage with several parts.
+  //! Without a domain mesh, for BindOptions::coordinates that are pointwise (pointwise.h).
+  Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindOptions& options);
+
+  //! Solves, or resumes the last solve. A converged solution of set_solution() is kept. A budget
+  //! does not limit other coordinates, given phi, and cages with several parts.
   //! \throws OptionError, SolverError
   const Solution& solve(const Budget& budget = {});
 
-  //! Takes a solution of this cage and mesh from elsewhere. The next solve starts over.
+  //! Takes a solution of this cage and mesh from elsewhere. If its report says that it is
+  //! converged, it is kept until options or the cage change; otherwise the next solve starts over.
   //! \throws InputError if it is not for V vertices and n control points
   void set_solution(Solution solution);
 
-  //! Moves the rest cage, and the mesh with it, and solves, see Solver::move(). The model stays,
-  //! and its masks with it.
+  //! Moves the rest cage, and the mesh with it, and solves, see Solver::move(). The mesh follows
+  //! the solution, which may be a given one. The model stays, and its masks with it.
   //! \param control_points  Dim x n
   //! \throws InputError if the model would be outside (OutsidePoints::kFail), masks could not be
   //! obeyed, the cage would not be symmetric (mirror_axis), the cage has several parts, or as
@@ -78,24 +82,14 @@ class Rig {
   //! BindOptions::masks, at the points and in the mesh.
   const PlacedMasks& masks() const { return placed_.masks; }
 
-  //! Evaluates weights of the points in another way than weights_at(), such as by
-  //! pointwise_coordinates().
-  //! \param evaluate  receives placement(), or the placement of mirror images
-  void set_evaluation(std::function<SparseWeights(const Placement<Dim>&)> evaluate);
-
   //! Weights of the points with all influences. They are kept until the solution or the model
   //! changes. Solves first if there is no solution.
   const SparseWeights& weights_of_points();
 
-  //! The same reduced by reduce_influences(), with BindOptions::masks and mirror_axis. Points
-  //! outside keep all weights of OutsidePoints::kExtend, because negative weights cannot be
-  //! reduced.
-  //! \param limits  without masks \param poses  Dim x n each, may be empty
-  SparseWeights reduced(const SparsifyOptions& limits,
-                        const std::vector<PointList<Dim>>& poses = {},
-                        Reduction reduction = Reduction::kPoisson);
+  //! The binding of the points with all influences.
+  Binding<Dim> binding();
 
-  //! Weights of the points with BindOptions::max_influences each.
+  //! The same reduced to BindOptions::max_influences each.
   Binding<Dim> bind();
 
  private:
@@ -107,9 +101,12 @@ class Rig {
     double seconds = 0;
   };
 
-  Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindOptions& options);
+  void begin();
 
   void take(MadeDomain<Dim> domain);
+  bool keeps_solver() const;
+  Solution solve_at_once(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                         const Placed& placed) const;
   static Placed place(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                       const PointList<Dim>& points, const BindOptions& options);
   static void constrain(Placed& placed, const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
@@ -124,7 +121,7 @@ class Rig {
   BindReport report_{};
   std::unique_ptr<Solver<Dim>> solver_{};  // none for several parts, or before the first solve()
   Solution solution_{};                    // without a Solver
-  std::function<SparseWeights(const Placement<Dim>&)> evaluate_{};
+  bool is_given_ = false;                  // and converged, by set_solution()
   Placed placed_{};
   SparseWeights weights_{};  // at the placed points
 };

@@ -16,6 +16,16 @@ struct ModelElements {
   FacetList<3> corners;   //!< 3 x E; repeated corners describe a segment or a point
 };
 
+//! Weights at other points, interpolated linearly at the nearest place on a model.
+//! \param from  model with weights \param weights  of its P points \param to  Dim x Q
+//! \param limit  maximum distance of a point from the model, in its units
+//! \param distances  output: Q distances from the model; may be null
+//! \return weights of Q points \throws InputError as transfer_weights()
+template <int Dim>
+SparseWeights nearest_weights(const ModelElements<Dim>& from, const SparseWeights& weights,
+                              const PointList<Dim>& to, double limit,
+                              Eigen::VectorXd* distances = nullptr);
+
 //! Weights at other points, from the nearest place on a model. They are interpolated linearly in
 //! the nearest element, then projected so that they are non-negative, sum to 1, and reproduce the
 //! point (project_non_negative()).

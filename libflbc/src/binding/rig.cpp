@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/rig.h"
 
+#include <limits>
 #include <string>
+#include <tuple>
 #include <utility>
 
+#include "base/messages.h"
 #include "base/parallel.h"
 #include "base/shape_checks.h"
 #include "base/stopwatch.h"
 #include "flbc/cage_facts.h"
+#include "flbc/coordinates.h"
 #include "flbc/errors.h"
+#include "flbc/lbc_problem.h"
 #include "flbc/mirror.h"
+#include "flbc/names.h"
+#include "flbc/pointwise.h"
+#include "solver/api/moved_mesh.h"
 
 namespace flbc {
 namespace {
@@ -21,7 +29,15 @@ void require_valid(const BindOptions& options) {
   } else if (options.max_influences < 0) {
     throw OptionError("max_influences must be positive, or 0 for all");
   }
-  validate(options.solver);
+  if (options.coordinates) {
+    validate(*options.coordinates, {options.solver.non_negative, options.solver.threads});
+    if (!options.masks.empty() || !options.solver.masks.empty() || !options.solver.reach.empty()) {
+      throw OptionError(std::string("masks and reach are for local coordinates, not for ") +
+                        name_of(*options.coordinates));
+    }
+  } else {
+    validate(options.solver);
+  }
 }
 
 template <int Dim>
@@ -66,7 +82,44 @@ SolverOptions solver_options(const BindOptions& options, const PlacedMasks& mask
   return solver;
 }
 
+// For people: what was asked for, where it is not left to the program.
+std::string describe(const BindOptions& options) {
+  const auto& solver = options.solver;
+  std::string text;
+  const auto add = [&](const char* name, const std::string& value) {
+    text += (text.empty() ? "" : ", ") + std::string(name) + " " + value;
+  };
+  if (!options.coordinates) {
+    const auto resolved = resolve(solver);
+    add("smoothness", format_number(*resolved.smoothness));
+    if (resolved.tolerance) add("tolerance", format_number(*resolved.tolerance));
+    add("phi", options.phi.size() > 0 ? "given" : name_of(solver.phi));
+    if (!solver.reach.empty()) add("reach", "given");
+  }
+  if (options.max_influences > 0) add("influences", std::to_string(options.max_influences));
+  return text;
+}
+
+// Whether a solution by some options is none by others.
+bool differ(const BindOptions& a, const BindOptions& b) {
+  const auto problem = [](const BindOptions& options) {
+    const auto& solver = options.solver;
+    return std::tuple(options.coordinates, options.masks, solver.method, solver.phi,
+                      solver.smoothness, solver.tolerance, solver.non_negative, solver.reach,
+                      solver.masks);
+  };
+  return problem(a) != problem(b) || a.phi.size() != b.phi.size() ||
+         (a.phi.size() > 0 && (a.phi.rows() != b.phi.rows() || a.phi != b.phi));
+}
+
 }  // namespace
+
+template <int Dim>
+void Rig<Dim>::begin() {
+  require_model<Dim>(points_, edges_);
+  require_valid<Dim>(options_);
+  validate(cage_);
+}
 
 template <int Dim>
 Rig<Dim>::Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindOptions& options)
@@ -74,15 +127,22 @@ Rig<Dim>::Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindO
       points_(std::move(points)),
       edges_(std::move(edges)),
       options_(options) {
-  require_model<Dim>(points_, edges_);
-  require_valid<Dim>(options_);
-  validate(cage_);
+  begin();
+  require_points<Dim>(points_);
+  if (!options.coordinates || !is_pointwise(*options.coordinates)) {
+    throw OptionError("these coordinates need a domain mesh");
+  }
+  placed_ = place(cage_, mesh_, points_, options_);
 }
 
 template <int Dim>
 Rig<Dim>::Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindOptions& options,
               const Meshers<Dim>& meshers)
-    : Rig(std::move(cage), std::move(points), std::move(edges), options) {
+    : cage_(std::move(cage)),
+      points_(std::move(points)),
+      edges_(std::move(edges)),
+      options_(options) {
+  begin();
   require_points<Dim>(points_);
   require_inside(cage_, points_, options_);  // before a mesher starts
   const ThreadScope threads(options_.solver.threads);
@@ -98,16 +158,19 @@ Rig<Dim>::Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindO
 template <int Dim>
 Rig<Dim>::Rig(Cage<Dim> cage, DomainMesh<Dim> domain, PointList<Dim> points, EdgeList edges,
               const BindOptions& options)
-    : Rig(std::move(cage), std::move(points), std::move(edges), options) {
+    : Rig(std::move(cage), MadeDomain<Dim>{(normalize_and_validate(domain), std::move(domain))},
+          std::move(points), std::move(edges), options) {
   require_points<Dim>(points_);
-  normalize_and_validate(domain);
-  take({std::move(domain)});
 }
 
 template <int Dim>
 Rig<Dim>::Rig(Cage<Dim> cage, MadeDomain<Dim> domain, PointList<Dim> points, EdgeList edges,
               const BindOptions& options)
-    : Rig(std::move(cage), std::move(points), std::move(edges), options) {
+    : cage_(std::move(cage)),
+      points_(std::move(points)),
+      edges_(std::move(edges)),
+      options_(options) {
+  begin();
   take(std::move(domain));
 }
 
@@ -126,7 +189,9 @@ typename Rig<Dim>::Placed Rig<Dim>::place(const Cage<Dim>& cage, const DomainMes
   const ThreadScope threads(options.solver.threads);
   const Stopwatch watch;
   Placed placed;
-  if (points.cols() > 0) {
+  if (mesh.num_cells() == 0) {
+    placed.placement = place_points(cage, points, options.outside);
+  } else if (points.cols() > 0) {
     placed.placement = place_points(cage, mesh, points, options.outside);
   } else {
     placed.placement.points = mesh.points;
@@ -143,7 +208,7 @@ void Rig<Dim>::constrain(Placed& placed, const Cage<Dim>& cage, const DomainMesh
     if (points.cols() == 0) throw OptionError("mirror_axis is for weights of a model");
     placed.mirror.emplace(cage, options.mirror_axis, points);
     placed.mirror->symmetrize(placed.placement, [&](const PointList<Dim>& images) {
-      return place_points(cage, mesh, images, policy_of_images(options)).points;
+      return place_points(cage, images, policy_of_images(options)).points;
     });
   }
   placed.masks = {};
@@ -156,16 +221,45 @@ void Rig<Dim>::constrain(Placed& placed, const Cage<Dim>& cage, const DomainMesh
 }
 
 template <int Dim>
+bool Rig<Dim>::keeps_solver() const {
+  return !options_.coordinates && options_.phi.size() == 0 && cage_parts(cage_).size() == 1;
+}
+
+// Solves in one run, of which no state remains.
+template <int Dim>
+Solution Rig<Dim>::solve_at_once(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                                 const Placed& placed) const {
+  const auto& observer = options_.observer;
+  const auto& [non_negative, threads] =
+      CoordinatesOptions{options_.solver.non_negative, options_.solver.threads};
+  if (options_.coordinates && mesh.num_cells() > 0) {
+    return compute_coordinates(cage, mesh, *options_.coordinates, {non_negative, threads},
+                               observer);
+  }
+  if (options_.coordinates) {
+    Solution solution;  // weights_of_points() evaluates
+    solution.report.control_points = cage.size();
+    solution.report.objective = std::numeric_limits<double>::quiet_NaN();
+    return solution;
+  }
+  const auto options = solver_options(options_, placed.masks);
+  if (options_.phi.size() == 0) return flbc::solve(cage, mesh, options, observer);
+  auto problem = make_problem(cage, mesh, DistanceScheme::kConstant, *resolve(options).smoothness);
+  problem.phi = WeightFunctions(options_.phi);
+  return flbc::solve(problem, options, observer);
+}
+
+template <int Dim>
 const Solution& Rig<Dim>::solve(const Budget& budget) {
-  const auto& masks = placed_.masks;
+  if (is_given_) return solution_;
   const Stopwatch watch;
-  if (cage_parts(cage_).size() > 1) {
-    solution_ = flbc::solve(cage_, mesh_, solver_options(options_, masks), options_.observer);
+  if (!keeps_solver()) {
+    solution_ = solve_at_once(cage_, mesh_, placed_);
   } else if (solver_) {
     solver_->solve(budget, options_.observer);
   } else {
-    auto solver = std::make_unique<Solver<Dim>>(cage_, mesh_, solver_options(options_, masks),
-                                                options_.observer);
+    auto solver = std::make_unique<Solver<Dim>>(
+        cage_, mesh_, solver_options(options_, placed_.masks), options_.observer);
     solver->solve(budget, options_.observer);
     solver_ = std::move(solver);
   }
@@ -182,6 +276,7 @@ void Rig<Dim>::set_solution(Solution solution) {
     mesh_ = solver_->mesh();
     solver_.reset();
   }
+  is_given_ = solution.report.status == SolveStatus::kConverged;
   solution_ = std::move(solution);
   weights_ = {};
 }
@@ -192,13 +287,35 @@ const Solution& Rig<Dim>::reshape(const PointList<Dim>& control_points, const Bu
     throw InputError(
         "a cage with several parts cannot be reshaped; bind the model to the new cage");
   }
-  if (!solver_) solve();
+  const bool has_mesh = mesh().num_cells() > 0;
+  if (has_mesh && solution().weights.num_points() == 0) solve();
   Placed placed;
-  const auto masks_in = [&](const Cage<Dim>& cage, const DomainMesh<Dim>& mesh) {
+  const auto place_in = [&](const Cage<Dim>& cage, const DomainMesh<Dim>& mesh) {
     placed = place(cage, mesh, points_, options_);
-    return solver_options(options_, placed.masks).masks;
+    return solver_options(options_, placed.masks);
   };
-  solver_->move(control_points, budget, options_.observer, masks_in);
+  if (solver_) {
+    solver_->move(control_points, budget, options_.observer,
+                  [&](const auto& cage, const auto& mesh) { return place_in(cage, mesh).masks; });
+  } else {
+    Cage<Dim> moved{control_points, cage_.facets};
+    validate(moved);
+    auto mesh = has_mesh ? moved_mesh<Dim>(mesh_, solution_.weights, control_points) : mesh_;
+    const auto options = place_in(moved, mesh);
+    std::unique_ptr<Solver<Dim>> solver;
+    Solution solution;
+    if (keeps_solver()) {
+      solver = std::make_unique<Solver<Dim>>(moved, mesh, options, options_.observer);
+      solver->solve(budget, options_.observer);
+    } else {
+      solution = solve_at_once(moved, mesh, placed);
+    }
+    cage_ = std::move(moved);
+    mesh_ = std::move(mesh);
+    solver_ = std::move(solver);
+    solution_ = std::move(solution);
+    is_given_ = false;
+  }
   placed_ = std::move(placed);
   weights_ = {};
   return solution();
@@ -233,6 +350,10 @@ void Rig<Dim>::set_options(const BindOptions& options) {
     const auto& masks = changed ? changed->masks : placed_.masks;
     solver_->set_options(solver_options(options, masks));
   }
+  if (differ(options_, options)) {
+    is_given_ = false;
+    weights_ = {};
+  }
   options_ = options;
   if (!changed) return;
   placed_ = std::move(*changed);
@@ -240,21 +361,19 @@ void Rig<Dim>::set_options(const BindOptions& options) {
 }
 
 template <int Dim>
-void Rig<Dim>::set_evaluation(std::function<SparseWeights(const Placement<Dim>&)> evaluate) {
-  evaluate_ = std::move(evaluate);
-  weights_ = {};
-}
-
-template <int Dim>
 SparseWeights Rig<Dim>::evaluated(const Placement<Dim>& placement) const {
-  if (evaluate_) return evaluate_(placement);
+  if (options_.coordinates && is_pointwise(*options_.coordinates)) {
+    const auto& solver = options_.solver;
+    return pointwise_coordinates(cage(), placement, *options_.coordinates,
+                                 solver.non_negative == NonNegative::kProject, solver.threads);
+  }
   return weights_at(cage(), mesh(), solution().weights, placement);
 }
 
 template <int Dim>
 const SparseWeights& Rig<Dim>::weights_of_points() {
   if (weights_.num_points() > 0) return weights_;
-  if (solution().weights.num_points() == 0) solve();
+  if (mesh().num_cells() > 0 && solution().weights.num_points() == 0) solve();
   const auto& [placement, mirror, masks, seconds] = placed_;
   if (points_.cols() == 0 && masks.masked == 0) return solution().weights;
   const ThreadScope threads(options_.solver.threads);
@@ -263,7 +382,9 @@ const SparseWeights& Rig<Dim>::weights_of_points() {
   if (masks.masked > 0) weights = enforce_masks(cage(), placement, weights, masks);
   if (mirror) {
     weights = mirror->symmetrized(weights, [&](const PointList<Dim>& points) {
-      return evaluated(place_points(cage(), mesh(), points, policy_of_images(options_)));
+      const auto policy = policy_of_images(options_);
+      return evaluated(mesh().num_cells() > 0 ? place_points(cage(), mesh(), points, policy)
+                                              : place_points(cage(), points, policy));
     });
     if (masks.masked > 0) {
       weights = enforce_masks(cage(), placement, weights, mirror->of_single_points(masks));
@@ -275,66 +396,49 @@ const SparseWeights& Rig<Dim>::weights_of_points() {
 }
 
 template <int Dim>
-SparseWeights Rig<Dim>::reduced(const SparsifyOptions& limits,
-                                const std::vector<PointList<Dim>>& poses, Reduction reduction) {
+Binding<Dim> Rig<Dim>::binding() {
   const ThreadScope threads(options_.solver.threads);
-  const auto& weights = weights_of_points();
+  Binding<Dim> binding;
+  binding.weights = weights_of_points();
   const auto& [placement, mirror, masks, seconds] = placed_;
-  const auto reduce_part = [&](const ModelPart<Dim>& part, Index most) {
-    auto few = limits;
-    few.max_influences = most;
-    few.masks = part.masks;
-    return reduce_influences<Dim>(cage().points, part.points, part.edges, part.weights, poses, few,
-                                  reduction);
-  };
-  const auto reduce = [&, &mirror = mirror, &masks = masks](const PointList<Dim>& points,
-                                                            const SparseWeights& given) {
-    const ModelPart<Dim> model{points, points_.cols() > 0 ? edges_ : edges_of_cells(mesh()), given,
-                               masks.of_points};
-    const Index most = limits.max_influences;
-    return mirror ? mirror->reduced(model, most, reduce_part) : reduce_part(model, most);
-  };
-  if (placement.outside.empty() || options_.outside != OutsidePoints::kExtend) {
-    return reduce(placement.points, weights);
+  const bool has_model = points_.cols() > 0;
+  binding.cage = cage();
+  binding.points = placement.points;
+  binding.offsets = offsets_of(points_, placement);
+  binding.edges = has_model ? edges_ : edges_of_cells(mesh());
+  binding.masks = masks.of_points;
+  binding.masks.insert(binding.masks.end(), masks.of_outside.begin(), masks.of_outside.end());
+  if (mirror) binding.mirror = mirror->mirror();
+  binding.policy = placement.policy;
+  for (const auto& vertex : placement.outside) binding.outside.push_back(vertex.point);
+  binding.domain = mesh();
+  binding.domain_weights = solution().weights;
+  binding.domain_masks = masks.of_mesh;
+  auto& report = binding.report = report_;
+  if (const auto note = masks.note(); !note.empty()) {
+    report.note += (report.note.empty() ? "" : "; ") + note;
   }
-  std::vector<bool> is_outside(weights.num_points(), false);
-  for (const auto& vertex : placement.outside) is_outside[vertex.point] = true;
-  // Of two lists of weights, the first at the points outside.
-  const auto joined = [&](const SparseWeights& outside, const SparseWeights& inside) {
-    return SparseWeights::of(
-        weights.num_control_points(), weights.num_points(),
-        [&](Index p) -> Eigen::VectorXd { return is_outside[p] ? outside.at(p) : inside.at(p); });
-  };
-  const auto nearest = place_points(cage(), mesh(), points_, OutsidePoints::kNearest);
-  return joined(weights, reduce(nearest.points, joined(evaluated(nearest), weights)));
+  report.solve = solution().report;
+  report.method =
+      options_.coordinates ? name_of(*options_.coordinates) : name_of(report.solve.method);
+  report.options = describe(options_);
+  report.outside = static_cast<Index>(binding.outside.size());
+  report.quality = measure_quality<Dim>(cage().points, placement.points, binding.weights);
+  return binding;
 }
 
 template <int Dim>
 Binding<Dim> Rig<Dim>::bind() {
   const ThreadScope threads(options_.solver.threads);
-  const auto& weights = weights_of_points();
-  const auto& placement = placed_.placement;
-  Binding<Dim> binding;
-  for (const auto& vertex : placement.outside) binding.outside.push_back(vertex.point);
-  binding.offsets = offsets_of(points_, placement);
-  Stopwatch watch;
-  if (options_.max_influences == 0) {
-    binding.weights = weights;
-  } else {
-    SparsifyOptions limits{options_.max_influences};
-    const auto& observer = options_.observer;
-    if (observer.poll) limits.progress = [&](double) { observer.poll(); };
-    binding.weights = reduced(limits, {}, options_.reduction);
-  }
-  auto& report = binding.report = report_;
-  if (const auto note = placed_.masks.note(); !note.empty()) {
-    report.note += (report.note.empty() ? "" : "; ") + note;
-  }
-  report.sparsify_seconds = watch.lap();
-  report.solve = solution().report;
-  report.outside = static_cast<Index>(binding.outside.size());
-  report.quality = measure_quality<Dim>(cage().points, placement.points, binding.weights);
-  return binding;
+  const auto all = binding();
+  if (options_.max_influences == 0) return all;
+  const Stopwatch watch;
+  SparsifyOptions limits{options_.max_influences};
+  const auto& observer = options_.observer;
+  if (observer.poll) limits.progress = [&](double) { observer.poll(); };
+  auto few = all.reduced(limits, {}, options_.reduction);
+  few.report.sparsify_seconds = watch.seconds();
+  return few;
 }
 
 template class Rig<2>;

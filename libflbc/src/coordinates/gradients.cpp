@@ -30,6 +30,7 @@ template <int Dim>
 Eigen::Matrix<double, Dim, Dim> jacobian(const SparseWeights& gradients, Index point,
                                          const PointList<Dim>& pose) {
   Eigen::Matrix<double, Dim, Dim> sum = Eigen::Matrix<double, Dim, Dim>::Zero();
+  if (!gradients.has_weights(point)) return sum.setIdentity();
   gradients.visit(point, [&](Index row, double derivative) {
     sum.col(row % Dim) += derivative * pose.col(row / Dim);
   });
@@ -64,12 +65,15 @@ SparseWeights gradients_at(const DomainMesh<Dim>& mesh, const SparseWeights& wei
   const auto count = static_cast<Index>(places.size());
   if (kind == GradientKind::kSmooth) {
     const auto at_vertices = vertex_gradients(mesh, weights);
-    return SparseWeights::of(rows, count,
-                             [&](Index p) { return interpolate(mesh, at_vertices, places[p]); });
+    return SparseWeights::of(rows, count, [&](Index p) -> Eigen::VectorXd {
+      if (places[p].cell < 0) return Eigen::VectorXd::Zero(rows);
+      return interpolate(mesh, at_vertices, places[p]);
+    });
   }
   return SparseWeights::of(rows, count, [&](Index p) {
-    check_place(mesh, weights.num_points(), places[p]);
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(rows);
+    if (places[p].cell < 0) return sum;
+    check_place(mesh, weights.num_points(), places[p]);
     const Index cell = places[p].cell;
     add_cell_gradients(mesh, weights, cell, cell_geometry(mesh, cell), 1, sum);
     return sum;
@@ -81,9 +85,13 @@ std::vector<Location<Dim>> places_in_mesh(const Cage<Dim>& cage, const DomainMes
                                           const Placement<Dim>& placement) {
   check_placement(cage, placement);
   auto places = placement.places;
+  std::vector<bool> is_still(places.size(), false);
+  for (const auto& point : placement.outside) {
+    is_still[point.point] = placement.policy == OutsidePoints::kKeep;
+  }
   std::vector<Index> missing;
   for (std::size_t p = 0; p < places.size(); ++p) {
-    if (places[p].cell < 0) missing.push_back(static_cast<Index>(p));
+    if (places[p].cell < 0 && !is_still[p]) missing.push_back(static_cast<Index>(p));
   }
   if (missing.empty()) return places;
   PointList<Dim> nearest(Dim, static_cast<Eigen::Index>(missing.size()));
@@ -111,6 +119,28 @@ Eigen::MatrixXd jacobians(const SparseWeights& gradients, const PointList<Dim>& 
   return result;
 }
 
+template <int Dim>
+PointJacobians<Dim>::PointJacobians(const Cage<Dim>& cage, DomainMesh<Dim> mesh,
+                                    const SparseWeights& weights, const Placement<Dim>& placement)
+    : mesh_(std::move(mesh)),
+      gradients_(vertex_gradients(mesh_, weights)),
+      places_(places_in_mesh(cage, mesh_, placement)) {
+}
+
+template <int Dim>
+Eigen::MatrixXd PointJacobians<Dim>::at(const PointList<Dim>& control_points) const {
+  const auto at_vertices = jacobians(gradients_, control_points);
+  Eigen::MatrixXd result(Dim * Dim, static_cast<Eigen::Index>(places_.size()));
+  parallel_for(static_cast<Index>(places_.size()), [&](Index p) {
+    const auto& [cell, coordinates] = places_[p];
+    result.col(p) = Eigen::Matrix<double, Dim, Dim>::Identity().reshaped();
+    if (cell >= 0) result.col(p) = at_vertices(Eigen::all, mesh_.cells.col(cell)) * coordinates;
+  });
+  return result;
+}
+
+template class PointJacobians<2>;
+template class PointJacobians<3>;
 FLBC_INSTANTIATE_FUNCTION(vertex_gradients)
 FLBC_INSTANTIATE_FUNCTION(gradients_at)
 FLBC_INSTANTIATE_FUNCTION(jacobians)

@@ -116,6 +116,23 @@ MirroredModel<Dim>::MirroredModel(const Cage<Dim>& cage, int axis, const PointLi
 }
 
 template <int Dim>
+MirroredModel<Dim>::MirroredModel(const Cage<Dim>& cage, const Mirror& mirror,
+                                  const PointList<Dim>& points)
+    : axis_(mirror.axis), image_(mirror.images), points_(points), partner_(mirror.partners) {
+  const auto is_within = [](const std::vector<Index>& indices, Eigen::Index low,
+                            Eigen::Index size) {
+    return static_cast<Eigen::Index>(indices.size()) == size &&
+           std::all_of(indices.begin(), indices.end(),
+                       [&](Index index) { return index >= low && index < size; });
+  };
+  if (axis_ < 0 || axis_ >= Dim || !is_within(image_, 0, cage.points.cols()) ||
+      !is_within(partner_, -1, points.cols())) {
+    throw InputError("the mirror is not one of this cage and these points");
+  }
+  place_ = (cage.points.row(axis_).minCoeff() + cage.points.row(axis_).maxCoeff()) / 2;
+}
+
+template <int Dim>
 PointList<Dim> MirroredModel<Dim>::mirrored(const PointList<Dim>& points) const {
   PointList<Dim> images = points;
   images.row(axis_) = 2 * place_ - points.row(axis_).array();
@@ -241,25 +258,6 @@ SparseWeights MirroredModel<Dim>::reduced(
     const std::function<SparseWeights(const ModelPart<Dim>&, Index)>& reduce) const {
   const auto count = static_cast<Index>(partner_.size());
   const auto n = model.weights.num_control_points();
-  const PointMasks masks(model.masks, n, count);
-  // \param number  receives that of each chosen point, -1 for others
-  const auto part_of = [&](const std::vector<Index>& chosen, std::vector<Index>& number) {
-    number.assign(count, -1);
-    for (std::size_t k = 0; k < chosen.size(); ++k) number[chosen[k]] = static_cast<Index>(k);
-    ModelPart<Dim> part{model.points(Eigen::all, chosen), {}, {}, {}};
-    for (std::size_t e = 0; e < model.edges.ends.size(); ++e) {
-      const Index a = number[model.edges.ends[e][0]], b = number[model.edges.ends[e][1]];
-      if (a < 0 || b < 0) continue;
-      part.edges.ends.push_back({a, b});
-      if (!model.edges.weights.empty()) part.edges.weights.push_back(model.edges.weights[e]);
-    }
-    part.weights = take_points(model.weights, chosen);
-    part.masks = masks.list([&](Index p) { return number[p] >= 0; });
-    for (auto& mask : part.masks) {
-      for (Index& point : mask.points) point = number[point];
-    }
-    return part;
-  };
   std::vector<Index> half, plane;
   for (Index p = 0; p < count; ++p) {
     const Index other = partner_[p];
@@ -269,10 +267,10 @@ SparseWeights MirroredModel<Dim>::reduced(
     if (!is_image || other == p) half.push_back(p);
   }
   std::vector<Index> in_half, in_plane;
-  const auto of_half = reduce(part_of(half, in_half), most);
+  const auto of_half = reduce(model.taken(half, in_half), most);
   // Half the influences, and their images.
   SparseWeights of_plane;
-  if (most / 2 > Dim && !plane.empty()) of_plane = reduce(part_of(plane, in_plane), most / 2);
+  if (most / 2 > Dim && !plane.empty()) of_plane = reduce(model.taken(plane, in_plane), most / 2);
   return SparseWeights::of(n, count, [&](Index p) -> Eigen::VectorXd {
     if (in_half[p] < 0) return mirrored(of_half.at(in_half[partner_[p]]));
     if (partner_[p] != p) return of_half.at(in_half[p]);
@@ -286,6 +284,30 @@ SparseWeights MirroredModel<Dim>::reduced(
   });
 }
 
+template <int Dim>
+ModelPart<Dim> ModelPart<Dim>::taken(const std::vector<Index>& chosen,
+                                     std::vector<Index>& numbers) const {
+  numbers.assign(points.cols(), -1);
+  for (std::size_t k = 0; k < chosen.size(); ++k) numbers[chosen[k]] = static_cast<Index>(k);
+  ModelPart part{points(Eigen::all, chosen), {}, take_points(weights, chosen), {}};
+  for (std::size_t e = 0; e < edges.ends.size(); ++e) {
+    const Index a = numbers[edges.ends[e][0]], b = numbers[edges.ends[e][1]];
+    if (a < 0 || b < 0) continue;
+    part.edges.ends.push_back({a, b});
+    if (!edges.weights.empty()) part.edges.weights.push_back(edges.weights[e]);
+  }
+  for (const auto& [control_points, region] : masks) {
+    Mask mask{control_points, {}};
+    for (const Index p : region) {
+      if (numbers[p] >= 0) mask.points.push_back(numbers[p]);
+    }
+    if (!mask.points.empty()) part.masks.push_back(std::move(mask));
+  }
+  return part;
+}
+
+template struct ModelPart<2>;
+template struct ModelPart<3>;
 template class MirroredModel<2>;
 template class MirroredModel<3>;
 

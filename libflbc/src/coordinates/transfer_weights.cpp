@@ -17,9 +17,8 @@ namespace flbc {
 namespace {
 
 template <int Dim>
-void check_input(const PointList<Dim>& control_points, const ModelElements<Dim>& from,
-                 const SparseWeights& weights) {
-  check_size(weights, control_points.cols(), from.points.cols());
+void check_input(const ModelElements<Dim>& from, const SparseWeights& weights) {
+  check_size(weights, weights.num_control_points(), from.points.cols());
   check_finite<Dim>(from.points);
   if (from.corners.cols() == 0) throw InputError("the model that has weights is empty");
   for (Eigen::Index e = 0; e < from.corners.cols(); ++e) {
@@ -50,32 +49,39 @@ void refuse_unmatched(const PointList<Dim>& to, const Eigen::VectorXd& distances
 }  // namespace
 
 template <int Dim>
-SparseWeights transfer_weights(const PointList<Dim>& control_points, const ModelElements<Dim>& from,
-                               const SparseWeights& weights, const PointList<Dim>& to, double limit,
-                               Eigen::VectorXd* distances, const PointMasks& masks) {
-  check_input(control_points, from, weights);
+SparseWeights nearest_weights(const ModelElements<Dim>& from, const SparseWeights& weights,
+                              const PointList<Dim>& to, double limit, Eigen::VectorXd* distances) {
+  check_input(from, weights);
   check_finite<Dim>(to);
   const NearestSimplex<Dim, 3> nearest(from.points, from.corners);
   const auto num_points = static_cast<Index>(to.cols());
   Eigen::VectorXd found(num_points);
-  const auto nearest_weights =
-      SparseWeights::of(weights.num_control_points(), num_points, [&](Index p) {
-        HullPoint<Dim> place;
-        const Index element = nearest(to.col(p), place);
-        found[p] = place.distance;
-        Eigen::VectorXd result = Eigen::VectorXd::Zero(weights.num_control_points());
-        for (int k = 0; k < place.size; ++k) {
-          weights.visit(from.corners(place.support[k], element),
-                        [&](Index i, double weight) { result[i] += place.weights[k] * weight; });
-        }
-        return result;
-      });
+  auto result = SparseWeights::of(weights.num_control_points(), num_points, [&](Index p) {
+    HullPoint<Dim> place;
+    const Index element = nearest(to.col(p), place);
+    found[p] = place.distance;
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(weights.num_control_points());
+    for (int k = 0; k < place.size; ++k) {
+      weights.visit(from.corners(place.support[k], element),
+                    [&](Index i, double weight) { row[i] += place.weights[k] * weight; });
+    }
+    return row;
+  });
   refuse_unmatched(to, found, limit);
-  auto result = project_non_negative(control_points, to, nearest_weights, {}, masks);
   if (distances != nullptr) *distances = std::move(found);
   return result;
 }
 
+template <int Dim>
+SparseWeights transfer_weights(const PointList<Dim>& control_points, const ModelElements<Dim>& from,
+                               const SparseWeights& weights, const PointList<Dim>& to, double limit,
+                               Eigen::VectorXd* distances, const PointMasks& masks) {
+  check_size(weights, control_points.cols(), from.points.cols());
+  return project_non_negative(control_points, to,
+                              nearest_weights(from, weights, to, limit, distances), {}, masks);
+}
+
+FLBC_INSTANTIATE_FUNCTION(nearest_weights)
 FLBC_INSTANTIATE_FUNCTION(transfer_weights)
 
 }  // namespace flbc

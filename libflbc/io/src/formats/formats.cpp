@@ -35,6 +35,7 @@ constexpr Format kFormats[] = {
     {"mtx", {}, {}, {}, {read_mtx, write_mtx}},
     {"npy", {}, {}, {}, {read_npy, write_npy}},
     {"csv", {}, {}, {}, {read_csv, write_csv}},
+    {"npz", {}, {}, {}, {read_npz, write_npz}},
     {"lbw", {}, {}, {}, {read_lbw, write_lbw}},
 };
 

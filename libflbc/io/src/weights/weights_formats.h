@@ -23,6 +23,7 @@ SparseWeights read_lbw(const std::string& path, std::string content);
 SparseWeights read_mtx(const std::string& path, std::string content);
 SparseWeights read_npy(const std::string& path, std::string content);
 SparseWeights read_csv(const std::string& path, std::string content);
+SparseWeights read_npz(const std::string& path, std::string content);
 
 //! Checks that weights are finite, because readers reject other values. \throws InputError naming
 //! the first one
@@ -32,6 +33,7 @@ void write_lbw(std::ostream& out, const SparseWeights& weights);
 void write_mtx(std::ostream& out, const SparseWeights& weights);
 void write_npy(std::ostream& out, const SparseWeights& weights);
 void write_csv(std::ostream& out, const SparseWeights& weights);
+void write_npz(std::ostream& out, const SparseWeights& weights);
 
 //! Maximum number of matrix elements (8 MiB) that a file may declare without storing. In a larger
 //! matrix, each row and column must have an element, because weights sum to 1.

@@ -23,6 +23,7 @@
 #include "polytope/mask_conflicts.h"
 #include "polytope/project_columns.h"
 #include "problem/problem_geometry.h"
+#include "solver/api/moved_mesh.h"
 #include "solver/api/solve_parts.h"
 #include "solver/multilevel/coarse_problem.h"
 #include "solver/multilevel/coarse_start.h"
@@ -221,20 +222,6 @@ void validate(const Budget& budget) {
   }
 }
 
-// \throws InputError if a cell is inverted or degenerate
-template <int Dim>
-void refuse_folds(const DomainMesh<Dim>& before, const DomainMesh<Dim>& after) {
-  constexpr double kLeast = 1e-9;  // relative to the measure of the cell before
-  const double enlargement =
-      std::pow(bounding_box_diagonal(after.points) / bounding_box_diagonal(before.points), Dim);
-  for (Index s = 0; s < after.num_cells(); ++s) {
-    if (signed_measure(after, s) > kLeast * enlargement * signed_measure(before, s)) continue;
-    throw InputError("cell " + std::to_string(s) + " of the domain mesh, at " +
-                     format_point(centroid(before.points, before.cells, s)) +
-                     ", would be inverted; move the control points less, or mesh the cage again");
-  }
-}
-
 template <int Dim>
 void require_points_for(const Cage<Dim>& cage, const PointList<Dim>& control_points) {
   if (control_points.cols() == cage.size()) return;
@@ -324,9 +311,7 @@ struct Solver<Dim>::State {
 
     // \throws InputError if a cell would be inverted
     DomainMesh<Dim> moved(const PointList<Dim>& control_points) const {
-      DomainMesh<Dim> moved{deform<Dim>(weights, control_points), mesh.cells};
-      refuse_folds(mesh, moved);
-      return moved;
+      return moved_mesh<Dim>(mesh, weights, control_points);
     }
   };
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "flbc/bind.h"
+#include "flbc/binding.h"
 #include "flbc/bounding_box.h"
 #include "flbc/linked_meshers.h"
 #include "flbc/openmesh/convert.h"

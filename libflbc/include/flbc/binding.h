@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Binds the points of a model to a cage. A Binding is the result: weights with all that belongs to
+//! them, so that whatever is made of it keeps what it promises.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flbc/cage.h"
+#include "flbc/domain_mesh.h"
+#include "flbc/gradients.h"
+#include "flbc/make_domain.h"
+#include "flbc/masks.h"
+#include "flbc/mirror.h"
+#include "flbc/observer.h"
+#include "flbc/options.h"
+#include "flbc/placement.h"
+#include "flbc/pointwise.h"
+#include "flbc/quality.h"
+#include "flbc/report.h"
+#include "flbc/sparse_weights.h"
+#include "flbc/sparsify.h"
+#include "flbc/transfer_weights.h"
+#include "flbc/types.h"
+
+namespace flbc {
+
+//! Options of bind().
+struct BindOptions {
+  //! Number of vertices of the domain mesh; 0: the minimum that element quality allows. It is
+  //! increased if a cage needs more.
+  Index vertices = kDefaultVertices;
+  //! Method, tolerance, threads.
+  SolverOptions solver{};
+  //! Other coordinates instead, which read only SolverOptions::threads and non_negative.
+  std::optional<Coordinates> coordinates{};
+  //! n x F: these functions phi instead of those of SolverOptions::phi, for a given mesh of F
+  //! cells; empty: none.
+  WeightMatrix phi{};
+  //! Of the solve; poll() also during the reduction. What it throws leaves bind().
+  Observer observer{};
+  Index max_influences = 8;                      //!< per point; 0 = keep all weights
+  Reduction reduction = Reduction::kPoisson;     //!< how influences are reduced
+  OutsidePoints outside = OutsidePoints::kFail;  //!< points outside the cage
+  //! Masks of the points: regions of the model that some control points must not move. Weights are
+  //! exactly 0 there, also after the reduction, except on facets of masked control points, which
+  //! BindReport::note counts.
+  std::vector<Mask> masks{};
+  //! Exact mirror (mirror.h): axis of the symmetric cage, 0 to Dim - 1; -1 for none. Weights of
+  //! mirrored points are bit-identical, also after the reduction.
+  int mirror_axis = -1;
+};
+
+//! Report of bind().
+struct BindReport {
+  SolveReport solve{};    //!< on the domain mesh
+  std::string method{};   //!< name of the method or of the coordinates
+  std::string options{};  //!< those that the result depends on, for people
+  Quality quality{};      //!< of the final weights at the points that they reproduce
+  Index outside = 0;      //!< number of points outside the cage
+  std::string mesher{};   //!< that made the mesh; empty if it was given
+  std::string note{};     //!< MadeDomain::note and PlacedMasks::note()
+  double mesh_seconds = 0, solve_seconds = 0, evaluate_seconds = 0, sparsify_seconds = 0;
+};
+
+//! The P points of a model bound to a cage of n control points. Its functions keep what the weights
+//! promise, or refuse: masked weights stay exactly 0, mirrored ones bit-identical, sums 1, points
+//! reproduced, and points outside follow their policy. A Rig makes bindings, and flbc/io reads and
+//! writes them (io/binding_file.h).
+template <int Dim>
+struct Binding {
+  Cage<Dim> cage{};         //!< at rest; without facets if they are not known
+  SparseWeights weights{};  //!< of P points
+  PointList<Dim> points{};  //!< Dim x P at rest, as the weights reproduce them
+  //! Dim x P, what is added to weighted control points; no columns if all are zero. Points outside
+  //! the cage have an offset, except for OutsidePoints::kExtend.
+  PointList<Dim> offsets{};
+  EdgeList edges{};           //!< of the model, along which a reduction leaves no seams
+  std::vector<Mask> masks{};  //!< of the points; these weights are 0
+  std::optional<Mirror> mirror{};
+  OutsidePoints policy = OutsidePoints::kFail;  //!< for points outside the cage
+  std::vector<Index> outside{};                 //!< points outside the cage, ascending
+  DomainMesh<Dim> domain{};          //!< of the interior of the cage, V vertices; may be empty
+  SparseWeights domain_weights{};    //!< of V points
+  std::vector<Mask> domain_masks{};  //!< of the vertices of the mesh
+  BindReport report{};
+
+  //! Dim x P: where the points of the model rest.
+  PointList<Dim> rest() const;
+
+  //! The points for moved control points.
+  //! \param control_points  Dim x n \return Dim x P
+  //! \throws InputError if the number of control points differs
+  PointList<Dim> deform(const PointList<Dim>& control_points) const;
+
+  //! The Jacobians of the deformation at the points, from smooth gradients of the weights on the
+  //! domain mesh (gradients.h). Points that do not move have the identity.
+  //! \param control_points  Dim x n \return (Dim Dim) x P, each column has J column by column
+  //! \throws InputError if the binding has no domain mesh
+  Eigen::MatrixXd jacobians(const PointList<Dim>& control_points) const;
+
+  //! The same for many poses.
+  PointJacobians<Dim> point_jacobians() const;
+
+  //! Reduces influences by reduce_influences(). Masks and mirror are kept. Points outside keep all
+  //! weights of OutsidePoints::kExtend, because negative weights cannot be reduced.
+  //! \param limits  without masks \param poses  Dim x n each, may be empty
+  //! \throws OptionError, InputError as reduce_influences()
+  Binding reduced(const SparsifyOptions& limits, const std::vector<PointList<Dim>>& poses = {},
+                  Reduction reduction = Reduction::kPoisson) const;
+
+  //! A binding of other points in the same cage, evaluated on the domain mesh. A weight is masked
+  //! where it is masked at all vertices around.
+  //! \param to  Dim x Q, in the units of the cage \param edges  between them, may be empty
+  //! \throws InputError if the binding has no domain mesh, is mirrored, or as place_points()
+  Binding transferred(const PointList<Dim>& to, EdgeList edges, OutsidePoints outside) const;
+
+  //! A binding of another version of the model, from the nearest place on this one
+  //! (transfer_weights()). A weight is masked where it is masked at all vertices around.
+  //! \param corners  3 x E, elements of this model (ModelElements)
+  //! \param limit  maximum distance, in units of the cage \param distances  output; may be null
+  //! \throws InputError if the binding is mirrored, points without weights are near, or as
+  //! transfer_weights()
+  Binding transferred(const FacetList<3>& corners, const PointList<Dim>& to, EdgeList edges,
+                      double limit, Eigen::VectorXd* distances = nullptr) const;
+
+  //! A binding to other control points that move those of this one (compose()). A weight is masked
+  //! where no control point follows it that may move the point. There is no domain mesh then.
+  //! \param map  weights of the n control points for m others \param outer  those, m control points
+  //! at rest; its facets may be missing
+  //! \throws InputError as compose(), if the map does not reproduce the control points, or the
+  //! binding is mirrored
+  Binding composed(const SparseWeights& map, Cage<Dim> outer) const;
+
+  //! Refuses points that are not those of the model.
+  //! \param given  Dim x P, within 1e-6 of the size of the cage
+  //! \throws InputError naming the numbers of points, or the first point that differs
+  void require_points(const PointList<Dim>& given) const;
+
+  //! A number for the points of the model, equal for equal points in single precision. For people
+  //! and files; require_points() compares.
+  std::string digest() const;
+};
+
+//! Checks that the parts of a binding belong together.
+//! \throws InputError naming what does not match
+template <int Dim>
+void validate(const Binding<Dim>& binding);
+
+//! A binding by weights from elsewhere. What the weights do not reproduce becomes offsets; points
+//! without weights stay where they are.
+//! \param cage  n control points; facets may be missing \param points  Dim x P of the model
+//! \param weights  of P points \param edges  of the model, may be empty
+//! \param masks  of the points, whose weights are 0; they end at the facets of the cage
+//! \throws InputError if sizes do not match or a masked weight is not 0
+template <int Dim>
+Binding<Dim> bound_by(Cage<Dim> cage, const PointList<Dim>& points, SparseWeights weights,
+                      EdgeList edges = {}, const std::vector<Mask>& masks = {});
+
+//! Binds points: meshes the interior of the cage, solves, evaluates the weights at the points, and
+//! reduces influences. With OutsidePoints::kExtend, points outside keep all their weights, because
+//! negative weights cannot be reduced.
+//! \param cage  n control points
+//! \param points  Dim x P of the model, in the units of the cage
+//! \param edges  of the model, along which the reduction leaves no seams; may be empty
+//! \param meshers  such as linked_meshers<Dim>()
+//! \throws InputError naming the defect of cage or model; OptionError, SolverError
+template <int Dim>
+Binding<Dim> bind(const Cage<Dim>& cage, const PointList<Dim>& points, const EdgeList& edges,
+                  const BindOptions& options, const Meshers<Dim>& meshers);
+
+//! The same with a given domain mesh. \param domain  see normalize_and_validate()
+template <int Dim>
+Binding<Dim> bind(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
+                  const PointList<Dim>& points, const EdgeList& edges, const BindOptions& options);
+
+}  // namespace flbc

@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "flbc/binding.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+#include "base/instantiate.h"
+#include "base/messages.h"
+#include "base/shape_checks.h"
+#include "flbc/bounding_box.h"
+#include "flbc/compose.h"
+#include "flbc/deform.h"
+#include "flbc/errors.h"
+#include "flbc/names.h"
+#include "flbc/place_masks.h"
+#include "flbc/rig.h"
+
+namespace flbc {
+namespace {
+
+// The pairs (point, control point) for which a function is true, as masks.
+template <class IsMasked>
+std::vector<Mask> masks_where(Index num_control_points, Index num_points,
+                              const IsMasked& is_masked) {
+  std::vector<Mask> masks;
+  for (Index i = 0; i < num_control_points; ++i) {
+    Mask mask{{i}, {}};
+    for (Index p = 0; p < num_points; ++p) {
+      if (is_masked(p, i)) mask.points.push_back(p);
+    }
+    if (!mask.points.empty()) masks.push_back(std::move(mask));
+  }
+  return masks;
+}
+
+// Masks as weights: 1 where a weight is masked.
+SparseWeights indicator_of(const PointMasks& masks, Index num_control_points, Index num_points) {
+  return SparseWeights::of(num_control_points, num_points, [&](Index p) -> Eigen::VectorXd {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(num_control_points);
+    if (masks.at(p)) row(masks.forbidden(p)).setOnes();
+    return row;
+  });
+}
+
+// Interpolated indicators are 1 up to rounding where all vertices around are masked.
+std::vector<Mask> masks_of(const SparseWeights& indicators) {
+  constexpr double kRounding = 1e-12;
+  std::vector<std::vector<Index>> masked(indicators.num_control_points());
+  for (Index p = 0; p < indicators.num_points(); ++p) {
+    indicators.visit(p, [&](Index i, double part) {
+      if (part > 1 - kRounding) masked[i].push_back(p);
+    });
+  }
+  std::vector<Mask> masks;
+  for (std::size_t i = 0; i < masked.size(); ++i) {
+    if (!masked[i].empty()) masks.push_back({{static_cast<Index>(i)}, std::move(masked[i])});
+  }
+  return masks;
+}
+
+template <int Dim>
+void require_domain(const DomainMesh<Dim>& domain) {
+  if (domain.num_cells() > 0) return;
+  throw InputError(
+      "the binding has no domain mesh, by which other points and Jacobians could be evaluated; "
+      "bind the model again, or give a mesh");
+}
+
+// Makes the weights of other points symmetric, as those of a mirrored binding are.
+// \param at  returns weights at given points
+template <int Dim>
+void mirror_again(Binding<Dim>& binding, int axis,
+                  const std::function<SparseWeights(const PointList<Dim>&)>& at) {
+  const MirroredModel<Dim> mirrored(binding.cage, axis, binding.rest());
+  binding.weights = mirrored.symmetrized(binding.weights, at);
+  binding.mirror = mirrored.mirror();
+  const auto& partners = binding.mirror->partners;
+  const auto& images = binding.mirror->images;
+  const PointMasks masks(binding.masks, binding.cage.size(), binding.weights.num_points());
+  binding.masks =
+      masks_where(binding.cage.size(), binding.weights.num_points(), [&](Index p, Index i) {
+        return masks.forbids(p, i) && partners[p] >= 0 && masks.forbids(partners[p], images[i]);
+      });
+}
+
+}  // namespace
+
+template <int Dim>
+PointList<Dim> Binding<Dim>::rest() const {
+  PointList<Dim> all = points;
+  for (Index p = 0; offsets.cols() > 0 && p < weights.num_points(); ++p) {
+    if (weights.has_weights(p)) all.col(p) += offsets.col(p);
+  }
+  return all;
+}
+
+template <int Dim>
+PointList<Dim> Binding<Dim>::deform(const PointList<Dim>& control_points) const {
+  PointList<Dim> moved = flbc::deform<Dim>(weights, control_points);
+  if (offsets.cols() > 0) moved += offsets;
+  return moved;
+}
+
+template <int Dim>
+Eigen::MatrixXd Binding<Dim>::jacobians(const PointList<Dim>& control_points) const {
+  return point_jacobians().at(control_points);
+}
+
+template <int Dim>
+PointJacobians<Dim> Binding<Dim>::point_jacobians() const {
+  require_domain(domain);
+  const auto unless_outside = policy == OutsidePoints::kFail ? OutsidePoints::kNearest : policy;
+  return {cage, domain, domain_weights, place_points(cage, domain, rest(), unless_outside)};
+}
+
+template <int Dim>
+Binding<Dim> Binding<Dim>::reduced(const SparsifyOptions& limits,
+                                   const std::vector<PointList<Dim>>& poses,
+                                   Reduction reduction) const {
+  const auto reduce = [&](const ModelPart<Dim>& part, Index most) {
+    auto few = limits;
+    few.max_influences = most;
+    few.masks = part.masks;
+    return reduce_influences<Dim>(cage.points, part.points, part.edges, part.weights, poses, few,
+                                  reduction);
+  };
+  const auto reduce_all = [&](const ModelPart<Dim>& model) {
+    if (!mirror) return reduce(model, limits.max_influences);
+    return MirroredModel<Dim>(cage, *mirror, points).reduced(model, limits.max_influences, reduce);
+  };
+  const ModelPart<Dim> model{points, edges, weights, masks};
+  auto result = *this;
+  const bool extends = policy == OutsidePoints::kExtend && !outside.empty();
+  if (!extends) {
+    result.weights = reduce_all(model);
+    return result;
+  }
+  std::vector<Index> inside, number;
+  for (Index p = 0; p < weights.num_points(); ++p) {
+    if (!std::binary_search(outside.begin(), outside.end(), p)) inside.push_back(p);
+  }
+  const auto part = model.taken(inside, number);
+  SparseWeights few;
+  if (mirror) {
+    // A point and its partner are inside alike.
+    auto of_part = *mirror;
+    of_part.partners.clear();
+    for (const Index p : inside) {
+      const Index partner = mirror->partners[p];
+      of_part.partners.push_back(partner < 0 ? -1 : number[partner]);
+    }
+    few =
+        MirroredModel<Dim>(cage, of_part, part.points).reduced(part, limits.max_influences, reduce);
+  } else if (!inside.empty()) {
+    few = reduce(part, limits.max_influences);
+  }
+  result.weights =
+      SparseWeights::of(cage.size(), weights.num_points(), [&](Index p) -> Eigen::VectorXd {
+        return number[p] < 0 ? weights.at(p) : few.at(number[p]);
+      });
+  return result;
+}
+
+template <int Dim>
+Binding<Dim> Binding<Dim>::transferred(const PointList<Dim>& to, EdgeList to_edges,
+                                       OutsidePoints outside_policy) const {
+  require_domain(domain);
+  validate(to_edges, to.cols());
+  BindOptions options;
+  options.outside = outside_policy;
+  options.max_influences = 0;
+  options.coordinates = value_named<Coordinates>(report.method);
+  Rig<Dim> rig(cage, MadeDomain<Dim>{domain}, to, std::move(to_edges), options);
+  rig.set_solution({domain_weights, report.solve});
+  auto result = rig.bind();
+  if (!domain_masks.empty()) {
+    const PointMasks masked(domain_masks, cage.size(), domain.num_vertices());
+    const auto indicators = indicator_of(masked, cage.size(), domain.num_vertices());
+    result.masks = masks_of(weights_at(cage, domain, indicators, rig.placement()));
+    // Where weights of facets are known, masks end.
+    const PointMasks found(result.masks, cage.size(), result.weights.num_points());
+    result.masks = masks_where(cage.size(), result.weights.num_points(), [&](Index p, Index i) {
+      return found.forbids(p, i) && result.weights.at(p)[i] == 0;
+    });
+    result.domain_masks = domain_masks;
+  }
+  if (mirror) {
+    mirror_again<Dim>(result, mirror->axis, [&](const PointList<Dim>& images) {
+      const auto policy_of_images =
+          outside_policy == OutsidePoints::kFail ? OutsidePoints::kNearest : outside_policy;
+      return weights_at(cage, domain, domain_weights,
+                        place_points(cage, domain, images, policy_of_images));
+    });
+  }
+  return result;
+}
+
+template <int Dim>
+Binding<Dim> Binding<Dim>::transferred(const FacetList<3>& corners, const PointList<Dim>& to,
+                                       EdgeList to_edges, double limit,
+                                       Eigen::VectorXd* distances) const {
+  validate(to_edges, to.cols());
+  const ModelElements<Dim> from{rest(), corners};
+  const Index n = cage.size(), count = weights.num_points();
+  std::vector<Mask> is_masked;
+  if (!masks.empty()) {
+    const auto indicators = indicator_of(PointMasks(masks, n, count), n, count);
+    is_masked = masks_of(nearest_weights<Dim>(from, indicators, to, limit));
+  }
+  const auto transfer = [&](const PointList<Dim>& places, Eigen::VectorXd* found,
+                            const PointMasks& masked) {
+    return transfer_weights(cage.points, from, weights, places, limit, found, masked);
+  };
+  auto result = bound_by<Dim>(
+      cage, to, transfer(to, distances, PointMasks(is_masked, n, static_cast<Index>(to.cols()))),
+      std::move(to_edges));
+  result.masks = is_masked;
+  result.report = report;
+  result.domain = domain;
+  result.domain_weights = domain_weights;
+  result.domain_masks = domain_masks;
+  if (mirror) {
+    mirror_again<Dim>(result, mirror->axis,
+                      [&](const PointList<Dim>& images) { return transfer(images, nullptr, {}); });
+  }
+  return result;
+}
+
+template <int Dim>
+Binding<Dim> Binding<Dim>::composed(const SparseWeights& map, Cage<Dim> outer) const {
+  if (mirror) {
+    throw InputError(
+        "a mirrored binding cannot be composed, because the map may not be symmetric; "
+        "bind the model without the mirror");
+  }
+  check_size(map, outer.size(), cage.size());
+  const auto lengths = displacements<Dim>(cage.points, flbc::deform<Dim>(map, outer.points));
+  Eigen::Index worst = 0;
+  if (lengths.maxCoeff(&worst) > kBoundaryTolerance * bounding_box_diagonal(cage.points)) {
+    throw InputError("the map does not put control point " + std::to_string(worst) +
+                     " where it rests; compose needs the outer control points at rest");
+  }
+  const PointMasks inner(masks, cage.size(), weights.num_points());
+  auto result = *this;
+  result.weights = compose(weights, map);
+  const Index m = map.num_control_points();
+  std::vector<std::vector<Index>> followers(m);
+  for (Index i = 0; i < map.num_points(); ++i) {
+    map.visit(i, [&](Index j, double share) {
+      if (share > 0) followers[j].push_back(i);
+    });
+  }
+  result.masks = masks_where(m, weights.num_points(), [&](Index p, Index j) {
+    return inner.at(p) && !followers[j].empty() &&
+           std::all_of(followers[j].begin(), followers[j].end(),
+                       [&](Index i) { return inner.forbids(p, i); });
+  });
+  result.cage = std::move(outer);
+  result.domain = {};
+  result.domain_weights = {};
+  result.domain_masks = {};
+  return result;
+}
+
+template <int Dim>
+void Binding<Dim>::require_points(const PointList<Dim>& given) const {
+  if (given.cols() != points.cols()) {
+    throw InputError("has " + std::to_string(given.cols()) + " vertices, but the binding is of " +
+                     std::to_string(points.cols()) +
+                     "; bind this model, or transfer the binding to it (flbc transfer)");
+  }
+  if (given.cols() == 0) return;
+  Eigen::Index worst = 0;
+  const double distance = displacements<Dim>(rest(), given).maxCoeff(&worst);
+  if (distance <= kBoundaryTolerance * bounding_box_diagonal(cage.points)) return;
+  throw InputError("vertex " + std::to_string(worst) + " is at " + format_point(given.col(worst)) +
+                   ", but the binding has it at " + format_point(rest().col(worst)) +
+                   "; give the model at rest, or transfer the binding to this one (flbc transfer)");
+}
+
+// FNV-1a.
+template <int Dim>
+std::string Binding<Dim>::digest() const {
+  std::uint64_t hash = 14695981039346656037U;
+  const Eigen::MatrixXf all = rest().template cast<float>();
+  for (Eigen::Index k = 0; k < all.size(); ++k) {
+    std::uint32_t bits = 0;
+    const float value = all.data()[k] + 0.0F;  // no negative zeros
+    std::memcpy(&bits, &value, sizeof(bits));
+    for (int byte = 0; byte < 4; ++byte) {
+      hash = (hash ^ (bits >> (8 * byte) & 0xff)) * 1099511628211U;
+    }
+  }
+  std::string text;
+  for (int digit = 15; digit >= 0; --digit) text += "0123456789abcdef"[hash >> (4 * digit) & 0xf];
+  return text;
+}
+
+template <int Dim>
+void validate(const Binding<Dim>& binding) {
+  const auto& [cage, weights, points, offsets, edges, masks, mirror, policy, outside, domain,
+               domain_weights, domain_masks, report] = binding;
+  const Index n = cage.size(), count = weights.num_points();
+  check_size(weights, n, points.cols());
+  check_finite<Dim>(cage.points);
+  check_finite<Dim>(points);
+  check_finite<Dim>(offsets);
+  if (cage.facets.cols() > 0) check_indices(cage.facets, n, kCageNames);
+  if (offsets.cols() != 0 && offsets.cols() != count) {
+    throw InputError("there are offsets of " + std::to_string(offsets.cols()) + " points, but " +
+                     std::to_string(count) + " points");
+  }
+  validate(edges, count);
+  PointMasks(masks, n, count);
+  for (const Index p : outside) {
+    if (p < 0 || p >= count) throw InputError("there is no point " + std::to_string(p));
+  }
+  if (mirror) MirroredModel<Dim>(cage, *mirror, points);
+  if (domain.num_cells() == 0) return;
+  check_elements(domain.points, domain.cells, kMeshNames);
+  check_size(domain_weights, n, domain.num_vertices());
+  PointMasks(domain_masks, n, domain.num_vertices());
+}
+
+template <int Dim>
+Binding<Dim> bound_by(Cage<Dim> cage, const PointList<Dim>& points, SparseWeights weights,
+                      EdgeList edges, const std::vector<Mask>& masks) {
+  check_size(weights, cage.size(), points.cols());
+  check_finite<Dim>(points);
+  validate(edges, points.cols());
+  Binding<Dim> binding;
+  const auto reproduced = flbc::deform<Dim>(weights, cage.points);
+  const double tolerance = kBoundaryTolerance * bounding_box_diagonal(cage.points);
+  binding.points = points;
+  PointList<Dim> offsets = PointList<Dim>::Zero(Dim, points.cols());
+  for (Index p = 0; p < weights.num_points(); ++p) {
+    if (!weights.has_weights(p)) {
+      offsets.col(p) = points.col(p);
+    } else if ((points.col(p) - reproduced.col(p)).norm() > tolerance) {
+      offsets.col(p) = points.col(p) - reproduced.col(p);
+      binding.points.col(p) = reproduced.col(p);
+    } else {
+      continue;
+    }
+    binding.outside.push_back(p);
+  }
+  if (!binding.outside.empty()) {
+    binding.offsets = std::move(offsets);
+    binding.policy = OutsidePoints::kNearest;
+  }
+  binding.masks = cage.facets.cols() > 0 ? end_at_facets(cage, binding.points, masks) : masks;
+  const PointMasks masked(binding.masks, cage.size(), weights.num_points());
+  for (const Index p : masked.points()) {
+    weights.visit(p, [&](Index i, double weight) {
+      if (weight == 0 || !masked.forbids(p, i)) return;
+      throw InputError("the weight of control point " + std::to_string(i) + " at vertex " +
+                       std::to_string(p) + " is " + format_number(weight) +
+                       ", although it is masked; solve with this locality file");
+    });
+  }
+  binding.cage = std::move(cage);
+  binding.weights = std::move(weights);
+  binding.edges = std::move(edges);
+  return binding;
+}
+
+template <int Dim>
+Binding<Dim> bind(const Cage<Dim>& cage, const PointList<Dim>& points, const EdgeList& edges,
+                  const BindOptions& options, const Meshers<Dim>& meshers) {
+  return Rig<Dim>(cage, points, edges, options, meshers).bind();
+}
+
+template <int Dim>
+Binding<Dim> bind(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
+                  const PointList<Dim>& points, const EdgeList& edges, const BindOptions& options) {
+  return Rig<Dim>(cage, domain, points, edges, options).bind();
+}
+
+#define FLBC_INSTANTIATE(Dim)                                                                 \
+  template struct Binding<Dim>;                                                               \
+  template Binding<Dim> bound_by(Cage<Dim>, const PointList<Dim>&, SparseWeights, EdgeList,   \
+                                 const std::vector<Mask>&);                                   \
+  template Binding<Dim> bind(const Cage<Dim>&, const PointList<Dim>&, const EdgeList&,        \
+                             const BindOptions&, const Meshers<Dim>&);                        \
+  template Binding<Dim> bind(const Cage<Dim>&, const DomainMesh<Dim>&, const PointList<Dim>&, \
+                             const EdgeList&, const BindOptions&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
+
+}  // namespace flbc
