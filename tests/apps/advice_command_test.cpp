@@ -93,10 +93,6 @@ flbc run square.obj $V -o out
 1 mkdir full && cp w.npy full/weights.npy && flbc run square.obj $V -o full
 flbc run square.obj $V -o another
 flbc run square.obj $V -o full --force
-# solve one part alone, or leave out --history
-1 flbc solve two.obj $V -o x.npy --report r.json --history
-flbc solve square.obj $V -o x.npy --report r.json --history
-flbc solve two.obj $V -o x.npy --report r.json
 # Increase --max-iterations, --tolerance, or --gap
 3 flbc solve square.obj $V --max-iterations 3 -o x.npy
 flbc solve square.obj $V --max-iterations 3000 -o x.npy
@@ -199,7 +195,6 @@ class Advice : public CommandLineTest {
     const std::string zeros = "c 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\n";
     file("base/square.obj", square);
     file("base/pose.obj", "v 0 0\nv 1 0\nv 2 1\nv 0 1\nl 1 2 3 4 1\n");
-    file("base/two.obj", square + "v 2 0\nv 3 0\nv 3 1\nv 2 1\nl 5 6 7 8 5\n");
     file("base/slit.obj", "v 0 0\nv 1 0\nv 1 1\nv 0 1\nv 0 0\nl 1 2 3 4 5\n");
     file("base/loose.obj", square + "v -1 0.5\n");
     file("base/tiny.obj", "v 0 0\nv 1e-200 0\nv 1e-200 1e-200\nv 0 1e-200\nl 1 2 3 4 1\n");
