@@ -142,7 +142,7 @@ void check_arguments(ExportArguments& arguments) {
   if (arguments.bits != 0 || !arguments.poses.empty()) {
     throw OptionError(arguments.output +
                       ": vertex groups have no quantized weights and no poses; leave out "
-                      "--quantize, --pose, and --keyframes");
+                      "--quantize and --pose");
   }
 }
 
@@ -167,7 +167,7 @@ void write_vertex_groups(const Cage<Dim>& rest, const PointList<Dim>& points, co
 
 void check_files(const ExportArguments& arguments, const CageFiles& poses) {
   std::vector<std::string> inputs{arguments.model, arguments.weights, arguments.cage,
-                                  arguments.poses.keyframes, arguments.locality};
+                                  arguments.locality};
   inputs.insert(inputs.end(), poses.paths.begin(), poses.paths.end());
   require_distinct(inputs, {arguments.output});
 }
@@ -182,9 +182,6 @@ gltf::Animation<Dim> load_motion(const ExportArguments& arguments, const CageFil
     animation.times.insert(animation.times.begin(), 0);
     animation.poses.insert(animation.poses.begin(), rest.points());
   }
-  const auto& keyframes = arguments.poses.keyframes;
-  if (keyframes.empty()) return animation;
-  naming(keyframes, [&] { gltf::validate(animation, rest.points().cols()); });
   return animation;
 }
 
@@ -279,7 +276,7 @@ void add_export_command(CLI::App& app, int&) {
       ->required();
   command->add_option("--weights", a.weights, describe_weight_file())->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
-  add_rate_option(*command, a.poses, add_pose_options(*command, a.poses)[0]);
+  add_rate_option(*command, a.poses, add_pose_option(*command, a.poses));
   command->add_option("-k,--max-influences", a.options.max_influences,
                       "maximum influences per vertex, 4 or 8 (default: 8)");
   add_choice(

@@ -57,7 +57,7 @@ void check_arguments(const ViewArguments& arguments) {
 
 void check_files(const ViewArguments& arguments, const CageFiles& poses) {
   std::vector<std::string> inputs{arguments.model, arguments.weights, arguments.cage,
-                                  arguments.poses.keyframes, arguments.picture};
+                                  arguments.picture};
   inputs.insert(inputs.end(), poses.paths.begin(), poses.paths.end());
   require_distinct(inputs, {arguments.output});
 }
@@ -146,7 +146,7 @@ void add_view_command(CLI::App& app, int&) {
       ->required();
   command->add_option("--weights", a.weights, describe_weight_file())->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
-  add_rate_option(*command, a.poses, add_pose_options(*command, a.poses)[0]);
+  add_rate_option(*command, a.poses, add_pose_option(*command, a.poses));
   command->add_option(
       "-k,--max-influences", a.max_influences,
       "maximum influences per vertex, up to 16 (default: 16; above 100,000 vertices: 8)");

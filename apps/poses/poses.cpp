@@ -10,7 +10,6 @@
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
-#include "flbc/io/keyframes.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/same_vertices.h"
 #include "instantiate.h"
@@ -58,24 +57,6 @@ std::vector<NumberedFile> find_files(const std::string& pattern) {
                   with_number(pattern, 1));
   }
   return files;
-}
-
-// One pose per keyframe, at its time; in 2D displacements along z are passed over.
-template <int Dim>
-std::vector<Pose<Dim>> load_keyframes(const std::string& path, const PointList<Dim>& rest) {
-  const auto keyframes = io::read_keyframes(path);
-  std::vector<Pose<Dim>> poses;
-  for (const auto& keyframe : keyframes) {
-    const auto number = static_cast<std::int64_t>(poses.size());
-    if (keyframe.displacements.cols() != rest.cols()) {
-      throw InputError(path + ": the keyframes are for " +
-                       std::to_string(keyframe.displacements.cols()) +
-                       " control points, but the rest cage has " + std::to_string(rest.cols()));
-    }
-    poses.push_back({path + ", keyframe " + std::to_string(number), number,
-                     rest + keyframe.displacements.template topRows<Dim>(), keyframe.time});
-  }
-  return poses;
 }
 
 }  // namespace
@@ -183,7 +164,6 @@ gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>& poses) {
 template <int Dim>
 std::vector<Pose<Dim>> load_poses(const PoseArguments& arguments, const CageFiles& files,
                                   const RestCage<Dim>& rest, int first) {
-  if (!arguments.keyframes.empty()) return load_keyframes<Dim>(arguments.keyframes, rest.points());
   constexpr double kVideo = 24;
   const double usual = files.paths.size() == 1 ? 1 : kVideo;
   const double rate = arguments.frames_per_second > 0 ? arguments.frames_per_second : usual;

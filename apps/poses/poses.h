@@ -18,7 +18,7 @@ namespace flbc::app {
 
 template <int Dim>
 struct Pose {
-  std::string name;         //!< the file, for keyframes with the number: for messages
+  std::string name;         //!< the file, for messages
   std::int64_t number;      //!< in the names of sequences
   PointList<Dim> points{};  //!< Dim x n
   double time = 0;          //!< in seconds
@@ -35,10 +35,9 @@ CageFiles find_cages(const std::vector<std::string>& cages);
 //! The poses that a command takes (commands/pose_options.h).
 struct PoseArguments {
   std::vector<std::string> cages;  //!< files or a pattern of them
-  std::string keyframes;           //!< file of poses instead
   double frames_per_second = 0;    //!< 0 = 24, or one second for a single pose
 
-  bool empty() const { return cages.empty() && keyframes.empty(); }
+  bool empty() const { return cages.empty(); }
 };
 
 //! 2 or 3: as io::to_cage() decides, but by the points only where facets would not do, because
@@ -72,7 +71,7 @@ class RestCage {
   PointList<Dim> points_;
 };
 
-//! Poses of keyframes at their times, or else one pose per file.
+//! One pose per file.
 //! \param files  of the arguments \param first  the time of the first file, in poses
 template <int Dim>
 std::vector<Pose<Dim>> load_poses(const PoseArguments& arguments, const CageFiles& files,

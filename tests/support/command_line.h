@@ -36,9 +36,6 @@ inline nlohmann::json json_in(const std::string& path) {
   return nlohmann::json::parse(slurp(path));
 }
 
-//! Displacements of four control points at keyframe 0.
-inline const std::string kRestKeys = "c 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\n";
-
 //! The vertices of a model.
 template <int Dim>
 PointList<Dim> points_in(const std::string& path) {
