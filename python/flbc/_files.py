@@ -213,12 +213,12 @@ def read_weights(path: Path) -> Weights:
 
 
 def write_weights(path: Path, weights: Weights) -> None:
-    """Writes weights exactly; .lbw holds single precision.
+    """Writes weights exactly.
 
     Parameters
     ----------
     path : str or path
-        .npy, .csv, .mtx, or .lbw, which holds at most 8 influences per vertex.
+        .npy, .csv, or .mtx.
     weights : array_like or sparse matrix, shape (P, n)
 
     Raises

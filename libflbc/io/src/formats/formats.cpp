@@ -35,7 +35,6 @@ constexpr Format kFormats[] = {
     {"mtx", {}, {}, {}, {read_mtx, write_mtx}},
     {"npy", {}, {}, {}, {read_npy, write_npy}},
     {"csv", {}, {}, {}, {read_csv, write_csv}},
-    {"lbw", {}, {}, {}, {read_lbw, write_lbw}},
 };
 
 bool has(const Format& format, Content content) {
