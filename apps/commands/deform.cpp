@@ -332,7 +332,7 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
   if (!moves_points(arguments)) require_formats_of<Dim>(arguments.file);
   // Without a rest cage, the poses of a sequence must at least be poses of one cage.
   const bool has_rest = !arguments.rest.empty();
-  const RestCage<Dim> cage(has_rest ? arguments.rest : cages.paths.front(), arguments.quiet);
+  const RestCage<Dim> cage(has_rest ? arguments.rest : cages.paths.front());
   const auto poses = load_poses(arguments.poses, cages, cage);
   const auto outputs = name_outputs(poses, arguments.file.output);
   check_outputs(arguments, cages, outputs);

@@ -215,7 +215,7 @@ void print_summary(const gltf::ExportedSkin& skin, const gltf::Animation<Dim>& a
 
 template <int Dim>
 void export_model(const ExportArguments& arguments, const CageFiles& poses) {
-  const RestCage<Dim> cage(arguments.cage, arguments.quiet);
+  const RestCage<Dim> cage(arguments.cage);
   const auto& rest = cage.points();
   const auto animation = load_motion(arguments, poses, cage);
   const MovedFile same{arguments.model, arguments.model};

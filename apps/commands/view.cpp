@@ -74,7 +74,7 @@ view::PageContent<Dim> load_content(const ViewArguments& arguments, const CageFi
   content.points = std::move(model.points);
   content.surface = std::move(model.surface);
   look_from_front(content, up_of(arguments.up, arguments.model));
-  const RestCage<Dim> rest(arguments.cage, arguments.quiet);
+  const RestCage<Dim> rest(arguments.cage);
   content.poses = shown_poses(load_poses(arguments.poses, poses, rest, 1));
   if (!arguments.picture.empty()) {
     content.picture = "data:" + media_type_of(arguments.picture) + ";base64," +

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 #include <numeric>
 
 #include "files/model_facets.h"
@@ -111,18 +110,16 @@ int dimension_of_cage(const std::string& path) {
 }
 
 template <int Dim>
-RestCage<Dim>::RestCage(const std::string& path, bool quiet)
+RestCage<Dim>::RestCage(const std::string& path)
     : polygons_(io::control_polygons<Dim>(io::read_polygons(path))),
       name_(path),
-      quiet_(quiet),
       points_(io::to_points<Dim>(polygons_, path)) {
 }
 
 template <int Dim>
-RestCage<Dim>::RestCage(const Cage<Dim>& cage, std::string name, bool quiet)
+RestCage<Dim>::RestCage(const Cage<Dim>& cage, std::string name)
     : polygons_(io::control_polygons<Dim>(to_polygons(cage))),
       name_(std::move(name)),
-      quiet_(quiet),
       points_(cage.points) {
 }
 
@@ -143,12 +140,8 @@ PointList<Dim> RestCage<Dim>::load_pose(const std::string& path) const {
   // Mere points have no faces to compare.
   const bool has_faces = !pose.polygons.empty() || !pose.polylines.empty();
   if (has_faces) pose = io::control_polygons<Dim>(pose);
-  const auto same = io::find_same_vertices(polygons_, name_, pose, path);
-  if (same.are_renumbered && !quiet_) {
-    std::cerr << "flbc: " << path << ": the vertices have other numbers than those of " << name_
-              << "; they are matched by the faces\n";
-  }
-  return io::to_points<Dim>(pose, path)(Eigen::all, same.numbers);
+  io::check_same_vertices(polygons_, name_, pose, path);
+  return io::to_points<Dim>(pose, path);
 }
 
 template <int Dim>

@@ -49,25 +49,22 @@ int dimension_of_cage(const std::string& path);
 template <int Dim>
 class RestCage {
  public:
-  //! \param quiet  prints no notes
-  explicit RestCage(const std::string& path, bool quiet = false);
+  explicit RestCage(const std::string& path);
   //! A cage that no file has yet.
-  RestCage(const Cage<Dim>& cage, std::string name, bool quiet = false);
+  RestCage(const Cage<Dim>& cage, std::string name);
 
   const PointList<Dim>& points() const { return points_; }
 
   //! The cage; without facets if the file has none, or is no cage of this dimension.
   Cage<Dim> cage() const;
 
-  //! The control points in another file, in the order of this cage. A note that the file has them
-  //! in another order goes to the standard error output.
-  //! \throws InputError unless the file has the same control points and faces
+  //! The control points in another file.
+  //! \throws InputError unless the file has the same control points in the same order
   PointList<Dim> load_pose(const std::string& path) const;
 
  private:
   io::PolygonSoup polygons_;
   std::string name_;  // for messages
-  bool quiet_;
   PointList<Dim> points_;
 };
 
