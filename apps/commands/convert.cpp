@@ -107,7 +107,7 @@ void add_convert_command(CLI::App& app, int&) {
       app.add_subcommand("convert", "convert weights, a mesh, or a model to another format");
   command->footer(
       "Weights: .mtx, .npy, .csv. Conversions between them are lossless.\n"
-      "Models: .obj, .off, .ply, .stl, .glb; .om and .gltf are only read.\n"
+      "Models: .obj, .off, .ply, .stl, .glb; .gltf is only read.\n"
       "Meshes: 2D .obj, .off; 3D .mesh, .msh; .vtu is only written.\n"
       "The program reports attributes that the new format does not support. A .ply or .stl\n"
       "result is a text file if the input is.");

@@ -376,7 +376,7 @@ void add_deform_command(CLI::App& app, int&) {
       "  flbc deform model.obj --method green --rest cage.obj --pose pose.obj -o green.obj");
   command
       ->add_option("MODEL", a.file.model,
-                   "model (.obj .off .ply .stl .om .glb), domain mesh (3D: .mesh .msh), or points "
+                   "model (.obj .off .ply .stl .glb), domain mesh (3D: .mesh .msh), or points "
                    "(.npy .csv)")
       ->required();
   auto* weights = command->add_option("--weights", a.weights, describe_weight_file());

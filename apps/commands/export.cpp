@@ -271,7 +271,7 @@ void add_export_command(CLI::App& app, int&) {
       "  flbc export model.obj --weights few.mtx --cage cage.obj --pose pose.obj -o posed.glb");
   command
       ->add_option("MODEL", a.model,
-                   "model (.obj .off .ply .stl .om .glb .gltf), or domain mesh (3D: .mesh .msh) "
+                   "model (.obj .off .ply .stl .glb .gltf), or domain mesh (3D: .mesh .msh) "
                    "whose boundary is exported")
       ->required();
   command->add_option("--weights", a.weights, describe_weight_file())->required();

@@ -275,7 +275,7 @@ void add_shapes(CLI::App& command, RunArguments& a) {
       ->required();
   command.add_option(
       "MODEL", a.settings.model,
-      "model inside the cage: .obj .off .ply .stl .om .glb .gltf, or points: .npy .csv (default: "
+      "model inside the cage: .obj .off .ply .stl .glb .gltf, or points: .npy .csv (default: "
       "the mesh of the cage interior)");
   command.option_defaults()->group("Cage and poses");
   auto* makes_cage =

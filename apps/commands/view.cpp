@@ -140,9 +140,8 @@ void add_view_command(CLI::App& app, int&) {
       "The page is one file that any browser opens without a network. It deforms the model like\n"
       "flbc deform and saves poses of the cage as OBJ. Press '?' for keyboard shortcuts.");
   command
-      ->add_option(
-          "MODEL", a.model,
-          "model (.obj .off .ply .stl .om .glb .gltf), or domain mesh whose boundary is shown")
+      ->add_option("MODEL", a.model,
+                   "model (.obj .off .ply .stl .glb .gltf), or domain mesh whose boundary is shown")
       ->required();
   command->add_option("--weights", a.weights, describe_weight_file())->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
