@@ -54,13 +54,6 @@ TEST_F(HelpCommands, OldNamesOfPosesAreHiddenAliases) {
       expect(use + " " + old_name + middle + "a_%d_%d.obj", 1, "there must be one %d in the name");
     }
   }
-  for (const auto& [command, old_name] :
-       {std::pair<std::string, std::string>{"run", "--sparsify"}, {"sparsify", "--method"}}) {
-    const auto options = options_of(command);
-    EXPECT_EQ(options.count("--reduction"), 1U) << command;
-    EXPECT_EQ(options.count(old_name), 0U) << command;
-    expect(command + " x " + old_name + " best -o y", 1, "--reduction: invalid value 'best'");
-  }
   const auto deform = "deform " + model + " --weights " + weights + " -q -o ";
   expect(deform + "new.obj --pose " + cage);
   expect(deform + "old.obj --cage " + cage);
