@@ -34,9 +34,7 @@ struct OldName {
 };
 constexpr OldName kOldNames[] = {{"run", "--deformed", "--pose"},
                                  {"deform", "--cage", "--pose"},
-                                 {"export", "--cages", "--pose"},
-                                 {"run", "--sparsify", "--reduction"},
-                                 {"sparsify", "--method", "--reduction"}};
+                                 {"export", "--cages", "--pose"}};
 
 // The arguments with the names that options have now, in reverse order, as CLI11 wants them.
 std::vector<std::string> arguments_of(int argc, char** argv) {

@@ -29,13 +29,14 @@ flbc_install_component(netgen meshers flbc_netgen)
 flbc_install_component(openmesh openmesh flbc_openmesh flbc_gltf)
 if(TARGET flbc_app)
   install(TARGETS flbc_app COMPONENT program)
-  set(help ${PROJECT_BINARY_DIR}/help)
-  install(DIRECTORY ${help}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program
-    OPTIONAL FILES_MATCHING PATTERN "*.1")
-  install(FILES ${help}/flbc.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
-    RENAME flbc COMPONENT program OPTIONAL)
-  install(FILES ${help}/_flbc DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions
-    COMPONENT program OPTIONAL)
+  find_program(FLBC_HELP2MAN help2man)
+  if(FLBC_HELP2MAN AND NOT CMAKE_CROSSCOMPILING)
+    set(manual ${CMAKE_CURRENT_BINARY_DIR}/flbc.1)
+    install(CODE "execute_process(
+      COMMAND ${FLBC_HELP2MAN} --no-info --output=${manual} $<TARGET_FILE:flbc_app>
+      COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
+    install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+  endif()
   install(FILES engines/deform.glsl engines/deform.wgsl engines/webgl.html
     DESTINATION ${CMAKE_INSTALL_DATADIR}/flbc/engines COMPONENT program)
 endif()

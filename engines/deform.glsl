@@ -1,7 +1,7 @@
 #version 300 es
 // SPDX-License-Identifier: BSD-3-Clause
 // WebGL 2 and OpenGL ES 3: moves a vertex with its cage. The position is the weighted sum of up to
-// 8 control points. Attributes come from a .lbw file (docs/how-to/engines.md).
+// 8 control points. docs/how-to/engines.md has the attributes.
 precision highp float;
 uniform sampler2D cage;  // RGB32F, 1024 texels wide: texel i is control point i
 uniform mat4 toClip;

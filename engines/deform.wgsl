@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // WebGPU: moves a vertex with its cage. The position is the weighted sum of up to 8 control points.
-// Attributes come from a .lbw file (docs/how-to/engines.md).
+// docs/how-to/engines.md has the attributes.
 @group(0) @binding(0) var<storage, read> cage : array<vec4f>;  // x, y, z, unused
 @group(0) @binding(1) var<uniform> toClip : mat4x4f;
 

@@ -14,11 +14,11 @@ declare -A groups=(
     libcli11-dev nlohmann-json3-dev libpng-dev libcairo2-dev libgtest-dev
     pybind11-dev python3-dev python3-numpy"
   [netgen]="libnglib-dev"
-  [tests]="poppler-utils librsvg2-bin groff-base clang-format codespell mkdocs mkdocs-material
+  [tests]="poppler-utils librsvg2-bin clang-format codespell mkdocs mkdocs-material
     libjs-katex python3-scipy python3-pytest python3-distributed python3-matplotlib mypy"
   [browser]="chromium fonts-dejavu-core"
   [clang]="clang libclang-rt-14-dev libomp-14-dev"
-  [release]="dpkg-dev file mmdebstrap patchelf python3-pip python3-setuptools python3-venv
+  [release]="dpkg-dev file help2man mmdebstrap patchelf python3-pip python3-setuptools python3-venv
     python3-wheel"
   [pictures]="python3-pil python3-matplotlib fonts-lato gifsicle chromium"
   [site]="doxygen mkdocs mkdocs-material libjs-katex"

@@ -8,7 +8,7 @@ site=${1:-out/site}
 scripts/install_dependencies.sh site
 [ -f build/release/CMakeCache.txt ] || cmake --preset release >/dev/null
 cmake --build --preset release --target flbc_app
-scripts/site/build.sh build/release/help "$site"
+scripts/site/build.sh build/release/flbc "$site"
 cmake --preset release >/dev/null
 cmake --build --preset release --target docs
 cp -r build/release/docs/html "$site/api"

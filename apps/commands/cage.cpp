@@ -109,7 +109,7 @@ void add_cage_command(CLI::App& app, int&) {
       "  flbc cage --repair cage.obj -o repaired.obj");
   auto* model = command->add_option(
       "MODEL", a.model,
-      "model to enclose: .obj .off .ply .stl .om .glb .gltf .svg, or a .png with a silhouette");
+      "model to enclose: .obj .off .ply .stl .glb .gltf .svg, or a .png with a silhouette");
   command->add_option("-o,--output", a.output, "cage: .obj; in 3D also .off and .ply")->required();
   auto* count = command->add_option(
       "--control-points", a.options.control_points,

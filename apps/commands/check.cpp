@@ -6,14 +6,11 @@
 
 #include "commands/commands.h"
 #include "files/load.h"
-#include "files/model_facets.h"
 #include "flbc/cage_facts.h"
-#include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
-#include "poses/poses.h"
 #include "report/check_report.h"
 #include "report/report_json.h"
 #include "solve/weights_of_model.h"
@@ -26,7 +23,6 @@ struct CheckArguments {
   std::string model;
   std::string weights;
   std::string domain;
-  std::string pose;
   std::string json;
 };
 
@@ -34,13 +30,9 @@ void check_arguments(const CheckArguments& arguments) {
   if (!arguments.weights.empty() && arguments.model.empty() && arguments.domain.empty()) {
     throw OptionError("--weights needs --model or --domain, whose vertices have these weights");
   }
-  if (!arguments.pose.empty() && (arguments.model.empty() || !arguments.domain.empty())) {
-    throw OptionError("--pose needs --model and --weights of its vertices; leave out --domain");
-  }
   if (arguments.json != "-") require_writable(arguments.json, "json");
-  require_distinct(
-      {arguments.cage, arguments.model, arguments.weights, arguments.domain, arguments.pose},
-      {arguments.json});
+  require_distinct({arguments.cage, arguments.model, arguments.weights, arguments.domain},
+                   {arguments.json});
 }
 
 template <int Dim>
@@ -73,16 +65,6 @@ void check_weight_file(CheckReport<Dim>& report, const SparseWeights& weights) {
   }
 }
 
-void check_pose(CheckReport<2>&, const SparseWeights&, const std::string& pose) {
-  throw OptionError(pose + ": --pose looks for creases of a surface, and the cage is 2D");
-}
-
-void check_pose(CheckReport<3>& report, const SparseWeights& weights, const std::string& pose) {
-  const auto posed = RestCage<3>(report.cage_file).load_pose(pose);
-  const auto elements = load_model_elements<3>(report.model_file);
-  report.creases = check_creases(report.model->points, deform<3>(weights, posed), elements.corners);
-}
-
 // The table, unless the standard output is wanted for JSON.
 template <int Dim>
 void deliver(const CheckReport<Dim>& report, const std::string& json_file) {
@@ -105,11 +87,7 @@ int check(const Cage<Dim>& cage, const io::PolygonSoup& soup, const CheckArgumen
   report.weights_file = arguments.weights;
   if (report.defects.empty()) {
     if (!arguments.model.empty()) check_model(report);
-    if (!arguments.weights.empty()) {
-      const auto weights = io::read_weights(arguments.weights);
-      check_weight_file(report, weights);
-      if (!arguments.pose.empty()) check_pose(report, weights, arguments.pose);
-    }
+    if (!arguments.weights.empty()) check_weight_file(report, io::read_weights(arguments.weights));
   }
   deliver(report, arguments.json);
   if (!report.defects.empty()) {
@@ -136,9 +114,6 @@ void add_check_command(CLI::App& app, int& exit_status) {
   auto* weights = command->add_option(
       "--weights", a.weights, "weights at the vertices of --domain if given, else of --model");
   command->add_option("--domain", a.domain, "mesh of the cage interior")->needs(weights);
-  command
-      ->add_option("--pose", a.pose, "posed cage; measure the creases that it makes in the model")
-      ->needs(weights);
   command->add_option("--json", a.json,
                       "write the findings to this .json file, or to standard output (-)");
   command->callback([arguments, &exit_status] {

@@ -33,7 +33,7 @@ template <int Dim>
 void load_shape_and_pose(Comparison<Dim>& all) {
   const auto& arguments = all.arguments;
   if (!arguments.pose.empty()) {
-    all.pose = RestCage<Dim>(arguments.cage, arguments.quiet).load_pose(arguments.pose);
+    all.pose = RestCage<Dim>(arguments.cage).load_pose(arguments.pose);
   }
   if (arguments.model.empty()) return;
   auto model = load_shown_model<Dim>(arguments.model);

@@ -106,12 +106,11 @@ void add_convert_command(CLI::App& app, int&) {
   auto* command =
       app.add_subcommand("convert", "convert weights, a mesh, or a model to another format");
   command->footer(
-      "Weights: .mtx, .npy, .csv. Conversions between them are lossless. Also .lbw, for graphics\n"
-      "cards: single precision, at most 8 influences per vertex (flbc sparsify -k 8).\n"
-      "Models: .obj, .off, .ply, .stl, .glb; .om and .gltf are only read. Meshes: 2D .obj, .off; "
-      "3D\n"
-      ".mesh, .msh; .vtu is only written. The program reports attributes that the new format\n"
-      "does not support. A .ply or .stl result is a text file if the input is.");
+      "Weights: .mtx, .npy, .csv. Conversions between them are lossless.\n"
+      "Models: .obj, .off, .ply, .stl, .glb; .gltf is only read.\n"
+      "Meshes: 2D .obj, .off; 3D .mesh, .msh; .vtu is only written.\n"
+      "The program reports attributes that the new format does not support. A .ply or .stl\n"
+      "result is a text file if the input is.");
   command->add_option("IN", a.input, "file to convert")->required();
   command->add_option("-o,--output", a.output, "converted file, of the same kind as IN")
       ->required();

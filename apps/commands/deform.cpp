@@ -54,7 +54,7 @@ bool needs_jacobians(const DeformArguments& arguments) {
 
 void check_arguments(const DeformArguments& arguments) {
   if (arguments.poses.empty()) {
-    throw OptionError("no pose given; add --pose or --keyframes");
+    throw OptionError("no pose given; add --pose");
   }
   if (arguments.weights.empty() && arguments.method.empty()) {
     throw OptionError("no weights given; add --weights, or --method green");
@@ -64,10 +64,6 @@ void check_arguments(const DeformArguments& arguments) {
   }
   if (arguments.rest.empty() && arguments.is_relative) {
     throw OptionError("--relative needs --rest, from which displacements are measured");
-  }
-  if (arguments.rest.empty() && !arguments.poses.keyframes.empty()) {
-    throw OptionError(
-        "--keyframes needs --rest, because keyframes are displacements of the rest cage");
   }
   if (arguments.rest.empty() && !arguments.displacement.empty()) {
     throw OptionError("--displacement needs --rest, from which displacements are measured");
@@ -108,8 +104,8 @@ void check_arguments(const DeformArguments& arguments) {
 // No result may replace a file that is read, nor the other result.
 void check_outputs(const DeformArguments& arguments, const CageFiles& cages,
                    const std::vector<std::string>& outputs) {
-  std::vector<std::string> inputs{arguments.file.model, arguments.weights,
-                                  arguments.poses.keyframes, arguments.rest, arguments.domain};
+  std::vector<std::string> inputs{arguments.file.model, arguments.weights, arguments.rest,
+                                  arguments.domain};
   inputs.insert(inputs.end(), cages.paths.begin(), cages.paths.end());
   require_distinct(inputs, {arguments.displacement});
   for (const auto& output : outputs) {
@@ -336,7 +332,7 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
   if (!moves_points(arguments)) require_formats_of<Dim>(arguments.file);
   // Without a rest cage, the poses of a sequence must at least be poses of one cage.
   const bool has_rest = !arguments.rest.empty();
-  const RestCage<Dim> cage(has_rest ? arguments.rest : cages.paths.front(), arguments.quiet);
+  const RestCage<Dim> cage(has_rest ? arguments.rest : cages.paths.front());
   const auto poses = load_poses(arguments.poses, cages, cage);
   const auto outputs = name_outputs(poses, arguments.file.output);
   check_outputs(arguments, cages, outputs);
@@ -374,15 +370,13 @@ void add_deform_command(CLI::App& app, int&) {
       "The results of a sequence have the numbers of --pose pose_%d.obj, or count from 0.\n"
       "Points (.npy) and binary .ply files without normals may be of any size, with --domain.\n"
       "They are moved in batches, and everything in the file except coordinates stays the same.\n"
-      "Keyframes are text: 'k TIME' starts a keyframe, and 'c KEYFRAME DX DY DZ' is the\n"
-      "displacement of a control point from rest, in the order of the control points.\n"
       "\n"
       "Examples:\n"
       "  flbc deform model.obj --weights few.mtx --pose pose.obj -o moved.obj\n"
       "  flbc deform model.obj --method green --rest cage.obj --pose pose.obj -o green.obj");
   command
       ->add_option("MODEL", a.file.model,
-                   "model (.obj .off .ply .stl .om .glb), domain mesh (3D: .mesh .msh), or points "
+                   "model (.obj .off .ply .stl .glb), domain mesh (3D: .mesh .msh), or points "
                    "(.npy .csv)")
       ->required();
   auto* weights = command->add_option("--weights", a.weights, describe_weight_file());
@@ -394,7 +388,7 @@ void add_deform_command(CLI::App& app, int&) {
           ->check(CLI::IsMember({"green"}))
           ->type_name("green")
           ->excludes(weights);
-  add_pose_options(*command, a.poses);
+  add_pose_option(*command, a.poses);
   command->add_option(
       "--rest", a.rest,
       "rest cage, to check that the weights belong to MODEL; also needed to move vertices "
@@ -424,9 +418,8 @@ void add_deform_command(CLI::App& app, int&) {
   command->callback([arguments] {
     check_arguments(*arguments);
     const auto cages = find_cages(arguments->poses.cages);
-    const auto& first = arguments->poses.keyframes.empty() ? cages.paths.front() : arguments->rest;
-    dimension_of_cage(first) == 2 ? deform_model<2>(*arguments, cages)
-                                  : deform_model<3>(*arguments, cages);
+    dimension_of_cage(cages.paths.front()) == 2 ? deform_model<2>(*arguments, cages)
+                                                : deform_model<3>(*arguments, cages);
   });
 }
 

@@ -142,7 +142,7 @@ void check_arguments(ExportArguments& arguments) {
   if (arguments.bits != 0 || !arguments.poses.empty()) {
     throw OptionError(arguments.output +
                       ": vertex groups have no quantized weights and no poses; leave out "
-                      "--quantize, --pose, and --keyframes");
+                      "--quantize and --pose");
   }
 }
 
@@ -167,7 +167,7 @@ void write_vertex_groups(const Cage<Dim>& rest, const PointList<Dim>& points, co
 
 void check_files(const ExportArguments& arguments, const CageFiles& poses) {
   std::vector<std::string> inputs{arguments.model, arguments.weights, arguments.cage,
-                                  arguments.poses.keyframes, arguments.locality};
+                                  arguments.locality};
   inputs.insert(inputs.end(), poses.paths.begin(), poses.paths.end());
   require_distinct(inputs, {arguments.output});
 }
@@ -182,9 +182,6 @@ gltf::Animation<Dim> load_motion(const ExportArguments& arguments, const CageFil
     animation.times.insert(animation.times.begin(), 0);
     animation.poses.insert(animation.poses.begin(), rest.points());
   }
-  const auto& keyframes = arguments.poses.keyframes;
-  if (keyframes.empty()) return animation;
-  naming(keyframes, [&] { gltf::validate(animation, rest.points().cols()); });
   return animation;
 }
 
@@ -218,7 +215,7 @@ void print_summary(const gltf::ExportedSkin& skin, const gltf::Animation<Dim>& a
 
 template <int Dim>
 void export_model(const ExportArguments& arguments, const CageFiles& poses) {
-  const RestCage<Dim> cage(arguments.cage, arguments.quiet);
+  const RestCage<Dim> cage(arguments.cage);
   const auto& rest = cage.points();
   const auto animation = load_motion(arguments, poses, cage);
   const MovedFile same{arguments.model, arguments.model};
@@ -274,12 +271,12 @@ void add_export_command(CLI::App& app, int&) {
       "  flbc export model.obj --weights few.mtx --cage cage.obj --pose pose.obj -o posed.glb");
   command
       ->add_option("MODEL", a.model,
-                   "model (.obj .off .ply .stl .om .glb .gltf), or domain mesh (3D: .mesh .msh) "
+                   "model (.obj .off .ply .stl .glb .gltf), or domain mesh (3D: .mesh .msh) "
                    "whose boundary is exported")
       ->required();
   command->add_option("--weights", a.weights, describe_weight_file())->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
-  add_rate_option(*command, a.poses, add_pose_options(*command, a.poses)[0]);
+  add_rate_option(*command, a.poses, add_pose_option(*command, a.poses));
   command->add_option("-k,--max-influences", a.options.max_influences,
                       "maximum influences per vertex, 4 or 8 (default: 8)");
   add_choice(

@@ -2,8 +2,6 @@
 // The options of commands for poses of the cage.
 #pragma once
 
-#include <array>
-
 #include <CLI/CLI.hpp>
 
 #include "help/options.h"
@@ -11,13 +9,10 @@
 
 namespace flbc::app {
 
-//! Adds --pose and --keyframes. \return both
-inline std::array<CLI::Option*, 2> add_pose_options(CLI::App& command, PoseArguments& poses) {
-  auto* cages = command.add_option(
-      "--pose", poses.cages, "deformed cage: one or more files, or a pattern such as pose_%d.obj");
-  auto* keyframes = command.add_option("--keyframes", poses.keyframes,
-                                       "poses as displacements of the cage, with times in seconds");
-  return {cages, keyframes->excludes(cages)};
+//! Adds --pose.
+inline CLI::Option* add_pose_option(CLI::App& command, PoseArguments& poses) {
+  return command.add_option("--pose", poses.cages,
+                            "deformed cage: one or more files, or a pattern such as pose_%d.obj");
 }
 
 //! Adds --fps. \param cages  --pose

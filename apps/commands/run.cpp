@@ -275,7 +275,7 @@ void add_shapes(CLI::App& command, RunArguments& a) {
       ->required();
   command.add_option(
       "MODEL", a.settings.model,
-      "model inside the cage: .obj .off .ply .stl .om .glb .gltf, or points: .npy .csv (default: "
+      "model inside the cage: .obj .off .ply .stl .glb .gltf, or points: .npy .csv (default: "
       "the mesh of the cage interior)");
   command.option_defaults()->group("Cage and poses");
   auto* makes_cage =
@@ -318,8 +318,7 @@ void add_run_command(CLI::App& app, int& exit_status) {
       "  flbc run model.obj --auto-cage -o out\n"
       "  flbc run cage.obj model.obj --pose pose.obj -o posed");
   add_shapes(*command, a);
-  const auto [poses, keyframes] = add_pose_options(*command, a.poses);
-  keyframes->group(kMore);
+  auto* poses = add_pose_option(*command, a.poses);
   command->option_defaults()->group("Output");
   command->add_option("-o,--output", a.output, "folder for all results")
       ->required()

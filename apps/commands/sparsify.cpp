@@ -81,7 +81,7 @@ SparseWeights load_weights(const SparsifyArguments& arguments, const PointList<D
 
 template <int Dim>
 std::vector<PointList<Dim>> poses_of(const SparsifyArguments& arguments) {
-  const RestCage<Dim> rest(arguments.cage, arguments.quiet);
+  const RestCage<Dim> rest(arguments.cage);
   std::vector<PointList<Dim>> poses;
   for (const auto& path : arguments.poses) poses.push_back(rest.load_pose(path));
   return poses;

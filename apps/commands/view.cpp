@@ -57,7 +57,7 @@ void check_arguments(const ViewArguments& arguments) {
 
 void check_files(const ViewArguments& arguments, const CageFiles& poses) {
   std::vector<std::string> inputs{arguments.model, arguments.weights, arguments.cage,
-                                  arguments.poses.keyframes, arguments.picture};
+                                  arguments.picture};
   inputs.insert(inputs.end(), poses.paths.begin(), poses.paths.end());
   require_distinct(inputs, {arguments.output});
 }
@@ -74,7 +74,7 @@ view::PageContent<Dim> load_content(const ViewArguments& arguments, const CageFi
   content.points = std::move(model.points);
   content.surface = std::move(model.surface);
   look_from_front(content, up_of(arguments.up, arguments.model));
-  const RestCage<Dim> rest(arguments.cage, arguments.quiet);
+  const RestCage<Dim> rest(arguments.cage);
   content.poses = shown_poses(load_poses(arguments.poses, poses, rest, 1));
   if (!arguments.picture.empty()) {
     content.picture = "data:" + media_type_of(arguments.picture) + ";base64," +
@@ -140,13 +140,12 @@ void add_view_command(CLI::App& app, int&) {
       "The page is one file that any browser opens without a network. It deforms the model like\n"
       "flbc deform and saves poses of the cage as OBJ. Press '?' for keyboard shortcuts.");
   command
-      ->add_option(
-          "MODEL", a.model,
-          "model (.obj .off .ply .stl .om .glb .gltf), or domain mesh whose boundary is shown")
+      ->add_option("MODEL", a.model,
+                   "model (.obj .off .ply .stl .glb .gltf), or domain mesh whose boundary is shown")
       ->required();
   command->add_option("--weights", a.weights, describe_weight_file())->required();
   command->add_option("--cage", a.cage, "cage of the weights")->required();
-  add_rate_option(*command, a.poses, add_pose_options(*command, a.poses)[0]);
+  add_rate_option(*command, a.poses, add_pose_option(*command, a.poses));
   command->add_option(
       "-k,--max-influences", a.max_influences,
       "maximum influences per vertex, up to 16 (default: 16; above 100,000 vertices: 8)");

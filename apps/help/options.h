@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Options of commands, and how --help shows them: pages.py reads that.
+// Options of commands, and how --help shows them.
 #pragma once
 
 #include <CLI/CLI.hpp>

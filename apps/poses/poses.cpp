@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 #include <numeric>
 
 #include "files/model_facets.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
-#include "flbc/io/keyframes.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/same_vertices.h"
 #include "instantiate.h"
@@ -58,24 +56,6 @@ std::vector<NumberedFile> find_files(const std::string& pattern) {
                   with_number(pattern, 1));
   }
   return files;
-}
-
-// One pose per keyframe, at its time; in 2D displacements along z are passed over.
-template <int Dim>
-std::vector<Pose<Dim>> load_keyframes(const std::string& path, const PointList<Dim>& rest) {
-  const auto keyframes = io::read_keyframes(path);
-  std::vector<Pose<Dim>> poses;
-  for (const auto& keyframe : keyframes) {
-    const auto number = static_cast<std::int64_t>(poses.size());
-    if (keyframe.displacements.cols() != rest.cols()) {
-      throw InputError(path + ": the keyframes are for " +
-                       std::to_string(keyframe.displacements.cols()) +
-                       " control points, but the rest cage has " + std::to_string(rest.cols()));
-    }
-    poses.push_back({path + ", keyframe " + std::to_string(number), number,
-                     rest + keyframe.displacements.template topRows<Dim>(), keyframe.time});
-  }
-  return poses;
 }
 
 }  // namespace
@@ -130,18 +110,16 @@ int dimension_of_cage(const std::string& path) {
 }
 
 template <int Dim>
-RestCage<Dim>::RestCage(const std::string& path, bool quiet)
+RestCage<Dim>::RestCage(const std::string& path)
     : polygons_(io::control_polygons<Dim>(io::read_polygons(path))),
       name_(path),
-      quiet_(quiet),
       points_(io::to_points<Dim>(polygons_, path)) {
 }
 
 template <int Dim>
-RestCage<Dim>::RestCage(const Cage<Dim>& cage, std::string name, bool quiet)
+RestCage<Dim>::RestCage(const Cage<Dim>& cage, std::string name)
     : polygons_(io::control_polygons<Dim>(to_polygons(cage))),
       name_(std::move(name)),
-      quiet_(quiet),
       points_(cage.points) {
 }
 
@@ -162,12 +140,8 @@ PointList<Dim> RestCage<Dim>::load_pose(const std::string& path) const {
   // Mere points have no faces to compare.
   const bool has_faces = !pose.polygons.empty() || !pose.polylines.empty();
   if (has_faces) pose = io::control_polygons<Dim>(pose);
-  const auto same = io::find_same_vertices(polygons_, name_, pose, path);
-  if (same.are_renumbered && !quiet_) {
-    std::cerr << "flbc: " << path << ": the vertices have other numbers than those of " << name_
-              << "; they are matched by the faces\n";
-  }
-  return io::to_points<Dim>(pose, path)(Eigen::all, same.numbers);
+  io::check_same_vertices(polygons_, name_, pose, path);
+  return io::to_points<Dim>(pose, path);
 }
 
 template <int Dim>
@@ -183,7 +157,6 @@ gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>& poses) {
 template <int Dim>
 std::vector<Pose<Dim>> load_poses(const PoseArguments& arguments, const CageFiles& files,
                                   const RestCage<Dim>& rest, int first) {
-  if (!arguments.keyframes.empty()) return load_keyframes<Dim>(arguments.keyframes, rest.points());
   constexpr double kVideo = 24;
   const double usual = files.paths.size() == 1 ? 1 : kVideo;
   const double rate = arguments.frames_per_second > 0 ? arguments.frames_per_second : usual;

@@ -18,7 +18,7 @@ namespace flbc::app {
 
 template <int Dim>
 struct Pose {
-  std::string name;         //!< the file, for keyframes with the number: for messages
+  std::string name;         //!< the file, for messages
   std::int64_t number;      //!< in the names of sequences
   PointList<Dim> points{};  //!< Dim x n
   double time = 0;          //!< in seconds
@@ -35,10 +35,9 @@ CageFiles find_cages(const std::vector<std::string>& cages);
 //! The poses that a command takes (commands/pose_options.h).
 struct PoseArguments {
   std::vector<std::string> cages;  //!< files or a pattern of them
-  std::string keyframes;           //!< file of poses instead
   double frames_per_second = 0;    //!< 0 = 24, or one second for a single pose
 
-  bool empty() const { return cages.empty() && keyframes.empty(); }
+  bool empty() const { return cages.empty(); }
 };
 
 //! 2 or 3: as io::to_cage() decides, but by the points only where facets would not do, because
@@ -50,29 +49,26 @@ int dimension_of_cage(const std::string& path);
 template <int Dim>
 class RestCage {
  public:
-  //! \param quiet  prints no notes
-  explicit RestCage(const std::string& path, bool quiet = false);
+  explicit RestCage(const std::string& path);
   //! A cage that no file has yet.
-  RestCage(const Cage<Dim>& cage, std::string name, bool quiet = false);
+  RestCage(const Cage<Dim>& cage, std::string name);
 
   const PointList<Dim>& points() const { return points_; }
 
   //! The cage; without facets if the file has none, or is no cage of this dimension.
   Cage<Dim> cage() const;
 
-  //! The control points in another file, in the order of this cage. A note that the file has them
-  //! in another order goes to the standard error output.
-  //! \throws InputError unless the file has the same control points and faces
+  //! The control points in another file.
+  //! \throws InputError unless the file has the same control points in the same order
   PointList<Dim> load_pose(const std::string& path) const;
 
  private:
   io::PolygonSoup polygons_;
   std::string name_;  // for messages
-  bool quiet_;
   PointList<Dim> points_;
 };
 
-//! Poses of keyframes at their times, or else one pose per file.
+//! One pose per file.
 //! \param files  of the arguments \param first  the time of the first file, in poses
 template <int Dim>
 std::vector<Pose<Dim>> load_poses(const PoseArguments& arguments, const CageFiles& files,

@@ -149,14 +149,6 @@ Json check_json(const CheckReport<Dim>& report) {
   Json json{{"fine", report.is_fine()}, {"cage", cage_json(report)}};
   if (report.model) json["model"] = model_json(report);
   if (report.weights) json["weights"] = weights_json(report);
-  if (report.creases) {
-    const auto& creases = *report.creases;
-    json["creases"] = {{"edges", creases.edges},
-                       {"mean", creases.mean},
-                       {"at_99_percent", creases.high},
-                       {"largest", creases.largest},
-                       {"ends", creases.ends}};
-  }
   json["version"] = FLBC_VERSION;
   return json;
 }

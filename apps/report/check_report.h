@@ -39,7 +39,6 @@ struct CheckReport {
   std::optional<ModelCheck<Dim>> model{};
   std::optional<WeightCheck<Dim>> weights{};
   std::vector<std::string> violations{};  //!< by the weights
-  std::optional<CreaseCheck> creases{};   //!< of the model in a pose, 3D
 
   bool is_fine() const { return defects.empty() && violations.empty(); }
 };

@@ -189,18 +189,6 @@ void print_weights(std::ostream& out, const Json& weights, const Json& points_fi
              {{std::filesystem::path(file).filename().string(), weights["properties"]}}));
 }
 
-void print_creases(std::ostream& out, const Json& creases) {
-  out << "Creases in the pose: the angle between faces changes by " << number(creases["mean"], 3)
-      << " degrees on average, by at most " << number(creases["at_99_percent"], 3)
-      << " degrees at 99 % of the edges";
-  const auto& ends = creases["ends"];
-  if (ends[0] >= 0) {
-    out << ", most (" << number(creases["largest"], 3) << " degrees) at the edge between vertices "
-        << ends[0] << " and " << ends[1];
-  }
-  out << '\n';
-}
-
 }  // namespace
 
 void print_check(std::ostream& out, const Json& report) {
@@ -214,7 +202,6 @@ void print_check(std::ostream& out, const Json& report) {
     print_weights(out, weights,
                   weights["domain"] == "" ? report["model"]["file"] : weights["domain"]);
   }
-  if (report.contains("creases")) print_creases(out, report["creases"]);
 }
 
 }  // namespace flbc::app

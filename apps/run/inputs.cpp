@@ -16,14 +16,10 @@ void load_motion(const Cage<Dim>& cage, const RunArguments& arguments, RunInputs
   if (given.empty()) return;
   const auto files = find_cages(given.cages);
   inputs.files.insert(inputs.files.end(), files.paths.begin(), files.paths.end());
-  if (!given.keyframes.empty()) inputs.files.push_back(given.keyframes);
-  const auto rest = arguments.makes_cage ? RestCage<Dim>(cage, "the cage", arguments.quiet)
-                                         : RestCage<Dim>(arguments.settings.cage, arguments.quiet);
+  const auto rest = arguments.makes_cage ? RestCage<Dim>(cage, "the cage")
+                                         : RestCage<Dim>(arguments.settings.cage);
   inputs.poses = load_poses(given, files, rest, 1);
   auto& animation = inputs.animation = animation_of(inputs.poses);
-  if (!given.keyframes.empty()) {
-    return naming(given.keyframes, [&] { gltf::validate(animation, cage.size()); });
-  }
   // The cage starts where it rests.
   animation.times.insert(animation.times.begin(), 0);
   animation.poses.insert(animation.poses.begin(), cage.points);

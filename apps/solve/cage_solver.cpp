@@ -104,15 +104,6 @@ bool surrounds(const PointList<Dim>& outer, const PointList<Dim>& inner) {
          (outer.rowwise().maxCoeff().array() > inner.rowwise().maxCoeff().array()).all();
 }
 
-template <int Dim>
-void refuse_history_of_parts(const Cage<Dim>& cage) {
-  const auto count = cage_parts(cage).size();
-  if (count < 2) return;
-  throw OptionError("--history: the cage has " + std::to_string(count) +
-                    " parts, and each has its own iteration; solve one part alone, or leave out "
-                    "--history");
-}
-
 // Where a part is, for readers of the report to identify it.
 template <int Dim>
 nlohmann::ordered_json parts_json(const Cage<Dim>& cage, const std::vector<SolveReport>& reports) {
@@ -169,7 +160,6 @@ CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
     throw InputError(settings.model + ": surrounds the cage " + settings.cage +
                      "; are CAGE and MODEL swapped?");
   }
-  if (settings.history) refuse_history_of_parts(cage);
 }
 
 template <int Dim>
@@ -291,17 +281,14 @@ void CageSolver<Dim>::solve(bool quiet) {
   settings.options.masks = rig_->masks().of_mesh;
   settings.options.reach = locality_.reach;
   ProgressBar bar(quiet, "setting up: boundary values, distances", settings.options);
-  HistoryRecorder recorder(settings.options);
   Observer observer;
   observer.progress = [&](const Progress& progress) {
     bar.show(progress);
-    if (settings_.history) recorder.note(progress);
     return true;
   };
   observer.stage = [&](Stage stage, double done) { bar.show(name_of(stage), done); };
   rig_->set_solution(naming(settings_.domain.empty() ? settings_.cage : settings_.domain,
                             [&] { return compute_weights(cage_, domain(), settings, observer); }));
-  if (settings_.history) history_ = recorder.finished(report());
   rig_->weights_of_points();
 }
 
@@ -342,7 +329,6 @@ nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
                         {"freed", locality_.freed}};
   }
   if (!report().parts.empty()) json["parts"] = parts_json(cage_, report().parts);
-  if (!history_.empty()) json["history"] = history_json(history_);
   return json;
 }
 

@@ -18,7 +18,6 @@
 #include "flbc/quality.h"
 #include "flbc/rig.h"
 #include "help/wording.h"
-#include "report/history.h"
 #include "solve/solve_settings.h"
 
 namespace flbc::app {
@@ -96,7 +95,6 @@ class CageSolver {
   const char* outside_verb_ = "are";  // "vertices VERB outside the cage"
   double mesh_seconds_ = 0;           // for making or reading it
   std::string mesher_ = "none";
-  std::vector<HistoryEntry> history_;
   Locality locality_;
   EmbeddablePoints<Dim> embedded_;  // of the model, if it is to be embedded
   std::unique_ptr<Rig<Dim>> rig_;

@@ -151,8 +151,6 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
                      "penalty parameter for a domain scaled to radius 250, as published (default: "
                      "depends on --method)");
   add_mesher_options(command, settings.meshing);
-  command.add_flag("--history", settings.history,
-                   "record error, residuals, and objective by iteration in the report");
 }
 
 }  // namespace flbc::app

@@ -23,7 +23,6 @@ struct SolveSettings {
   OutsidePoints outside = OutsidePoints::kFail;  //!< treatment of the model's vertices there
   Index vertices = 0;                            //!< wanted, 0 = as make_domain() chooses
   MesherSettings meshing{};
-  bool history = false;                      //!< the report lists the progress of the iteration
   std::optional<double> penalty{};           //!< as published (flbc/published_penalty.h)
   SolverOptions options{};                   //!< but for the penalty, which depends on the mesh
   std::string locality{};                    //!< file of the model's masks, or else the domain's

@@ -39,7 +39,7 @@ def read_cage(path: Path) -> Cage:
     Parameters
     ----------
     path : str or path
-        .obj, .off, .ply, .stl, .om, or the outline of a drawing in .svg.
+        .obj, .off, .ply, .stl, or the outline of a drawing in .svg.
 
     Raises
     ------
@@ -96,7 +96,7 @@ def read_model(path: Path, dim: Optional[int] = None) -> Model:
     Parameters
     ----------
     path : str or path
-        .obj, .off, .ply, .stl, or .om.
+        .obj, .off, .ply, or .stl.
     dim : int, optional
         Number of coordinates, 2 or 3. Default: 2 if all points have the same z.
 
@@ -213,12 +213,12 @@ def read_weights(path: Path) -> Weights:
 
 
 def write_weights(path: Path, weights: Weights) -> None:
-    """Writes weights exactly; .lbw holds single precision.
+    """Writes weights exactly.
 
     Parameters
     ----------
     path : str or path
-        .npy, .csv, .mtx, or .lbw, which holds at most 8 influences per vertex.
+        .npy, .csv, or .mtx.
     weights : array_like or sparse matrix, shape (P, n)
 
     Raises

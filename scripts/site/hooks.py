@@ -2,12 +2,13 @@
 """What MkDocs does not do on its own: command pages, the Python module, the changelog, and links to files
 outside docs/.
 
-The command pages come from the folder FLBC_HELP, where the build writes them (`apps/help/pages.py`).
+The command pages have the help of the program FLBC_PROGRAM.
 """
 import os
 import pathlib
 import re
 import shutil
+import subprocess
 import sys
 
 from mkdocs.structure.files import File
@@ -22,22 +23,29 @@ OUTSIDE = "outside:"  # MkDocs leaves links with a scheme alone
 LINK = re.compile(r"(\]\()([^)\s#]+)(#[^)\s]*)?(\))")
 
 
-def generated(folder):
+def help_of(*arguments):
+    return subprocess.run([os.environ["FLBC_PROGRAM"], *arguments], check=True, capture_output=True, text=True).stdout
+
+
+def generated():
     """Pages that are not in docs/, by their path on the site."""
     pages = {"changelog.md": (ROOT / "CHANGELOG.md").read_text(), "reference/python.md": python_reference.page()}
-    for page in sorted(folder.glob("*.md")):
-        text = page.read_text()
-        example = DOCS / "reference" / "cli" / f"{page.stem}.sh"
-        if example.exists():
-            text += f"\n## Example\n\n```sh\n{example.read_text().strip()}\n```\n"
-        pages[f"reference/cli/{page.name}"] = text
+    index = "# Commands\n\nThe program `flbc` has these commands.\n\n| Command | Purpose |\n|---|---|\n"
+    commands = help_of("--help").partition("Commands:")[2]
+    for name, purpose in re.findall(r"^  ([a-z]+) +(.*(?:\n {30}.*)*)", commands, re.M):
+        index += f"| [`flbc {name}`]({name}.md) | {' '.join(purpose.split())} |\n"
+        example = (DOCS / "reference" / "cli" / f"{name}.sh").read_text()
+        pages[f"reference/cli/{name}.md"] = (
+            f"# flbc {name}\n\n```text\n{help_of(name, '--help-all')}```\n\n## Example\n\n```sh\n{example}```\n\n"
+            "See also: [exit status](../file_formats.md#exit-status), [all commands](index.md).\n")
+    pages["reference/cli/index.md"] = index
     return pages
 
 
 def on_files(files, config):
     folder = pathlib.Path(config["site_dir"] + ".generated")
     shutil.rmtree(folder, ignore_errors=True)
-    for name, text in generated(pathlib.Path(os.environ["FLBC_HELP"])).items():
+    for name, text in generated().items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)

@@ -93,10 +93,6 @@ flbc run square.obj $V -o out
 1 mkdir full && cp w.npy full/weights.npy && flbc run square.obj $V -o full
 flbc run square.obj $V -o another
 flbc run square.obj $V -o full --force
-# solve one part alone, or leave out --history
-1 flbc solve two.obj $V -o x.npy --report r.json --history
-flbc solve square.obj $V -o x.npy --report r.json --history
-flbc solve two.obj $V -o x.npy --report r.json
 # Increase --max-iterations, --tolerance, or --gap
 3 flbc solve square.obj $V --max-iterations 3 -o x.npy
 flbc solve square.obj $V --max-iterations 3000 -o x.npy
@@ -123,16 +119,12 @@ flbc check square.obj --weights dw.npy --domain d.obj
 # ; write .glb
 1 flbc convert model.obj -o m.glb; flbc export m.glb --weights w.npy --cage square.obj -o x.py
 flbc solve square.obj --model m.glb $V -o v.npy && flbc export m.glb --weights v.npy --cage square.obj -o x.glb
-# add --pose or --keyframes
+# add --pose
 1 flbc deform model.obj --weights w.npy -o y.obj
 flbc deform model.obj --weights w.npy --pose pose.obj -o y.obj
-flbc deform model.obj --weights w.npy --keyframes keys.txt --rest square.obj -o y_%d.obj
-# --keyframes needs --rest
-1 flbc deform model.obj --weights w.npy --keyframes keys.txt -o y_%d.obj
-flbc deform model.obj --weights w.npy --keyframes keys.txt --rest square.obj -o y_%d.obj
 # add %d to this name, as in out_%03d.obj
-1 flbc deform model.obj --weights w.npy --keyframes keys.txt --rest square.obj -o y.obj
-flbc deform model.obj --weights w.npy --keyframes keys.txt --rest square.obj -o out_%03d.obj
+1 flbc deform model.obj --weights w.npy --pose square.obj pose.obj -o y.obj
+flbc deform model.obj --weights w.npy --pose square.obj pose.obj -o out_%03d.obj
 # --displacement needs --rest
 1 flbc deform model.obj --weights w.npy --pose pose.obj --displacement x.npy -o y.obj
 flbc deform model.obj --weights w.npy --pose pose.obj --rest square.obj --displacement x.npy -o y.obj
@@ -196,10 +188,8 @@ class Advice : public CommandLineTest {
     std::filesystem::rename("3d", "base/3d");
     const std::string square = "v 0 0\nv 1 0\nv 1 1\nv 0 1\nl 1 2 3 4 1\n";
     const std::string points = "v 0.5 0.5 0\nv 0.3 0.2 0\nv 0.2 0.6 0\n";
-    const std::string zeros = "c 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\nc 0 0 0 0\n";
     file("base/square.obj", square);
     file("base/pose.obj", "v 0 0\nv 1 0\nv 2 1\nv 0 1\nl 1 2 3 4 1\n");
-    file("base/two.obj", square + "v 2 0\nv 3 0\nv 3 1\nv 2 1\nl 5 6 7 8 5\n");
     file("base/slit.obj", "v 0 0\nv 1 0\nv 1 1\nv 0 1\nv 0 0\nl 1 2 3 4 5\n");
     file("base/loose.obj", square + "v -1 0.5\n");
     file("base/tiny.obj", "v 0 0\nv 1e-200 0\nv 1e-200 1e-200\nv 0 1e-200\nl 1 2 3 4 1\n");
@@ -211,8 +201,6 @@ class Advice : public CommandLineTest {
     file("base/points.obj", points);
     file("base/model.obj", points + "f 1 2 3\n");
     file("base/outside.obj", "v 0.5 0.5 0\nv 0.3 -0.2 0\nv 0.2 0.6 0\nf 1 2 3\n");
-    file("base/keys.txt",
-         "k 0\nk 1\n" + zeros + std::regex_replace(zeros, std::regex("c 0"), "c 1"));
     EXPECT_EQ(shell("flbc solve square.obj --model model.obj $V -q -o w.npy", "base").status, 0);
     EXPECT_EQ(shell("flbc solve square.obj $V --save-domain d.obj -q -o dw.npy", "base").status, 0);
   }

@@ -105,30 +105,6 @@ TEST_F(CheckCommand, CagesTooThinAreRefusedBeforeTheyAreMeshed) {
   EXPECT_LT(processor_seconds() - start, 20);  // meshers take minutes
 }
 
-// Smoothness trades locality for smaller jumps of gradients, and weaker creases of a pose.
-TEST_F(CheckCommand, SmoothnessShowsInJumpsAndCreases) {
-  const std::string cage = "3d/limb_cage.obj", model = "3d/limb_model.obj";
-  const auto measured = [&](const std::string& smoothness) {
-    const auto end = "_" + smoothness;
-    expect("solve " + cage + " --model " + model + " --vertices 2000 --smoothness " + smoothness +
-               " -o w" + end + ".npy --report s" + end + ".json",
-           0);
-    EXPECT_EQ(json_in("s" + end + ".json")["options"]["smoothness"], std::stod(smoothness));
-    expect_check(cage + " --model " + model + " --weights w" + end +
-                     ".npy --pose 3d/limb_cage_pose.obj --json c" + end + ".json",
-                 0, {"Creases in the pose: "});
-    return json_in("c" + end + ".json");
-  };
-  const auto rough = measured("0"), smooth = measured("0.01");
-  EXPECT_GT(rough["creases"]["edges"], 100);
-  EXPECT_LT(smooth["creases"]["at_99_percent"], rough["creases"]["at_99_percent"]);
-  EXPECT_GT(smooth["weights"]["mean_influences"], rough["weights"]["mean_influences"]);
-
-  expect_check(cage + " --model " + model + " --pose " + model, 1, {}, {"--pose"});
-  expect_check(cage + " --model " + model + " --weights w_0.npy --pose " + model, 2, {},
-               {"limb_model.obj"});
-}
-
 TEST_F(CheckCommand, ModelsOutsideAreCountedAndNamed) {
   const auto cage = file("cage.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nl 1 2 3 4 1\n");
   const auto model = file("model.obj", "v 1 1 0\nv 5 1 0\nv 2 -1 0\nv 0 2 0\n");

@@ -113,8 +113,8 @@ TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
   const auto to = [&](const std::string& name) { return " -o " + name; };
   expect_refused("a.npy" + to("b.obj"), 1, "b.obj: weights cannot be written as a mesh");
   expect_refused(model + to("b.npy"), 1, "b.npy: a mesh cannot be written as weights");
-  expect_refused("a.txt" + to("b.npy"), 1, "weights end in .mtx, .npy, .csv or .lbw");
-  expect_refused("a.npy" + to("b.txt"), 1, "must end in .mtx, .npy, .csv or .lbw");
+  expect_refused("a.txt" + to("b.npy"), 1, "weights end in .mtx, .npy or .csv");
+  expect_refused("a.npy" + to("b.txt"), 1, "must end in .mtx, .npy or .csv");
   expect_refused(model + to("b.xls"), 1, "b.xls: unknown file format");
   expect_refused(model + to("b.msh"), 1, "b.msh: " + model + " holds no tetrahedra");
   expect_refused("a.mesh" + to("b.obj"), 1, "b.obj: a.mesh holds tetrahedra");

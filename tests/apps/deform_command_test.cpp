@@ -218,43 +218,13 @@ TEST_F(DeformCommand, Sequences) {
   expect_deform(command + "pose_%02d.obj" + pattern, 1, "would replace this input file");
 }
 
-TEST_F(DeformCommand, Keyframes) {
-  const auto rest = tetrahedron();
-  const auto model = file("model.obj", kModel);
-  const auto weights = " --weights " + linear_weights(model_points());
-  const auto keys =
-      file("keys.txt", "k 0\nk 1.5\n" + kRestKeys + "c 1 0 0 0\nc 1 1 0 0\nc 1 0 1 0\nc 1 0 0 1\n");
-  const auto command = model + weights + " --keyframes ";
-  expect_deform(command + keys + " --rest " + rest + " -o o_%d.obj", 0, "2 poses");
-  EXPECT_EQ(points_in<3>("o_0.obj"), model_points());
-  EXPECT_EQ(points_in<3>("o_1.obj"), 2 * model_points());
-
-  const std::string output = " -o k_%d.obj";
-  expect_deform(command + keys + " --pose " + rest + output, 1, "--pose");
-  const auto few = file("few.txt", "k 0\nc 0 0 0 0\n");
-  expect_deform(command + few + " --rest " + rest + output, 2,
-                "few.txt: the keyframes are for 1 control points, but the rest cage has 4");
-  const auto uneven = file("uneven.txt", "k 0\nk 1\n" + kRestKeys + "c 1 0 0 0\n");
-  expect_deform(command + uneven + " --rest " + rest + output, 2,
-                "keyframe 1 has 1 control points, keyframe 0 has 4");
-  const auto none = file("none.txt", "k 0\nk 1\n" + kRestKeys);
-  expect_deform(command + none + " --rest " + rest + output, 2, "keyframe 1 has no displacements");
-  const auto back = file("back.txt", "k 1.5\n" + kRestKeys + "# then\nk 0.5\nc 1 0 0 0\n");
-  expect_deform(command + back + " --rest " + rest + output, 2,
-                "back.txt:7: keyframe 1 at 0.5 comes before keyframe 0 at 1.5");
-  const auto unknown = file("unknown.txt", "k 0\n" + kRestKeys + "c 1 0 0 0\n");
-  expect_deform(command + unknown + " --rest " + rest + output, 2, "unknown.txt:6: ");
-  EXPECT_FALSE(std::filesystem::exists("k_0.obj"));
-}
-
 // They are finite, although their squares are not. Of a sequence that fails nothing is left.
 TEST_F(DeformCommand, EnormousDisplacements) {
   const auto model = file("model.obj", kModel);
   const auto rest = tetrahedron();
-  const std::string steps = "c 1 1e200 0 0\nc 1 1e200 0 0\nc 1 1e200 0 0\nc 1 1e200 0 0\n";
-  const auto keys = file("keys.txt", "k 0\nk 1\n" + kRestKeys + steps);
+  const auto away = tetrahedron("v 1e200 0 0\nv 1e200 0 0\nv 1e200 1 0\nv 1e200 0 1\n", "away.obj");
   expect_deform(model + " --weights " + linear_weights(model_points()) + " --rest " + rest +
-                    " --displacement d.npy --keyframes " + keys + " -o o_%d.obj",
+                    " --displacement d.npy --pose " + rest + " " + away + " -o o_%d.obj",
                 0, "largest displacement 1e+200");
   EXPECT_NEAR(io::read_weights("d.npy").dense().maxCoeff(), 1e200, 1e186);
   std::filesystem::remove("o_0.obj");

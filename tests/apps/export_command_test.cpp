@@ -594,30 +594,6 @@ TEST_F(ExportCommand, RoundedWeights) {
   expect_export(arguments + "12", 1, "--quantize: invalid value '12'; choose from 8|16");
 }
 
-TEST_F(ExportCommand, KeyframesHaveTimes) {
-  const std::string moved = "c 1 2 0 0\nc 1 0 0 0\nc 1 0 0 0\nc 1 0 0 0\n";
-  const auto keys = file("keys.txt", "k 0.25\nk 1.5\n" + kRestKeys + moved);
-  const auto command = square() + " -o s.glb --keyframes ";
-  expect_export(command + keys, 0, "2 poses in 1.5 s that move 1 joints");
-  const auto file_with_keys = skin("s.glb");
-  const auto expect_first_joint = [&](double time, double x) {
-    EXPECT_EQ(file_with_keys.joints(time)(0, 0), x);
-  };
-  expect_first_joint(0, 0);
-  expect_first_joint(0.25, 0);
-  expect_first_joint(0.875, 1);
-  expect_first_joint(1.5, 2);
-
-  std::filesystem::remove("s.glb");
-  expect_export(command + file("k1.txt", "k 1\nk 1\n" + kRestKeys + moved), 2,
-                "k1.txt: pose 1 is at 1 s, not later");
-  expect_export(command + file("k2.txt", "k -1\n" + kRestKeys), 2, "k2.txt: pose 0 is at -1 s");
-  expect_export(command + file("k3.txt", "k 0\nc 0 0 0 0\n"), 2, "for 1 control points");
-  expect_export(command + keys + " --fps 3", 1, "--pose");
-  expect_export(command + keys + " --pose cage.obj", 1, "cannot be combined with");
-  EXPECT_FALSE(std::filesystem::exists("s.glb"));
-}
-
 TEST_F(ExportCommand, SequencesOfCages) {
   const auto command = square() + " -o s.glb";
   for (int k = 1; k <= 3; ++k) {
@@ -681,7 +657,7 @@ TEST_F(ExportCommand, FilesThatDoNotFitAndWrongUsage) {
 
   // No result may replace what is read.
   std::filesystem::copy("w.npy", "w.glb");
-  expect_export(arguments + " -o w.glb --keyframes w.glb", 1, "would replace this input file");
+  expect_export(arguments + " -o w.glb --pose w.glb", 1, "would replace this input file");
   EXPECT_EQ(slurp("w.glb"), slurp("w.npy"));
 }
 

@@ -168,11 +168,6 @@ TYPED_TEST(PartsCommand, OutsideOfAllParts) {
   }
 }
 
-TYPED_TEST(PartsCommand, WhatWantsOnePartSaysSo) {
-  const auto cage = this->both();
-  this->expect("solve " + cage + " --history -o w.npy", 1, "--history: the cage has 2 parts");
-}
-
 using PartsOfPicture = CommandLineTest;
 
 // Two discs, one of them a ring with a third disc in it.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The progress line: within 80 columns, never going back, with the time that is left; and the
-// history of a solve.
+// The progress line: within 80 columns, never going back, with the time that is left.
 #include "solve/progress_estimate.h"
 #include "support/command_line.h"
 
@@ -80,49 +79,6 @@ TEST_F(ProgressLine, IsForTerminalsOnly) {
     ++lines;
   }
   EXPECT_GT(lines, 0U);
-}
-
-using History = flbc::testing::CommandLineTest;
-
-TEST_F(History, EndsAsTheReportSays) {
-  const auto solved = [&](const std::string& cage, const std::string& options) {
-    expect("solve " + cage + " -q --vertices 400 -o w.npy --report r.json " + options);
-    return flbc::testing::json_in("r.json");
-  };
-  for (const std::string cage : {"2d/letter_cage.obj", "3d/limb_cage.obj"}) {
-    for (const std::string method : {"weights", "gradient", "lbc2014"}) {
-      SCOPED_TRACE(cage + " " + method);
-      const auto report = solved(cage, "--history --certify --method " + method);
-      const auto& history = report["history"];
-      const auto count = history["iterations"].size();
-      ASSERT_GT(count, 2U);
-      for (const auto& [name, values] : history.items()) EXPECT_EQ(values.size(), count) << name;
-      int last = 0;
-      double seconds = 0;
-      for (std::size_t k = 0; k < count; ++k) {
-        EXPECT_GE(history["iterations"][k], last);
-        EXPECT_GE(history["seconds"][k], seconds);
-        last = history["iterations"][k];
-        seconds = history["seconds"][k];
-      }
-      int coarse = 0;
-      for (const auto& level : report["coarse_levels"]) coarse += level["iterations"].get<int>();
-      EXPECT_EQ(last, coarse + report["iterations"].get<int>());
-      EXPECT_EQ(history["relative_primal_residual"].back(), report["relative_primal_residual"]);
-      EXPECT_EQ(history["objective"].back(), report["objective"]);
-      EXPECT_GE(history["objective"].back(), report["lower_bound"]);
-      EXPECT_EQ(history["estimated_error"].back().is_number(), method != "lbc2014");
-      // Where weights are at hand, their objective is near the last one's soon.
-      if (method != "gradient") {
-        EXPECT_NEAR(history["objective"][count - 2].get<double>(),
-                    report["objective"].get<double>(), 0.01 * report["objective"].get<double>());
-      }
-      // Looking on changes nothing.
-      const auto weights = flbc::testing::slurp("w.npy");
-      EXPECT_FALSE(solved(cage, "--certify --method " + method).contains("history"));
-      EXPECT_EQ(flbc::testing::slurp("w.npy"), weights);
-    }
-  }
 }
 
 }  // namespace

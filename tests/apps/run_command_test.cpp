@@ -314,17 +314,6 @@ TEST_F(RunCommand, SplatsGetACageAndMoveAsByDeform) {
              "has splats, which have no weights of their own");
 }
 
-TEST_F(RunCommand, KeyframesOfTheArm) {
-  if (!has_model("3d/arm_cageAnim.txt")) GTEST_SKIP() << "the real models are absent";
-  expect_run("out",
-             model_path("3d/arm_cage.obj") + " " + model_path("3d/arm.obj") +
-                 " --method harmonic --vertices 1000 --keyframes " +
-                 model_path("3d/arm_cageAnim.txt"),
-             0, "deformed_*.obj      3 poses; largest displacement 32");
-  EXPECT_EQ(names_in("out").count("deformed_002.obj"), 1U);
-  EXPECT_EQ(report("out")["export"]["times"], (std::vector<double>{0, 1.5, 3}));
-}
-
 TEST_F(RunCommand, AFolderThatAnotherRunWritesToIsRefused) {
   expect_run("a", "2d/letter_cage.obj --vertices 300", 0, "report.json");
   const auto names = names_in("a");

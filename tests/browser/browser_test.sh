@@ -71,7 +71,7 @@ awk 'BEGIN { print "%%MatrixMarket matrix coordinate real general\n81 4 324" }
 # The example for engines.
 mkdir engine
 cp "$here"/../../engines/* engine
-"$flbc" convert limb.mtx -q -o engine/weights.lbw
+cp limb.mtx engine/sparse_weights.mtx
 cp "$meshes/3d/limb_cage.obj" engine/cage.obj
 cp "$meshes/3d/limb_cage_pose.obj" engine/pose.obj
 cp "$meshes/3d/limb_model.obj" engine/model.obj

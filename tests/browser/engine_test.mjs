@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The shaders for engines against flbc deform: engine_test.mjs BROWSER FOLDER
-// FOLDER: the files of engines/ with weights.lbw, cage.obj, and model.obj, and for the test pose.obj
+// FOLDER: the files of engines/ with sparse_weights.mtx, cage.obj, and model.obj, and for the test pose.obj
 // and moved.obj.
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
@@ -74,16 +74,15 @@ try {
       let vertex = Influences(indices[2 * v], indices[2 * v + 1], weights[2 * v], weights[2 * v + 1]);
       results[v] = vec4f(moved(vertex), toClip[0].x);
     }`;
-  const weights = Array.from(readFileSync(join(folder, "weights.lbw")));
-  const result = await tab.evaluate(async (code, bytes, cage) => {
+  const result = await tab.evaluate(async (code, cage) => {
     const adapter = await navigator.gpu?.requestAdapter();
     if (!adapter) return null;
     const device = await adapter.requestDevice();
     const module = device.createShaderModule({ code });
     const { messages } = await module.getCompilationInfo();
     if (messages.length > 0) throw new Error(messages.map((m) => m.message).join("; "));
-    const file = Uint8Array.from(bytes).buffer;
-    const count = new Uint32Array(file, 4, 1)[0];
+    const { indices, weights } = window.example;
+    const count = weights.length / 8;
     const { STORAGE, COPY_SRC, COPY_DST, MAP_READ, UNIFORM } = GPUBufferUsage;
     const buffer = (data, usage) => {
       const made = device.createBuffer({ size: data.byteLength, usage: usage | COPY_DST });
@@ -94,8 +93,8 @@ try {
     for (let k = 0; k < cage.length; ++k) padded[4 * Math.floor(k / 3) + k % 3] = cage[k];
     const results = buffer(new Float32Array(4 * count), STORAGE | COPY_SRC);
     const buffers = [buffer(padded, STORAGE), buffer(new Float32Array(16), UNIFORM),
-                     buffer(Uint32Array.from(new Uint16Array(file, 16, 8 * count)), STORAGE),
-                     buffer(new Float32Array(file, 16 + 16 * count, 8 * count), STORAGE), results];
+                     buffer(Uint32Array.from(indices), STORAGE),
+                     buffer(weights, STORAGE), results];
     const pipeline = device.createComputePipeline(
       { layout: "auto", compute: { module, entryPoint: "all" } });
     const group = device.createBindGroup({
@@ -112,7 +111,7 @@ try {
     device.queue.submit([encoder.finish()]);
     await read.mapAsync(GPUMapMode.READ);
     return Array.from(new Float32Array(read.getMappedRange())).filter((_, k) => k % 4 < 3);
-  }, wgsl, weights, places("pose.obj"));
+  }, wgsl, places("pose.obj"));
   if (result) expectNear(result, places("moved.obj"), "in WGSL");
   console.log(result ? "GLSL and WGSL move as flbc deform" :
                        "GLSL moves as flbc deform; this browser has no WebGPU");

@@ -291,27 +291,6 @@ TEST_IN_2D_AND_3D(CheckTest, JumpsOfGradientsAreThoseAcrossInteriorFacets) {
   EXPECT_NEAR(weighted.check().mesh->harmonic_gradient_jump, expected, 1e-6 * expected);
 }
 
-// A square of two triangles, folded along its diagonal.
-TEST(Creases, AreChangesOfTheAngleBetweenFaces) {
-  PointList<3> rest{{0, 1, 1, 0}, {0, 0, 1, 1}, {0, 0, 0, 0}};
-  FacetList<3> triangles{{0, 0}, {1, 2}, {2, 3}};
-  EXPECT_NEAR(check_creases(rest, rest, triangles).largest, 0, 1e-12);
-  for (const double height : {1.0, -1.0}) {
-    PointList<3> posed = rest;
-    posed(2, 3) = height;  // the second triangle leans by atan(height / sqrt(1/2))
-    const auto creases = check_creases(rest, posed, triangles);
-    EXPECT_EQ(creases.edges, 1);
-    EXPECT_NEAR(creases.largest, 54.7356103172453, 1e-9);
-    EXPECT_EQ(creases.mean, creases.largest);
-    EXPECT_EQ(creases.ends[0], 0);
-    EXPECT_EQ(creases.ends[1], 2);
-  }
-  PointList<3> flat = rest;
-  flat.col(3) = rest.col(0);
-  EXPECT_EQ(check_creases(rest, flat, triangles).edges, 0);  // degenerate
-  EXPECT_THROW(check_creases(rest, rest.leftCols(3), triangles), InputError);
-}
-
 TEST_IN_2D_AND_3D(CheckTest, SameResultForAnyNumberOfThreads) {
   Weighted<Dim> weighted;
   weighted.weights += 0.01 * WeightMatrix::Random(weighted.weights.rows(), weighted.weights.cols());

@@ -458,12 +458,6 @@ void judge(Mutator& mutator) {
       [&] { find_violations(check_weights(cage, mesh, weights)); },
       [&] { total_variation(mesh, weights); },
       [&] { objective(mesh, some_phi<Dim>(mutator), weights); },
-      [&] {
-        if constexpr (Dim == 3) {
-          check_creases(some_points<3>(mutator), some_points<3>(mutator),
-                        FacetList<3>(mesh.cells.template topRows<3>()));
-        }
-      },
   });
 }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Weights and animations.
+// Weights.
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "flbc/io/keyframes.h"
 #include "flbc/io/weights_io.h"
 #include "fuzz/reader.h"
 
@@ -27,19 +26,6 @@ void read_weights(const std::string& path) {
   require(io::read_weights(path) == weights, "what is written is read back");
 }
 
-void read_keyframes(const std::string& path) {
-  const auto keyframes = io::read_keyframes(path);
-  require(!keyframes.empty(), "there are keyframes");
-  const auto controls = keyframes.front().displacements.cols();
-  for (const auto& keyframe : keyframes) {
-    require(std::isfinite(keyframe.time) && keyframe.displacements.allFinite(), "all is finite");
-    require(controls > 0 && keyframe.displacements.cols() == controls, "all have the same size");
-  }
-  require(std::is_sorted(keyframes.begin(), keyframes.end(),
-                         [](const auto& a, const auto& b) { return a.time < b.time; }),
-          "times never decrease");
-}
-
 std::string file_of_weights(const std::string& name) {
   WeightMatrix weights(2, 3);
   weights << 1, 0, 1.0 / 3, 0, 1, 2.0 / 3;
@@ -48,7 +34,6 @@ std::string file_of_weights(const std::string& name) {
 
 const char* const kMtxArray =
     "%%MatrixMarket matrix array real general\n% by hand\n2 2\n1\n0\n0.25\n1e-3\n";
-const char* const kKeyframes = "k 0\nk 0.5 # s\nc 0 0 0 0\nc 1 1 0 -1e-3\nc 0 1 2 3\nc 1 0 0 0\n";
 
 }  // namespace
 
@@ -60,8 +45,7 @@ std::vector<Reader> weight_readers() {
        read_weights,
        {file_of_weights("a.npy"),
         npy("{'descr': '<f4', 'fortran_order': True, 'shape': (3L, 2), }", std::string(24, '\0'))}},
-      {"csv", "input.csv", read_weights, {file_of_weights("a.csv")}},
-      {"keyframes", "input.txt", read_keyframes, {kKeyframes}}};
+      {"csv", "input.csv", read_weights, {file_of_weights("a.csv")}}};
 }
 
 }  // namespace flbc::fuzz

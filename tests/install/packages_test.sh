@@ -64,10 +64,7 @@ if [[ " ${runtime[*]} " == *python3-flbc* ]]; then
 cage = flbc.read_cage('meshes/3d/limb_cage.obj')
 assert flbc.solve(cage, flbc.mesh(cage, vertices=1000)).converged"
 fi
-for file in out/model.glb usr/share/man/man1/flbc-solve.1.gz \
-  usr/share/bash-completion/completions/flbc; do
-  [ -s "$root/$file" ] || [ -s "$root/${file%.gz}" ] || { echo "no $file"; exit 1; }
-done
+[ -s "$root/out/model.glb" ] || { echo "no model.glb"; exit 1; }
 
 # ---- programs of others, with all packages -------------------------------------------------------
 cp /etc/resolv.conf "$root/etc"

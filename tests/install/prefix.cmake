@@ -15,9 +15,7 @@ foreach(component cgal caging tetgen openmesh)
 endforeach()
 
 if(PROGRAM)
-  foreach(file man/man1/flbc.1 man/man1/flbc-solve.1 bash-completion/completions/flbc
-      zsh/site-functions/_flbc
-      flbc/engines/deform.glsl flbc/engines/deform.wgsl flbc/engines/webgl.html)
+  foreach(file flbc/engines/deform.glsl flbc/engines/deform.wgsl flbc/engines/webgl.html)
     if(NOT EXISTS ${WORK}/moved/share/${file})
       message(FATAL_ERROR "share/${file} is not installed")
     endif()

@@ -23,7 +23,7 @@ TEST_F(Formats, ExtensionsTellWhatFilesHold) {
     EXPECT_FALSE(holds(unknown, {Content::kModel, Content::kWeights})) << unknown;
   }
   EXPECT_EQ(io::extensions_of({Content::kFields}), ".vtu");
-  EXPECT_EQ(io::extensions_of({Content::kWeights}), ".mtx, .npy, .csv or .lbw");
+  EXPECT_EQ(io::extensions_of({Content::kWeights}), ".mtx, .npy or .csv");
 }
 
 TEST_F(Formats, OtherFilesAreNoModels) {

@@ -3,7 +3,6 @@
 #include "flbc/io/model_file.h"
 
 #include "flbc/io/cage_io.h"
-#include "flbc/openmesh/wide_property.h"
 #include "support/model_kinds.h"
 
 namespace flbc::testing {
@@ -102,97 +101,6 @@ TEST_F(ModelFileTest, StlKeepsItsTriangles) {
       EXPECT_LT((after.normal(f) - turned(before.normal(f))).norm(), 1e-5);
     }
   }
-}
-
-TEST_F(ModelFileTest, NormalsOfPolygonsInOmFilesTurn) {
-  const auto mesh = box_with_attributes();
-  write_by_openmesh(mesh, path("a.om"), Options(Options::FaceNormal));
-  const ModelFile file(path("a.om"));
-  make("a.om", rewritten<3>(file, turned(points_of(mesh))));
-  const auto moved = read_by_openmesh(path("a.om"), Options(Options::FaceNormal));
-  for (const auto f : mesh.faces()) {
-    EXPECT_LT((moved.normal(f) - turned(mesh.normal(f))).norm(), 1e-12) << "face " << f.idx();
-  }
-}
-
-TEST_F(ModelFileTest, PropertiesInOmFilesStay) {
-  auto mesh = box_with_attributes();
-  OpenMesh::VPropHandleT<double> mass;
-  OpenMesh::EPropHandleT<bool> flag;
-  OpenMesh::MPropHandleT<std::string> note;
-  OpenMesh::VPropHandleT<openmesh::Wide<double>> rows;  // as weights are
-  const auto add = [&](OpenMeshModel& to) {
-    to.add_property(mass, "mass");
-    to.add_property(flag, "flag");
-    to.add_property(note, "note");
-    to.add_property(rows, "rows");
-    to.property(mass).set_persistent(true);
-    to.property(flag).set_persistent(true);
-    to.mproperty(note).set_persistent(true);
-    to.property(rows).set_persistent(true);
-  };
-  add(mesh);
-  for (const auto v : mesh.vertices()) mesh.property(mass, v) = 1.0 / (1 + v.idx());
-  for (const auto e : mesh.edges()) mesh.property(flag, e) = e.idx() % 3 == 0;
-  mesh.property(note) = "made by hand";
-  mesh.property(rows).set_shape(1, 7);
-  for (const auto v : mesh.vertices()) mesh.property(rows, v)[v.idx() % 7] = 1.0 / (2 + v.idx());
-  write_by_openmesh(mesh, path("a.om"));
-  const ModelFile file(path("a.om"));
-  make("a.om", rewritten<3>(file, turned(points_of(mesh))));
-  OpenMeshModel moved;
-  add(moved);
-  ASSERT_TRUE(OpenMesh::IO::read_mesh(moved, path("a.om")));
-  EXPECT_EQ(points_of(moved), turned(points_of(mesh)));
-  EXPECT_EQ(moved.property(note), "made by hand");
-  for (const auto v : mesh.vertices()) EXPECT_EQ(moved.property(mass, v), mesh.property(mass, v));
-  for (const auto e : mesh.edges()) EXPECT_EQ(moved.property(flag, e), mesh.property(flag, e));
-  ASSERT_EQ(moved.property(rows).width(), 7U);
-  for (const auto v : mesh.vertices()) {
-    for (int k = 0; k < 7; ++k) {
-      EXPECT_EQ(moved.property(rows, v)[k], mesh.property(rows, v)[k]) << v.idx() << " " << k;
-    }
-  }
-  EXPECT_EQ(io::losses(file.model(), "a.ply"),
-            (std::vector<std::string>{"property \"mass\"", "property \"rows\"", "property \"flag\"",
-                                      "property \"note\""}));
-}
-
-// The files of OpenMesh's first versions list the vertices of faces.
-TEST_F(ModelFileTest, OldOmFiles) {
-  const auto bytes = [](auto... values) {
-    std::string result;
-    (result.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
-    return result;
-  };
-  std::string file = "OMP";
-  file += bytes(std::uint8_t(1 << 5 | 2), std::uint32_t(5), std::uint32_t(2), std::uint32_t(6));
-  file += bytes(std::uint16_t(3 << 9 | 2 << 11));  // coordinates: floating, signed, three
-  const float x[] = {0, 1, 1, 0, 2}, y[] = {0, 0, 1, 1, 2};
-  for (int k = 0; k < 5; ++k) file += bytes(x[k], y[k], 0.5f);
-  file += bytes(std::uint16_t(2 << 2 | 7 << 5));  // vertices of faces, a byte each
-  file += bytes(std::uint16_t(4)) + std::string("\0\1\2\3", 4);
-  file += bytes(std::uint16_t(3)) + std::string("\2\1\4", 3);
-  const ModelFile model = open("a.om", file);
-  PointList<3> expected(3, 5);
-  for (int k = 0; k < 5; ++k) expected.col(k) << x[k], y[k], 0.5;
-  EXPECT_EQ(io::to_points<3>(model.model().soup, ""), expected);
-  EXPECT_EQ(model.model().soup.polygons,
-            (std::vector<std::vector<Index>>{{0, 1, 2, 3}, {2, 1, 4}}));
-  const PointList<3> points = turned(expected);
-  make("a.om", rewritten<3>(model, points));
-  EXPECT_EQ(io::to_points<3>(ModelFile(path("a.om")).model().soup, ""), points);
-}
-
-// OpenMesh marks colors of unsigned bytes as floating but not signed.
-TEST_F(ModelFileTest, ColorsOfBytesInOmFiles) {
-  std::string bytes("OMT\x22\1\0\0\0\0\0\0\0\0\0\0\0", 16);
-  bytes += std::string("\x00\x16", 2) + std::string(12, '\0');  // coordinates: 3 floats
-  bytes += std::string("\x80\x14\xff\x00\x33", 5);              // colors: 3 bytes
-  const auto file = open("a.om", bytes);
-  const auto& colors = file.model().attributes.colors;
-  ASSERT_EQ(colors.cols(), 1);
-  EXPECT_EQ(colors.col(0), Vector<3>(1, 0, 0.2));
 }
 
 // Vertices are numbered by first occurrence, coordinates are in single precision.
@@ -410,9 +318,7 @@ TEST_F(ModelFileTest, DefectsAreNamed) {
          "ply\nformat ascii 1.0\nelement vertex 1\nproperty uint packed_position\n"
          "property uint packed_rotation\nend_header\n1 2\n",
          "export them uncompressed");
-  refuse("a.om", "OMP\x62" + std::string(12, '\0'), "version 3.2 of the format is not supported");
-  refuse("b.om", "liquid", "not an OpenMesh file");
-  EXPECT_THROW(ModelFile(path("missing.om")), IoError);
+  EXPECT_THROW(ModelFile(path("missing.ply")), IoError);
   EXPECT_THROW(ModelFile(path("a.vtk")), OptionError);
   EXPECT_THROW(io::write_model(path("a.vtk"), io::Model{}), OptionError);
 }

@@ -102,37 +102,6 @@ TEST_F(WeightsFile, CsvHasALinePerPoint) {
                                    {"1,nan\n", ":1: ", "nan"}});
 }
 
-// What shaders read.
-TEST_F(WeightsFile, LbwHasEightWeightsPerVertexTheLargestFirst) {
-  WeightMatrix weights = WeightMatrix::Zero(300, 2);
-  weights(299, 0) = 0.25;
-  weights(1, 0) = 0.75;
-  for (int k = 0; k < 8; ++k) weights(20 * k, 1) = 0.125;
-  write_weights(path("w.lbw"), weights);
-  const std::string written = content("w.lbw");
-  ASSERT_EQ(written.size(), 16U + 2 * 8 * 6);
-  EXPECT_EQ(written.substr(0, 4), "LBW1");
-  const auto number = [&](auto example, std::size_t at) {
-    std::memcpy(&example, written.data() + at, sizeof example);
-    return example;
-  };
-  EXPECT_EQ(number(std::uint32_t{}, 4), 2U);
-  EXPECT_EQ(number(std::uint32_t{}, 8), 300U);
-  EXPECT_EQ(number(std::uint32_t{}, 12), 8U);
-  EXPECT_EQ(number(std::uint16_t{}, 16), 1U);
-  EXPECT_EQ(number(std::uint16_t{}, 18), 299U);
-  EXPECT_EQ(number(float{}, 16 + 2 * 16), 0.75F);
-  EXPECT_EQ(number(float{}, 16 + 2 * 16 + 8), 0.0F);
-  expect_error<OptionError>([&] { read_weights(path("w.lbw")); }, {path("w.lbw"), "only written"});
-
-  weights(7, 1) = 0.1;
-  expect_error<InputError>([&] { write_weights(path("w.lbw"), weights); },
-                           {"vertex 1 has 9 influences", "reduce them first"});
-  expect_error<InputError>(
-      [&] { write_weights(path("w.lbw"), WeightMatrix(WeightMatrix::Identity(65537, 1))); },
-      {"65536 control points"});
-}
-
 TEST_F(WeightsFile, NegativeZeroHasNoEntryInMtx) {
   WeightMatrix weights(2, 1);
   weights << -0.0, 1;
@@ -279,10 +248,9 @@ TEST_F(WeightsFile, MalformedNpy) {
 TEST_F(WeightsFile, OtherExtensionsAreRefused) {
   for (const std::string name : {"weights.txt", "weights.mat", "weights", "-"}) {
     const std::string file = name == "-" ? name : path(name);
-    expect_error<OptionError>([&] { read_weights(file).dense(); },
-                              {file, ".mtx, .npy, .csv or .lbw"});
+    expect_error<OptionError>([&] { read_weights(file).dense(); }, {file, ".mtx, .npy or .csv"});
     expect_error<OptionError>([&] { write_weights(file, small_weights()); },
-                              {file, ".mtx, .npy, .csv or .lbw"});
+                              {file, ".mtx, .npy or .csv"});
   }
   EXPECT_TRUE(names().empty());
 }

@@ -8,7 +8,7 @@ python=/usr/bin/python3
 for package in mkdocs mkdocs-material libjs-katex; do
   dpkg-query -W "$package" >/dev/null 2>&1 || { echo "skipped: $package is missing"; exit 77; }
 done
-"$repository/scripts/site/build.sh" "$build/help" "$site"
+"$repository/scripts/site/build.sh" "$build/flbc" "$site"
 if [ -f "$build/docs/Doxyfile" ] && command -v doxygen >/dev/null; then
   doxygen "$build/docs/Doxyfile" >"$site/../doxygen.log" 2>&1
   cp -r "$build/docs/html" "$site/api"

@@ -131,7 +131,7 @@ export class Flbc {
   /** A skin of 4 or 8 influences per vertex, with poses of the cage at times in seconds. Of a glTF
    *  file, its whole document is kept. */
   glb(options?: { influences?: 4 | 8; times?: number[]; poses?: Numbers[] }): Promise<Bytes>;
-  weightFile(options?: { format?: "npy" | "mtx" | "csv" | "lbw"; of?: "model" | "mesh" }): Promise<Bytes>;
+  weightFile(options?: { format?: "npy" | "mtx" | "csv"; of?: "model" | "mesh" }): Promise<Bytes>;
   cageFile(): Promise<Bytes>;
   meshFile(): Promise<Bytes>;
   /** The model where these control points take it. */

@@ -1,2 +1,2 @@
 flbc solve meshes/3d/limb_cage.obj --model meshes/3d/limb_model.obj --vertices 3000 \
-  --history --report out/solve.json -o out/weights.npy
+  --report out/solve.json -o out/weights.npy

@@ -112,24 +112,6 @@ struct LeastReach {
 template <int Dim>
 LeastReach<Dim> least_reach(const Cage<Dim>& cage, const PointList<Dim>& points);
 
-//! Changes of the angles between neighboring faces of a surface in a pose, in degrees: creases that
-//! a deformation makes.
-struct CreaseCheck {
-  Index edges = 0;           //!< number of edges with two faces, none of them degenerate
-  double mean = 0;           //!< mean change
-  double high = 0;           //!< 99 % of the edges change by at most this
-  double largest = 0;        //!< largest change
-  Index ends[2] = {-1, -1};  //!< vertices of that edge
-};
-
-//! Changes of the angles between neighboring triangles of a surface in a pose.
-//! \param rest  3 x P
-//! \param posed  3 x P, the same surface in a pose
-//! \param triangles  3 x T, consistently oriented
-//! \throws InputError if the sizes do not match
-CreaseCheck check_creases(const PointList<3>& rest, const PointList<3>& posed,
-                          const FacetList<3>& triangles);
-
 //! Local extrema up to this depth are within the accuracy of a solve. Iterates to the default
 //! tolerance have extrema up to 1e-3; true extrema of optima are 9e-3 deep (conjecture1.csv).
 constexpr double kSolverAccuracy = 2e-3;

@@ -24,7 +24,6 @@ constexpr Format kFormats[] = {
     {"off", {read_off, write_off, Attributes::kVertices}, kTriangles},
     {"ply", {read_ply, write_ply, Attributes::kVertices}},
     {"stl", {read_stl, write_stl}},
-    {"om", {read_om, nullptr, Attributes::kVertices}},  // OpenMesh writes it
     {"glb", {read_gltf, write_glb, Attributes::kCorners}},
     {"gltf", {read_gltf, nullptr, Attributes::kCorners}},
     {"vrm", {read_gltf, nullptr, Attributes::kCorners}},  // .glb of persons
@@ -36,7 +35,6 @@ constexpr Format kFormats[] = {
     {"npy", {}, {}, {}, {read_npy, write_npy}},
     {"csv", {}, {}, {}, {read_csv, write_csv}},
     {"npz", {}, {}, {}, {read_npz, write_npz}},
-    {"lbw", {}, {}, {}, {read_lbw, write_lbw}},
 };
 
 bool has(const Format& format, Content content) {
@@ -96,6 +94,10 @@ std::string conversion_hint(const std::string& path) {
        "convert it to .obj or .ply first, for example in Blender"},
       {" dxf ", "save the drawing as .svg first, for example in Inkscape"},
       {" node ele ", "convert it to .mesh first: tetgen -g writes it, and meshio converts it"},
+      {" om ",
+       "save it as .ply with OpenMesh::IO, or deform the mesh with flbc/openmesh/bind.h, which "
+       "keeps "
+       "its properties"},
       {" dmat ",
        "write .csv from libigl: out << W.format(Eigen::IOFormat(Eigen::FullPrecision, "
        "Eigen::DontAlignCols, \",\"))"},

@@ -89,13 +89,12 @@ struct VertexAttributes {
   const PointList<3>& colors;
 };
 
-//! Read a file, whose text `scan` has; .ply, .stl, and .om support every extent.
+//! Read a file, whose text `scan` has; .ply and .stl support every extent.
 //! \throws as ModelFile does
 void read_obj(const std::string& path, Extent extent, ModelScan& scan);
 void read_off(const std::string& path, Extent extent, ModelScan& scan);
 void read_ply(const std::string& path, Extent extent, ModelScan& scan);
 void read_stl(const std::string& path, Extent extent, ModelScan& scan);
-void read_om(const std::string& path, Extent extent, ModelScan& scan);
 void read_gltf(const std::string& path, Extent extent, ModelScan& scan);
 void read_svg(const std::string& path, Extent extent, ModelScan& scan);
 

@@ -2,12 +2,11 @@
 #include "flbc/io/same_vertices.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
-#include <numeric>
-#include <optional>
 #include <set>
 #include <utility>
+
+#include <Eigen/Geometry>
 
 #include "base/union_find.h"
 #include "flbc/errors.h"
@@ -17,194 +16,123 @@ namespace {
 
 using Polygon = std::vector<Index>;
 using Polygons = std::vector<Polygon>;
-using Edge = std::pair<Index, Index>;
-using Surface = std::map<Edge, Index>;  // by directed edge, the vertex after it in its polygon
+using Corners = std::set<Index>;
+using Edge = std::pair<Index, Index>;  // ascending
 
-// The polygons, each from its least vertex on, in the direction of the lesser neighbor.
-std::multiset<Polygon> normalized(const Polygons& polygons) {
-  std::multiset<Polygon> all;
-  for (auto polygon : polygons) {
-    std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
-    if (polygon.size() > 2 && polygon[1] > polygon.back()) {
-      std::reverse(polygon.begin() + 1, polygon.end());
-    }
-    all.insert(std::move(polygon));
+Vector<3> area_vector(const Polygon& polygon, const std::vector<Vector<3>>& points) {
+  Vector<3> area = Vector<3>::Zero();
+  for (std::size_t k = 1; k < polygon.size(); ++k) {
+    const auto& start = points[polygon[0]];
+    area += (points[polygon[k - 1]] - start).cross(points[polygon[k]] - start);
   }
-  return all;
+  return area;
+}
+
+// From the least vertex on, in the direction of the lesser neighbor.
+Polygon normalized(Polygon polygon) {
+  std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
+  if (polygon.size() > 2 && polygon[1] > polygon.back()) {
+    std::reverse(polygon.begin() + 1, polygon.end());
+  }
+  return polygon;
 }
 
 template <class Use>
 void for_edges(const Polygons& polygons, const Use& use) {
   for (std::size_t f = 0; f < polygons.size(); ++f) {
     const auto& polygon = polygons[f];
-    for (std::size_t k = 0, count = polygon.size(); k < count; ++k) {
-      use(static_cast<Index>(f), Edge{polygon[k], polygon[(k + 1) % count]},
-          polygon[(k + 2) % count]);
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      use(static_cast<Index>(f), Edge(std::minmax(polygon[k], polygon[(k + 1) % polygon.size()])));
     }
   }
 }
 
-Surface surface_of(const Polygons& polygons) {
-  Surface next;
-  for_edges(polygons, [&](Index, Edge edge, Index vertex) { next.emplace(edge, vertex); });
-  return next;
-}
+// Polygons without the edges between them that the other file does not have.
+struct Whole {
+  Corners corners{};
+  std::size_t num_edges = 0;  // of the border
+  Vector<3> area = Vector<3>::Zero();
+  double sum_of_areas = 0;
 
-// The vertices of the polygons that remain without the edges that the other file does not have;
-// nothing if one of them is not a polygon with all vertices on its border.
-std::set<std::set<Index>> joined(const Polygons& polygons, const Surface& other) {
-  const auto is_kept = [&](Edge edge) {
-    return other.count(edge) + other.count({edge.second, edge.first}) > 0;
-  };
-  UnionFind groups(static_cast<Index>(polygons.size()));
-  Surface first;  // polygon by edge
+  bool is_flat() const { return area.norm() > 0.8 * sum_of_areas; }  // two triangles: 74 degrees
+};
+
+// By corners; nothing if one of them is not a polygon with all vertices on its border.
+std::map<Corners, Whole> joined(const PolygonSoup& soup, const Polygons& other) {
+  std::set<Edge> kept;
+  for_edges(other, [&](Index, Edge edge) { kept.insert(edge); });
+  UnionFind groups(static_cast<Index>(soup.polygons.size()));
+  std::map<Edge, Index> first;  // polygon by edge
   bool are_simple = true;
-  for_edges(polygons, [&](Index f, Edge edge, Index) {
-    if (is_kept(edge)) return;
-    const auto [at, is_new] = first.emplace(std::minmax(edge.first, edge.second), f);
+  for_edges(soup.polygons, [&](Index f, Edge edge) {
+    if (kept.count(edge) > 0) return;
+    const auto [at, is_new] = first.emplace(edge, f);
     are_simple &= is_new || groups.find(at->second) != groups.find(f);
     groups.unite(at->second, f);
   });
   if (!are_simple) return {};
-  std::map<Index, std::pair<std::set<Index>, std::size_t>> wholes;  // vertices, edges of the border
-  for_edges(polygons, [&](Index f, Edge edge, Index) {
-    auto& [vertices, num_edges] = wholes[groups.find(f)];
-    vertices.insert(edge.first);
-    num_edges += is_kept(edge);
+  std::map<Index, Whole> wholes;
+  for_edges(soup.polygons, [&](Index f, Edge edge) {
+    auto& whole = wholes[groups.find(f)];
+    whole.corners.insert({edge.first, edge.second});
+    whole.num_edges += kept.count(edge);
   });
-  std::set<std::set<Index>> result;
+  for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
+    const auto area = area_vector(soup.polygons[f], soup.points);
+    auto& whole = wholes[groups.find(static_cast<Index>(f))];
+    whole.area += area;
+    whole.sum_of_areas += area.norm();
+  }
+  std::map<Corners, Whole> result;
   for (auto& [_, whole] : wholes) {
-    if (whole.first.size() != whole.second) return {};
-    result.insert(std::move(whole.first));
+    if (whole.corners.size() != whole.num_edges) return {};
+    result.emplace(whole.corners, whole);
   }
   return result;
 }
 
-struct Match {
-  std::vector<Index> numbers;  // in the pose, by vertex of the rest; -1 if not matched
-  std::vector<Index> origins;  // the reverse
-  double squares = 0;          // of the distances between the vertices matched last
-};
-
-// Matches all polygons that edges connect with an edge of the rest, given the image of the edge.
-// \return whether they are the same polygons, no farther away than `bound`
-bool extend(Match& match, const PolygonSoup& rest, const Surface& rest_next,
-            const PolygonSoup& pose, const Surface& pose_next, Edge start, Edge image,
-            double bound) {
-  std::set<Edge> done;
-  std::vector<std::pair<Edge, Edge>> waiting{{start, image}};
-  while (!waiting.empty()) {
-    const auto [edge, to] = waiting.back();
-    waiting.pop_back();
-    Index& number = match.numbers[edge.first];
-    Index& origin = match.origins[to.first];
-    if (number < 0 && origin < 0) {
-      number = to.first;
-      origin = edge.first;
-      match.squares += (rest.points[edge.first] - pose.points[to.first]).squaredNorm();
-    }
-    if (number != to.first || origin != edge.first || match.squares > bound) return false;
-    if (!done.insert(edge).second) continue;
-    const auto next = rest_next.find(edge), next_to = pose_next.find(to);
-    if ((next == rest_next.end()) != (next_to == pose_next.end())) return false;
-    if (next == rest_next.end()) continue;  // a border
-    waiting.push_back({{edge.second, next->second}, {to.second, next_to->second}});
-    waiting.push_back({{edge.second, edge.first}, {to.second, to.first}});
+// Whether the files divide the same polygons. Other vertices can join to the same polygons as well,
+// in particular of few vertices: one of the files must have these, or they are flat at rest.
+bool are_divided(const PolygonSoup& rest, const PolygonSoup& pose) {
+  std::set<Corners> given;
+  for (const auto* soup : {&rest, &pose}) {
+    for (const auto& polygon : soup->polygons) given.emplace(polygon.begin(), polygon.end());
   }
-  return true;
-}
-
-// The number in the pose by vertex of the rest. Whether a file lists the polygons the other way
-// around does not matter. \return nothing if a part, which is polygons connected by edges, has no
-// match, or if all together would move the vertices by `bound` or more
-std::optional<std::vector<Index>> match(const PolygonSoup& rest, const PolygonSoup& pose,
-                                        double bound, const std::string& pose_name) {
-  constexpr double kEqual = 1 + 1e-9;  // ratio of squares that only rounding separates
-  auto turned = pose.polygons;
-  for (auto& polygon : turned) std::reverse(polygon.begin(), polygon.end());
-  const auto rest_next = surface_of(rest.polygons);
-  const Surface images[] = {surface_of(pose.polygons), surface_of(turned)};
-  const std::vector<Index> none(rest.points.size(), -1);
-  Match found{none, none};
-  for (const auto& [edge, _] : rest_next) {
-    if (found.numbers[edge.first] >= 0) continue;
-    std::optional<Match> best;
-    bool is_ambiguous = false;
-    for (const auto& pose_next : images) {
-      for (const auto& [image, unused] : pose_next) {
-        Match part{found.numbers, found.origins};
-        const double limit = best ? kEqual * best->squares : bound;
-        if (!extend(part, rest, rest_next, pose, pose_next, edge, image, limit)) continue;
-        if (best && part.numbers == best->numbers) continue;
-        is_ambiguous = best && kEqual * part.squares >= best->squares;
-        if (!is_ambiguous) best = std::move(part);
-      }
-    }
-    if (is_ambiguous) {
-      throw InputError(pose_name +
-                       ": its vertices have other numbers than those of the cage, and " +
-                       "several matches move them equally far; keep the numbers of the cage");
-    }
-    if (!best || best->squares >= bound) return {};
-    bound -= best->squares;
-    found = std::move(*best);
-  }
-  // Vertices of no polygon have nothing but their order.
-  auto free = found.origins.begin();
-  for (Index& number : found.numbers) {
-    if (number >= 0) continue;
-    free = std::find(free, found.origins.end(), -1);
-    number = static_cast<Index>(free++ - found.origins.begin());
-  }
-  for (auto& polygon : turned = rest.polygons) {
-    for (Index& vertex : polygon) vertex = found.numbers[vertex];
-  }
-  if (normalized(turned) != normalized(pose.polygons)) return {};
-  return std::move(found.numbers);
+  const auto in_rest = joined(rest, pose.polygons), in_pose = joined(pose, rest.polygons);
+  return !in_rest.empty() && in_rest.size() == in_pose.size() &&
+         std::all_of(in_rest.begin(), in_rest.end(), [&](const auto& found) {
+           const auto& [corners, whole] = found;
+           return in_pose.count(corners) > 0 && (given.count(corners) > 0 || whole.is_flat());
+         });
 }
 
 // Throws if a polygon of `some` is not one of `all`.
-void require_all(const PolygonSoup& some, const std::multiset<Polygon>& all,
-                 const std::string& name, const std::string& other) {
-  for (std::size_t f = 0; f < some.polygons.size(); ++f) {
-    if (all.count(*normalized({some.polygons[f]}).begin()) > 0) continue;
+void require_all(const Polygons& some, const Polygons& all, const std::string& name,
+                 const std::string& other) {
+  std::set<Polygon> present;
+  for (const auto& polygon : all) present.insert(normalized(polygon));
+  for (std::size_t f = 0; f < some.size(); ++f) {
+    if (present.count(normalized(some[f])) > 0) continue;
     std::string numbers;
-    for (const Index vertex : some.polygons[f]) numbers += ' ' + std::to_string(vertex);
+    for (const Index vertex : some[f]) numbers += ' ' + std::to_string(vertex);
     throw InputError(name + ": face " + std::to_string(f) + " joins vertices" + numbers + ", but " +
-                     other + " has no such face, so these are not the same vertices; deform a " +
-                     "copy of the cage without adding, removing, or joining vertices");
+                     other + " has no such face, so these are not the same vertices in the same " +
+                     "order; deform a copy of the cage, and export it with its order of vertices");
   }
 }
 
 }  // namespace
 
-SameVertices find_same_vertices(const PolygonSoup& rest, const std::string& rest_name,
-                                const PolygonSoup& pose, const std::string& pose_name) {
+void check_same_vertices(const PolygonSoup& rest, const std::string& rest_name,
+                         const PolygonSoup& pose, const std::string& pose_name) {
   const auto count = rest.points.size();
   if (pose.points.size() != count) {
     throw InputError(pose_name + ": has " + std::to_string(pose.points.size()) + " vertices, but " +
                      rest_name + " has " + std::to_string(count));
   }
-  std::vector<Index> all(count);
-  std::iota(all.begin(), all.end(), 0);
-  const auto in_rest = normalized(rest.polygons), in_pose = normalized(pose.polygons);
-  if (in_pose.empty() || in_rest == in_pose) return {all, false};
-  // Small cages have renumberings that divide the same polygons in another way, too: the nearer one
-  // is meant.
-  const auto joined_rest = joined(rest.polygons, surface_of(pose.polygons));
-  const bool are_divided =
-      !joined_rest.empty() && joined_rest == joined(pose.polygons, surface_of(rest.polygons));
-  double bound = std::numeric_limits<double>::infinity();
-  if (are_divided) {
-    bound = 0;
-    for (std::size_t v = 0; v < count; ++v)
-      bound += (rest.points[v] - pose.points[v]).squaredNorm();
-  }
-  if (auto numbers = match(rest, pose, bound, pose_name)) return {std::move(*numbers), true};
-  if (are_divided) return {all, false};
-  require_all(pose, in_rest, pose_name, rest_name);
-  require_all(rest, in_pose, rest_name, pose_name);
-  throw InputError(pose_name + ": has faces twice that " + rest_name + " has once");
+  if (pose.polygons.empty() || are_divided(rest, pose)) return;
+  require_all(pose.polygons, rest.polygons, pose_name, rest_name);
+  require_all(rest.polygons, pose.polygons, rest_name, pose_name);
 }
 
 }  // namespace flbc::io

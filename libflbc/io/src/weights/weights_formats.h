@@ -19,7 +19,6 @@ class TextReader;
 #endif
 
 //! Parse a file's content; `path` is for messages.
-SparseWeights read_lbw(const std::string& path, std::string content);
 SparseWeights read_mtx(const std::string& path, std::string content);
 SparseWeights read_npy(const std::string& path, std::string content);
 SparseWeights read_csv(const std::string& path, std::string content);
@@ -29,7 +28,6 @@ SparseWeights read_npz(const std::string& path, std::string content);
 //! the first one
 void check_finite(const SparseWeights& weights);
 
-void write_lbw(std::ostream& out, const SparseWeights& weights);
 void write_mtx(std::ostream& out, const SparseWeights& weights);
 void write_npy(std::ostream& out, const SparseWeights& weights);
 void write_csv(std::ostream& out, const SparseWeights& weights);

@@ -22,8 +22,7 @@ PolygonSoup read_polygons(const std::string& path);
 //! A model file whose vertex coordinates can be replaced.
 class ModelFile {
  public:
-  //! Reads .obj, .off (also COFF, NOFF, STOFF headers), .ply, .stl, .om (OpenMesh, up to
-  //! version 2.2), .glb, .vrm, .gltf (2.0,
+  //! Reads .obj, .off (also COFF, NOFF, STOFF headers), .ply, .stl, .glb, .vrm, .gltf (2.0,
   //! uncompressed), or the outline of a drawing in .svg, by librsvg, which is loaded at run time.
   //! Coincident corners of .stl files and vertices of glTF are merged into one vertex; vertices are
   //! numbered by first occurrence.

@@ -19,8 +19,7 @@ namespace flbc::io {
 SparseWeights read_weights(const std::string& path);
 
 //! Writes the format chosen by the extension: .mtx (coordinate real general, 17 digits, without
-//! zeros), .npy (float64), .csv, or .lbw (single precision, for graphics cards). For .mtx, no dense
-//! matrix is allocated.
+//! zeros), .npy (float64), or .csv. For .mtx, no dense matrix is allocated.
 //! \param weights  of the points
 //! \throws IoError if the file cannot be written; InputError if a weight is not finite; OptionError
 //! for another extension
