@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.h"
+#include "files/bound_model.h"
 #include "files/load.h"
 #include "flbc/cage_facts.h"
 #include "flbc/errors.h"
@@ -13,7 +14,6 @@
 #include "flbc/io/weights_io.h"
 #include "report/check_report.h"
 #include "report/report_json.h"
-#include "solve/weights_of_model.h"
 
 namespace flbc::app {
 namespace {

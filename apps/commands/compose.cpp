@@ -4,26 +4,42 @@
 #include <memory>
 
 #include "commands/commands.h"
+#include "files/bound_model.h"
 #include "files/load.h"
 #include "flbc/compose.h"
+#include "flbc/io/binding_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/quality.h"
+#include "poses/poses.h"
 
 namespace flbc::app {
 namespace {
 
 struct ComposeArguments {
-  std::string weights, map, output;
+  std::string weights, map, cage, output;
   bool quiet = false;
 };
 
 void compose_files(const ComposeArguments& arguments) {
   require_writable(arguments.output, {io::Content::kWeights});
-  require_distinct({arguments.weights, arguments.map}, {arguments.output});
-  const auto weights = io::read_weights(arguments.weights);
+  require_distinct({arguments.weights, arguments.map, arguments.cage}, {arguments.output});
   const auto map = io::read_weights(arguments.map);
-  const auto composed = naming(arguments.map, [&] { return compose(weights, map); });
-  io::write_weights(arguments.output, composed);
+  const auto compose_binding = [&](const auto& binding) {
+    constexpr int kDim = std::decay_t<decltype(binding.cage.points)>::RowsAtCompileTime;
+    const auto outer = RestCage<kDim>(arguments.cage).cage();
+    const auto composed = naming(arguments.map, [&] { return binding.composed(map, outer); });
+    write_binding(arguments.output, composed);
+    return composed.weights;
+  };
+  SparseWeights composed;
+  if (io::is_binding_file(arguments.output)) {
+    if (arguments.cage.empty()) throw OptionError("a binding needs --cage, the outer cage");
+    composed = std::visit(compose_binding, io::read_binding(arguments.weights));
+  } else {
+    const auto weights = io::read_weights(arguments.weights);
+    composed = naming(arguments.map, [&] { return compose(weights, map); });
+    io::write_weights(arguments.output, composed);
+  }
   if (arguments.quiet) return;
   std::cerr << arguments.output << ": " << composed.num_points() << " vertices, "
             << composed.num_control_points() << " control points, at most "
@@ -44,6 +60,8 @@ void add_compose_command(CLI::App& app, int&) {
       ->add_option("MAP", a.map,
                    "weights of the control points of WEIGHTS: a row for each, at least 0, sum 1")
       ->required();
+  command->add_option("--cage", a.cage,
+                      "the outer cage at rest, if the result is a binding (.npz)");
   command->add_option("-o,--output", a.output, std::string("new weights: ") + kWeightFormats)
       ->required();
   command->add_flag("-q,--quiet", a.quiet, "print only errors");

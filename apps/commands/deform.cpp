@@ -8,6 +8,7 @@
 
 #include "commands/commands.h"
 #include "commands/pose_options.h"
+#include "files/bound_model.h"
 #include "files/deform_points.h"
 #include "files/load.h"
 #include "files/movable_model.h"
@@ -15,12 +16,9 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
-#include "poses/moved_by.h"
 #include "poses/outside.h"
 #include "poses/poses.h"
 #include "solve/cage_solver.h"
-#include "solve/domain_jacobians.h"
-#include "solve/weights_of_model.h"
 #include "system/held_signals.h"
 
 namespace flbc::app {
@@ -32,11 +30,10 @@ constexpr const char* kJacobian = "jacobian";
 
 struct DeformArguments {
   MovedFile file;
-  std::string weights;
+  BindingFiles files;  // weights and rest cage
   std::string method;  // instead of weights
   bool is_relative = false;
   PoseArguments poses;
-  std::string rest;
   std::string domain;
   OutsidePoints outside = OutsidePoints::kFail;
   std::string normals = kPolygons;
@@ -48,34 +45,46 @@ bool moves_points(const DeformArguments& arguments) {
   return is_point_file(arguments.file.model);
 }
 
+// Whether points that the binding does not have are evaluated on its domain mesh.
+bool evaluates(const DeformArguments& arguments) {
+  const bool is_free = moves_points(arguments) || moves_splats(arguments.file);
+  return !arguments.domain.empty() || (is_free && arguments.files.is_one());
+}
+
 bool needs_jacobians(const DeformArguments& arguments) {
   return arguments.normals == kJacobian || moves_splats(arguments.file);
 }
 
 void check_arguments(const DeformArguments& arguments) {
+  const bool has_rest = arguments.files.has_cage();
+  if (arguments.files.is_one()) require_cage(arguments.files, "--rest");
+  if (arguments.files.is_one() && !arguments.domain.empty()) {
+    throw OptionError("--domain: " + arguments.files.weights +
+                      " has the domain mesh; leave out this option");
+  }
   if (arguments.poses.empty()) {
     throw OptionError("no pose given; add --pose");
   }
-  if (arguments.weights.empty() && arguments.method.empty()) {
+  if (arguments.files.weights.empty() && arguments.method.empty()) {
     throw OptionError("no weights given; add --weights, or --method green");
   }
-  if (arguments.rest.empty() && !arguments.method.empty()) {
+  if (!has_rest && !arguments.method.empty()) {
     throw OptionError("--method needs --rest, the cage whose coordinates move the model");
   }
-  if (arguments.rest.empty() && arguments.is_relative) {
+  if (!has_rest && arguments.is_relative) {
     throw OptionError("--relative needs --rest, from which displacements are measured");
   }
-  if (arguments.rest.empty() && !arguments.displacement.empty()) {
+  if (!has_rest && !arguments.displacement.empty()) {
     throw OptionError("--displacement needs --rest, from which displacements are measured");
   }
-  if (arguments.rest.empty() && arguments.file.shows_displacement) {
+  if (!has_rest && arguments.file.shows_displacement) {
     throw OptionError("--show-displacement needs --rest, from which displacements are measured");
   }
-  if (arguments.rest.empty() && !arguments.domain.empty()) {
+  if (!has_rest && !arguments.domain.empty()) {
     throw OptionError("--domain needs --rest, the cage of this mesh");
   }
-  if (arguments.domain.empty() && arguments.normals == kJacobian) {
-    throw OptionError("--normals jacobian needs --domain, a mesh that has these weights");
+  if (!evaluates(arguments) && !arguments.files.is_one() && arguments.normals == kJacobian) {
+    throw OptionError("--normals jacobian needs a binding (.npz), or --domain");
   }
   if (arguments.is_relative && needs_jacobians(arguments)) {
     throw OptionError("--relative moves points, but neither splats nor normals by the Jacobian");
@@ -93,10 +102,10 @@ void check_arguments(const DeformArguments& arguments) {
     return require_writable(arguments.file.output, io::extension_of(arguments.file.model).c_str());
   }
   require_formats(arguments.file);
-  if (arguments.domain.empty() && moves_splats(arguments.file)) {
+  if (!evaluates(arguments) && moves_splats(arguments.file)) {
     throw OptionError(arguments.file.model +
-                      ": Gaussian splats need --domain and --rest, by which they rotate and "
-                      "stretch; --weights are those of the domain");
+                      ": Gaussian splats need a binding (.npz), or --domain and --rest, by which "
+                      "they rotate and stretch; --weights are then those of the domain");
   }
   require_writable(arguments.displacement, {io::Content::kWeights});
 }
@@ -104,8 +113,8 @@ void check_arguments(const DeformArguments& arguments) {
 // No result may replace a file that is read, nor the other result.
 void check_outputs(const DeformArguments& arguments, const CageFiles& cages,
                    const std::vector<std::string>& outputs) {
-  std::vector<std::string> inputs{arguments.file.model, arguments.weights, arguments.rest,
-                                  arguments.domain};
+  std::vector<std::string> inputs{arguments.file.model, arguments.files.weights,
+                                  arguments.files.cage, arguments.domain};
   inputs.insert(inputs.end(), cages.paths.begin(), cages.paths.end());
   require_distinct(inputs, {arguments.displacement});
   for (const auto& output : outputs) {
@@ -133,7 +142,7 @@ std::vector<std::string> name_outputs(const std::vector<Pose<Dim>>& poses,
 // that gain nothing from being in memory.
 std::optional<io::PointLayout> find_layout(const DeformArguments& arguments) {
   const auto& [model, output, shows_displacement, is_anew] = arguments.file;
-  if (arguments.domain.empty() || arguments.is_relative || needs_jacobians(arguments) ||
+  if (!evaluates(arguments) || arguments.is_relative || needs_jacobians(arguments) ||
       shows_displacement || !arguments.displacement.empty() ||
       io::extension_of(model) != io::extension_of(output)) {
     return {};
@@ -141,64 +150,48 @@ std::optional<io::PointLayout> find_layout(const DeformArguments& arguments) {
   return io::find_point_layout(model);
 }
 
-// What moves the points of a model.
+// A binding of the domain mesh, by which any points are evaluated.
 template <int Dim>
-struct Binding {
-  MovedBy<Dim> moved;
-  DomainJacobians<Dim> jacobians;  // of no points, unless they are asked for
-  SparseWeights weights{};         // of the control points; empty for Green coordinates
-};
-
-// Weights that fit the model or domain mesh and all poses, and that belong to them as far as is
-// known.
-template <int Dim>
-SparseWeights load_weights(const PointList<Dim>& bound, const RestCage<Dim>& rest,
-                           const std::vector<Pose<Dim>>& poses, const DeformArguments& arguments) {
-  const auto& file = arguments.domain.empty() ? arguments.file.model : arguments.domain;
-  auto weights = io::read_weights(arguments.weights);
-  const auto check_cage = [&](const std::string& name, const PointList<Dim>& control_points) {
-    check_sizes(weights, control_points.cols(), bound.cols(), {arguments.weights, name, file});
-  };
-  if (!arguments.rest.empty()) check_cage(arguments.rest, rest.points());
-  for (const auto& pose : poses) check_cage(pose.name, pose.points);
-  if (!arguments.rest.empty() && !arguments.is_relative) {
-    check_reproduction(weights, rest.cage(), bound, {arguments.weights, arguments.rest, file});
-  }
-  return weights;
-}
-
-template <int Dim>
-MovedBy<Dim> green_coordinates_of(const PointList<Dim>& points, const DeformArguments& arguments) {
-  const auto cage = std::get<Cage<Dim>>(load_cage(arguments.rest));
-  return naming(arguments.file.model, [&] { return by_green_coordinates(cage, points); });
-}
-
-template <int Dim>
-Binding<Dim> bind_points(const PointList<Dim>& points, const RestCage<Dim>& rest,
-                         const std::vector<Pose<Dim>>& poses, const DeformArguments& arguments) {
-  if (!arguments.method.empty()) return {green_coordinates_of(points, arguments), {}};
-  const auto moved_by = [&](const SparseWeights& weights) {
-    const auto at_rest = arguments.rest.empty() ? PointList<Dim>() : rest.points();
-    return by_weights<Dim>(weights, at_rest, points,
-                           arguments.is_relative ? 0 : kBoundaryTolerance);
-  };
-  if (arguments.domain.empty()) {
-    auto weights = load_weights(points, rest, poses, arguments);
-    if (!arguments.quiet && !arguments.rest.empty() && !arguments.is_relative) {
-      warn_outside(weights, rest.cage(), points, arguments.file.model);
-    }
-    return {moved_by(weights), {}, std::move(weights)};
-  }
+Binding<Dim> load_evaluated(const DeformArguments& arguments) {
+  if (arguments.files.is_one()) return load_binding<Dim>(arguments.files.weights);
   auto domain = io::read_domain<Dim>(arguments.domain);
-  const auto weights = load_weights(domain.points, rest, poses, arguments);
-  const auto cage = std::get<Cage<Dim>>(load_cage(arguments.rest));
-  const auto placement = placing<Dim>(
-      arguments.file.model, [&] { return place_points(cage, domain, points, arguments.outside); });
-  if (!arguments.quiet) warn_outside(placement, cage, arguments.file.model);
-  auto of_points = weights_at(cage, domain, weights, placement);
-  auto moved = moved_by(of_points);
-  if (!needs_jacobians(arguments)) return {std::move(moved), {}, std::move(of_points)};
-  return {std::move(moved), {cage, std::move(domain), weights, placement}, std::move(of_points)};
+  auto binding = load_binding<Dim>(arguments.files, arguments.domain, domain.points, {});
+  binding.domain = std::move(domain);
+  binding.domain_weights = binding.weights;
+  return binding;
+}
+
+OutsidePoints outside_of(const DeformArguments& arguments, OutsidePoints of_binding) {
+  return arguments.outside == OutsidePoints::kFail ? of_binding : arguments.outside;
+}
+
+// The binding of the model itself.
+template <int Dim>
+Binding<Dim> bind_model(const MovableModel<Dim>& model, const DeformArguments& arguments) {
+  const auto& file = arguments.file.model;
+  if (!arguments.files.has_cage()) {
+    auto weights = io::read_weights(arguments.files.weights);
+    const auto count = weights.num_control_points();
+    if (weights.num_points() != model.points().cols()) {
+      check_sizes(weights, count, model.points().cols(), {arguments.files.weights, "", file});
+    }
+    // Only points without weights are known to stay where they are.
+    Binding<Dim> binding;
+    binding.offsets = PointList<Dim>::Zero(Dim, model.points().cols());
+    for (Index p = 0; p < weights.num_points(); ++p) {
+      if (!weights.has_weights(p)) binding.offsets.col(p) = model.points().col(p);
+    }
+    binding.weights = std::move(weights);
+    return binding;
+  }
+  if (!evaluates(arguments)) {
+    return load_binding<Dim>(arguments.files, file, model.points(), model.edges(),
+                             !arguments.is_relative);
+  }
+  const auto bound = load_evaluated<Dim>(arguments);
+  return placing<Dim>(file, [&] {
+    return bound.transferred(model.points(), model.edges(), outside_of(arguments, bound.policy));
+  });
 }
 
 // Removes the files of a sequence that were new, unless all were written.
@@ -224,19 +217,21 @@ class NewFiles {
 };
 
 template <int Dim>
-void write_results(const MovableModel<Dim>& model, const Binding<Dim>& binding,
+void write_results(const MovableModel<Dim>& model, const Motion<Dim>& moved,
+                   const std::optional<PointJacobians<Dim>>& jacobians,
                    const std::vector<Pose<Dim>>& poses, const Displacement& displacement,
                    const std::vector<std::string>& outputs, const DeformArguments& arguments) {
   NewFiles files;
   for (std::size_t k = 0; k < poses.size(); ++k) {
-    const auto points = binding.moved.at(poses[k].points);
-    const auto jacobians = binding.jacobians.at(poses[k].points);
+    const auto points = moved(poses[k].points);
     files.expect(outputs[k]);
     Eigen::VectorXd lengths;
     if (arguments.file.shows_displacement) lengths = displacement.lengths.row(k).transpose();
     const HeldSignals held;
-    naming(outputs[k],
-           [&] { model.write(outputs[k], points, lengths, displacement.largest, jacobians); });
+    naming(outputs[k], [&] {
+      model.write(outputs[k], points, lengths, displacement.largest,
+                  jacobians ? jacobians->at(poses[k].points) : Eigen::MatrixXd());
+    });
     if (!arguments.quiet) warn_inverted(model, points, outputs[k], poses[k].name);
   }
   if (!arguments.displacement.empty()) {
@@ -253,7 +248,7 @@ void print_summary(const MovableModel<Dim>& model, const std::vector<Pose<Dim>>&
   const auto& [input, output, shows_displacement, is_anew] = arguments.file;
   std::cerr << output << ": " << model.points().cols() << " vertices, " << poses.size()
             << (poses.size() == 1 ? " pose, " : " poses, ") << seconds << " s";
-  if (!arguments.rest.empty()) std::cerr << "; largest displacement " << displacement.largest;
+  if (arguments.files.has_cage()) std::cerr << "; largest displacement " << displacement.largest;
   if (displacement.largest > 0) {
     std::cerr << " at vertex " << displacement.point << " (" << poses[displacement.pose].name
               << ')';
@@ -269,46 +264,24 @@ void print_summary(const MovableModel<Dim>& model, const std::vector<Pose<Dim>>&
   }
 }
 
-// Points have no edges that would show a jump.
-void warn_unknown_border(const std::string& file) {
-  std::cerr << "flbc: " << file
-            << ": the deformation jumps where a moved facet passes through a mesh of these points; "
-               "this is not checked, because points have no edges\n";
-}
-
-// Of vertices without weights.
 template <int Dim>
-void warn_border(const MovableModel<Dim>& model, const RestCage<Dim>& rest,
-                 const SparseWeights& weights, const std::vector<Pose<Dim>>& poses,
-                 const DeformArguments& arguments) {
-  if (count_without_weights(weights) == 0) return;
-  if (moves_points(arguments)) return warn_unknown_border(arguments.file.model);
-  const Border<Dim> border(rest.cage(), model.points(), model.edges(), weights);
-  const auto text = border.describe(poses);
-  if (!text.empty()) std::cerr << "flbc: " << arguments.file.model << ' ' << text << '\n';
-}
-
-template <int Dim>
-void deform_in_batches(const io::PointLayout& layout, const RestCage<Dim>& rest,
-                       const std::vector<Pose<Dim>>& poses, const std::vector<std::string>& outputs,
-                       const DeformArguments& arguments) {
+void deform_in_batches(const io::PointLayout& layout, const std::vector<Pose<Dim>>& poses,
+                       const std::vector<std::string>& outputs, const DeformArguments& arguments) {
   const auto& input = arguments.file.model;
   if (layout.offsets.size() < Dim || (moves_points(arguments) && layout.offsets.size() > Dim)) {
     throw InputError(input + ": has " + std::to_string(layout.offsets.size()) +
                      " coordinates per point, but the cage is in " + std::to_string(Dim) + "D");
   }
-  auto domain = io::read_domain<Dim>(arguments.domain);
-  auto weights = load_weights(domain.points, rest, poses, arguments);
-  const auto outside =
-      arguments.outside == OutsidePoints::kFail ? OutsidePoints::kNearest : arguments.outside;
-  const Evaluator<Dim> evaluator(std::get<Cage<Dim>>(load_cage(arguments.rest)), std::move(domain),
-                                 std::move(weights), outside);
+  const auto bound = load_evaluated<Dim>(arguments);
+  const auto wanted = outside_of(arguments, bound.policy);
+  const auto outside = wanted == OutsidePoints::kFail ? OutsidePoints::kNearest : wanted;
+  const Evaluator<Dim> evaluator(bound.cage, bound.domain, bound.domain_weights, outside);
   const auto start = std::chrono::steady_clock::now();
   NewFiles files;
   MovedPoints all;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     files.expect(outputs[k]);
-    const PointMotion motion{input, layout, outputs[k], arguments.outside, arguments.quiet};
+    const PointMotion motion{input, layout, outputs[k], wanted, arguments.quiet};
     const auto moved = deform_points(motion, evaluator, poses[k].points);
     all = {std::max(all.largest, moved.largest), moved.outside, moved.farthest};
   }
@@ -322,38 +295,54 @@ void deform_in_batches(const io::PointLayout& layout, const RestCage<Dim>& rest,
     std::cerr << "; " << all.outside << " vertices are outside the cage, by up to " << all.farthest;
   }
   std::cerr << '\n';
-  const bool has_border = all.outside > 0 && arguments.outside == OutsidePoints::kKeep;
-  if (has_border) warn_unknown_border(input);
+  if (all.outside > 0 && wanted == OutsidePoints::kKeep) warn_unknown_border(input);
+}
+
+// Without a rest cage, the poses of a sequence must at least be poses of one cage.
+template <int Dim>
+RestCage<Dim> load_rest(const DeformArguments& arguments, const CageFiles& cages) {
+  const auto& files = arguments.files;
+  if (files.is_one()) return RestCage<Dim>(load_binding<Dim>(files.weights).cage, files.weights);
+  return RestCage<Dim>(files.cage.empty() ? cages.paths.front() : files.cage);
 }
 
 template <int Dim>
 void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
   const auto layout = find_layout(arguments);
   if (!moves_points(arguments)) require_formats_of<Dim>(arguments.file);
-  // Without a rest cage, the poses of a sequence must at least be poses of one cage.
-  const bool has_rest = !arguments.rest.empty();
-  const RestCage<Dim> cage(has_rest ? arguments.rest : cages.paths.front());
-  const auto poses = load_poses(arguments.poses, cages, cage);
+  const auto poses = load_poses(arguments.poses, cages, load_rest<Dim>(arguments, cages));
   const auto outputs = name_outputs(poses, arguments.file.output);
   check_outputs(arguments, cages, outputs);
-  if (layout) return deform_in_batches<Dim>(*layout, cage, poses, outputs, arguments);
+  if (layout) return deform_in_batches<Dim>(*layout, poses, outputs, arguments);
 
   const MovableModel<Dim> model(arguments.file);
-  const auto binding = bind_points(model.points(), cage, poses, arguments);
+  Binding<Dim> binding;
+  Motion<Dim> moved = [&](const PointList<Dim>& pose) { return binding.deform(pose); };
+  std::optional<PointJacobians<Dim>> jacobians;
+  if (arguments.method.empty()) {
+    binding = bind_model(model, arguments);
+    if (needs_jacobians(arguments)) jacobians = binding.point_jacobians();
+    if (!arguments.quiet && !arguments.is_relative) {
+      warn_outside(binding, arguments.file.model);
+    }
+  } else {
+    const auto cage = std::get<Cage<Dim>>(load_cage(arguments.files.cage));
+    moved = naming(arguments.file.model,
+                   [&] { return by_green_coordinates<Dim>(cage, model.points()); });
+  }
   const auto start = std::chrono::steady_clock::now();
   Displacement displacement;
-  if (!arguments.rest.empty()) {
-    displacement = measure_displacement(binding.moved, model.points(), poses);
+  if (arguments.files.has_cage()) {
+    displacement = measure_displacement(moved, model.points(), poses);
     if (!displacement.lengths.allFinite()) {
       throw InputError(poses[displacement.pose].name + ": displacements are not finite");
     }
   }
-  write_results(model, binding, poses, displacement, outputs, arguments);
+  write_results(model, moved, jacobians, poses, displacement, outputs, arguments);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   if (arguments.quiet) return;
   print_summary(model, poses, displacement, seconds.count(), arguments);
-  if (has_rest && arguments.method.empty())
-    warn_border(model, cage, binding.weights, poses, arguments);
+  if (arguments.files.has_cage()) warn_border(binding, arguments.file.model, poses);
 }
 
 }  // namespace
@@ -372,14 +361,14 @@ void add_deform_command(CLI::App& app, int&) {
       "They are moved in batches, and everything in the file except coordinates stays the same.\n"
       "\n"
       "Examples:\n"
-      "  flbc deform model.obj --weights few.mtx --pose pose.obj -o moved.obj\n"
+      "  flbc deform model.obj --weights binding.npz --pose pose.obj -o moved.obj\n"
       "  flbc deform model.obj --method green --rest cage.obj --pose pose.obj -o green.obj");
   command
       ->add_option("MODEL", a.file.model,
                    "model (.obj .off .ply .stl .glb), domain mesh (3D: .mesh .msh), or points "
                    "(.npy .csv)")
       ->required();
-  auto* weights = command->add_option("--weights", a.weights, describe_weight_file());
+  auto* weights = command->add_option("--weights", a.files.weights, describe_weight_file());
   auto* method =
       command
           ->add_option("--method", a.method,
@@ -390,9 +379,9 @@ void add_deform_command(CLI::App& app, int&) {
           ->excludes(weights);
   add_pose_option(*command, a.poses);
   command->add_option(
-      "--rest", a.rest,
-      "rest cage, to check that the weights belong to MODEL; also needed to move vertices "
-      "outside of it (weights by --outside nearest)");
+      "--rest", a.files.cage,
+      "rest cage of weights that have none (all but .npz), to check that they belong to MODEL; "
+      "also needed to move vertices outside of it (weights by --outside nearest)");
   auto* relative = command->add_flag(
       "--relative", a.is_relative,
       "add weighted displacements to MODEL, for weights that do not reproduce it (method bbw)");
@@ -402,8 +391,8 @@ void add_deform_command(CLI::App& app, int&) {
   domain->excludes(method)->excludes(relative);
   relative->excludes(method);
   add_choice(*command, "--outside", a.outside,
-             "method for vertices outside the cage, as in flbc solve (default: fail)")
-      ->needs(domain);
+             "method for splats and points outside the cage, and with --domain, as in flbc solve "
+             "(default: that of the binding, or fail)");
   add_choice(*command, "--normals", {kPolygons, kJacobian}, a.normals,
              "what normals follow: polygons, or the gradients of the weights (default: polygons)");
   command
@@ -418,8 +407,10 @@ void add_deform_command(CLI::App& app, int&) {
   command->callback([arguments] {
     check_arguments(*arguments);
     const auto cages = find_cages(arguments->poses.cages);
-    dimension_of_cage(cages.paths.front()) == 2 ? deform_model<2>(*arguments, cages)
-                                                : deform_model<3>(*arguments, cages);
+    auto files = arguments->files;
+    if (!files.has_cage()) files.cage = cages.paths.front();
+    dimension_of(files) == 2 ? deform_model<2>(*arguments, cages)
+                             : deform_model<3>(*arguments, cages);
   });
 }
 

@@ -6,6 +6,7 @@
 #include "commands/commands.h"
 #include "draw/model_picture.h"
 #include "draw/plane_picture.h"
+#include "files/bound_model.h"
 #include "files/load.h"
 #include "files/upright.h"
 #include "flbc/deform.h"
@@ -13,7 +14,6 @@
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
 #include "poses/poses.h"
-#include "solve/weights_of_model.h"
 #include "view/model_page.h"
 
 namespace flbc::app {
@@ -21,8 +21,7 @@ namespace {
 
 struct DrawArguments {
   std::string model;  // or a domain mesh
-  std::string weights;
-  std::string cage;
+  BindingFiles files;
   std::string pose;
   std::string output;
   std::string color;
@@ -57,29 +56,34 @@ template <int Dim>
 struct PosedModel {
   view::ShownModel<Dim> model;
   SparseWeights weights;
-  PointList<Dim> pose{};   // of the cage; empty without one
-  PointList<Dim> moved{};  // the model's points in the pose
+  Cage<Dim> cage;
+  std::vector<std::array<Index, 2>> edges;  // of the cage, as its file has them
+  PointList<Dim> pose{};                    // of the cage; empty without one
+  PointList<Dim> moved{};                   // the model's points in the pose
 };
 
 template <int Dim>
-PosedModel<Dim> load_posed(const Cage<Dim>& cage, const DrawArguments& arguments) {
-  const WeightFiles files{arguments.weights, arguments.cage, arguments.model};
-  PosedModel<Dim> posed{load_shown_model<Dim>(arguments.model),
-                        io::read_weights(arguments.weights)};
-  check_sizes(posed.weights, cage.size(), posed.model.points.cols(), files);
+PosedModel<Dim> load_posed(const DrawArguments& arguments) {
+  auto model = load_shown_model<Dim>(arguments.model);
+  const auto& files = arguments.files;
+  const auto binding =
+      load_binding<Dim>(files, arguments.model, model.points, {}, !arguments.pose.empty());
+  require_control_point(arguments.control_point, binding.cage.size());
+  PosedModel<Dim> posed{std::move(model), binding.weights, binding.cage,
+                        shown_cage_of(files, binding).edges};
   if (arguments.pose.empty()) return posed;
-  check_reproduction<Dim>(posed.weights, cage, posed.model.points, files);
-  posed.pose = RestCage<Dim>(arguments.cage).load_pose(arguments.pose);
-  posed.moved = by_weights<Dim>(posed.weights, cage.points, posed.model.points).at(posed.pose);
+  posed.pose = rest_cage_of(files, binding).load_pose(arguments.pose);
+  posed.moved = binding.deform(posed.pose);
   return posed;
 }
 
-std::string picture(const Cage<2>& cage, const DrawArguments& arguments) {
+std::string picture_2d(const DrawArguments& arguments) {
   const bool has_squares = !arguments.pose.empty() && !arguments.all && arguments.color != kWeight;
   if (arguments.color == kDisplacement || (arguments.color == kPlain && !has_squares)) {
     throw OptionError("--color " + arguments.color + " is for models in 3D");
   }
-  const auto posed = load_posed(cage, arguments);
+  const auto posed = load_posed<2>(arguments);
+  const auto& cage = posed.cage;
   up_axis(arguments.view.up, posed.model.points);
   const DomainMesh<2> shape{posed.model.points, gltf::triangles_of_points(posed.model.surface)};
   const auto& weights = posed.weights;
@@ -102,11 +106,11 @@ draw::ShownValues shown_values(const PosedModel<3>& posed, const DrawArguments& 
   return {posed.weights.of_control_point(arguments.control_point), arguments.control_point};
 }
 
-std::string picture(const Cage<3>& cage, const DrawArguments& arguments) {
-  const auto posed = load_posed(cage, arguments);
+std::string picture_3d(const DrawArguments& arguments) {
+  const auto posed = load_posed<3>(arguments);
+  const auto& cage = posed.cage;
   const auto view = view_of(arguments.view, posed.model.points);
-  const draw::DrawnModel model{gltf::triangles_of_points(posed.model.surface),
-                               load_shown_cage<3>(arguments.cage).edges};
+  const draw::DrawnModel model{gltf::triangles_of_points(posed.model.surface), posed.edges};
   std::vector<draw::ModelPlace> places{{cage.points, posed.model.points}};
   if (arguments.all) {
     return draw::draw_model_sheet(model, places[0], posed.weights.dense(), view, arguments.options);
@@ -115,18 +119,12 @@ std::string picture(const Cage<3>& cage, const DrawArguments& arguments) {
   return draw::draw_model(model, places, shown_values(posed, arguments), view, arguments.options);
 }
 
-template <int Dim>
-void draw_cage(const Cage<Dim>& cage, const DrawArguments& arguments) {
-  require_control_point(arguments.control_point, cage.size());
-  write_text(arguments.output, picture(cage, arguments));
-}
-
 void add_options(CLI::App& command, DrawArguments& a) {
   auto* model =
       command.add_option("MODEL", a.model, "model or domain mesh; in 3D its surface is drawn");
   command.add_option("--model", a.model)->excludes(model)->group("");  // of earlier versions
-  command.add_option("--weights", a.weights, "weights at the vertices")->required();
-  command.add_option("--cage", a.cage, "cage of the weights")->required();
+  command.add_option("--weights", a.files.weights, describe_weight_file())->required();
+  add_cage_option(command, a.files.cage);
   command.add_option("-o,--output", a.output, std::string("picture: ") + draw::kPictureExtensions)
       ->required();
   auto* point =
@@ -155,7 +153,10 @@ void add_draw_command(CLI::App& app, int&) {
   command->callback([arguments] {
     check_arguments(*arguments);
     arguments->view.up = up_of(arguments->view.up, arguments->model);
-    std::visit([&](const auto& cage) { draw_cage(cage, *arguments); }, load_cage(arguments->cage));
+    require_cage(arguments->files);
+    const auto picture =
+        dimension_of(arguments->files) == 2 ? picture_2d(*arguments) : picture_3d(*arguments);
+    write_text(arguments->output, picture);
   });
 }
 

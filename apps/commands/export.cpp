@@ -9,9 +9,9 @@
 
 #include "commands/commands.h"
 #include "commands/pose_options.h"
+#include "files/bound_model.h"
 #include "files/gltf_facts.h"
 #include "files/load.h"
-#include "files/locality_file.h"
 #include "files/movable_model.h"
 #include "files/upright.h"
 #include "flbc/bounding_box.h"
@@ -24,7 +24,6 @@
 #include "gltf/skin.h"
 #include "poses/outside.h"
 #include "poses/poses.h"
-#include "solve/weights_of_model.h"
 #include "view/model_page.h"
 
 namespace flbc::app {
@@ -106,9 +105,7 @@ std::string blender_script(const PointList<Dim>& control_points, const SparseWei
 
 struct ExportArguments {
   std::string model;
-  std::string weights;
-  std::string cage;
-  std::string locality;
+  BindingFiles files;
   PoseArguments poses;
   int bits = 0;  // 0 = float
   std::string output;
@@ -148,15 +145,10 @@ void check_arguments(ExportArguments& arguments) {
 
 // Vertex groups of Blender, as a program.
 template <int Dim>
-void write_vertex_groups(const Cage<Dim>& rest, const PointList<Dim>& points, const EdgeList& edges,
-                         const SparseWeights& weights, const std::vector<flbc::Mask>& masks,
-                         const ExportArguments& arguments) {
-  SparsifyOptions limits{arguments.options.max_influences};
-  limits.masks = masks;
-  const auto few = naming(arguments.model, [&] {
-    return reduce_influences<Dim>(rest.points, attached_points(rest, points, weights), edges,
-                                  weights, {}, limits);
-  });
+void write_vertex_groups(const Binding<Dim>& binding, const ExportArguments& arguments) {
+  const auto& rest = binding.cage;
+  const auto few = naming(
+      arguments.model, [&] { return binding.reduced({arguments.options.max_influences}).weights; });
   const auto script = blender_script<Dim>(rest.points, few);
   write_text(arguments.output, script);
   if (arguments.quiet) return;
@@ -166,8 +158,7 @@ void write_vertex_groups(const Cage<Dim>& rest, const PointList<Dim>& points, co
 }
 
 void check_files(const ExportArguments& arguments, const CageFiles& poses) {
-  std::vector<std::string> inputs{arguments.model, arguments.weights, arguments.cage,
-                                  arguments.locality};
+  std::vector<std::string> inputs{arguments.model, arguments.files.weights, arguments.files.cage};
   inputs.insert(inputs.end(), poses.paths.begin(), poses.paths.end());
   require_distinct(inputs, {arguments.output});
 }
@@ -215,32 +206,22 @@ void print_summary(const gltf::ExportedSkin& skin, const gltf::Animation<Dim>& a
 
 template <int Dim>
 void export_model(const ExportArguments& arguments, const CageFiles& poses) {
-  const RestCage<Dim> cage(arguments.cage);
-  const auto& rest = cage.points();
-  const auto animation = load_motion(arguments, poses, cage);
   const MovedFile same{arguments.model, arguments.model};
   require_formats_of<Dim>(same);
   const MovableModel<Dim> model(same);
   const auto& points = model.points();
+  const auto binding = load_binding<Dim>(arguments.files, arguments.model, points, model.edges());
+  const auto cage = rest_cage_of(arguments.files, binding);
+  const auto animation = load_motion(arguments, poses, cage);
   const auto surface = model.surface();
-  const auto weights = io::read_weights(arguments.weights);
-  check_reproduction(weights, cage.cage(), points,
-                     {arguments.weights, arguments.cage, arguments.model});
-  if (!arguments.quiet) warn_outside(weights, cage.cage(), points, arguments.model);
-  auto options = arguments.options;
-  options.masks =
-      load_locality_inside(arguments.locality, cage.cage(), points, arguments.model, weights);
-  if (io::extension_of(arguments.output) == "py") {
-    return write_vertex_groups<Dim>(cage.cage(), points, model.edges(), weights, options.masks,
-                                    arguments);
-  }
+  if (!arguments.quiet) warn_outside(binding, arguments.model);
+  if (io::extension_of(arguments.output) == "py") return write_vertex_groups(binding, arguments);
 
-  options.edges = model.edges();
+  auto options = arguments.options;
   options.turn = turn_upright(up_axis(up_of(arguments.up, arguments.model), points));
-  options.cage_edges = view::as_facets(load_shown_cage<Dim>(arguments.cage).edges);
-  const auto skin = naming(arguments.model, [&] {
-    return gltf::export_skin(rest, points, weights, surface, options, animation);
-  });
+  options.cage_edges = view::as_facets(shown_cage_of(arguments.files, binding).edges);
+  const auto skin = naming(arguments.model,
+                           [&] { return gltf::export_skin(binding, surface, options, animation); });
   write_text(arguments.output, skin.content);
   const double size = bounding_box_diagonal<Dim>(points);
   if (!arguments.quiet) print_summary(skin, animation, size, arguments);
@@ -267,15 +248,15 @@ void add_export_command(CLI::App& app, int&) {
       "maps them to the vertices of MODEL. Normals do not deform.\n"
       "\n"
       "Examples:\n"
-      "  flbc export model.obj --weights few.mtx --cage cage.obj -o model.glb\n"
+      "  flbc export model.obj --weights binding.npz -o model.glb\n"
       "  flbc export model.obj --weights few.mtx --cage cage.obj --pose pose.obj -o posed.glb");
   command
       ->add_option("MODEL", a.model,
                    "model (.obj .off .ply .stl .glb .gltf), or domain mesh (3D: .mesh .msh) "
                    "whose boundary is exported")
       ->required();
-  command->add_option("--weights", a.weights, describe_weight_file())->required();
-  command->add_option("--cage", a.cage, "cage of the weights")->required();
+  command->add_option("--weights", a.files.weights, describe_weight_file())->required();
+  add_cage_option(*command, a.files.cage);
   add_rate_option(*command, a.poses, add_pose_option(*command, a.poses));
   command->add_option("-k,--max-influences", a.options.max_influences,
                       "maximum influences per vertex, 4 or 8 (default: 8)");
@@ -287,15 +268,15 @@ void add_export_command(CLI::App& app, int&) {
       ->add_option("-o,--output", a.output,
                    "skin: .glb, .usda, or .py for vertex groups in Blender")
       ->required();
-  add_locality_option(*command, a.locality);
   add_up_option(*command, a.up);
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);
     const auto pose_files = find_cages(arguments->poses.cages);
     check_files(*arguments, pose_files);
-    dimension_of_cage(arguments->cage) == 2 ? export_model<2>(*arguments, pose_files)
-                                            : export_model<3>(*arguments, pose_files);
+    require_cage(arguments->files);
+    dimension_of(arguments->files) == 2 ? export_model<2>(*arguments, pose_files)
+                                        : export_model<3>(*arguments, pose_files);
   });
 }
 

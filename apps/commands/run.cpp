@@ -127,9 +127,7 @@ void print_summary(const Run<Dim>& run) {
             << "save a pose there, and apply it with flbc deform.\n";
   if (!run.inputs.splats) return;
   const auto file = [&](const std::string& name) { return run.folder.path_of(name); };
-  std::cerr << "      flbc deform " << run.arguments.splats << " --domain "
-            << file(domain_file<Dim>()) << " --weights " << file(kWeights) << " --rest "
-            << (run.arguments.makes_cage ? file(kCage) : run.arguments.settings.cage)
+  std::cerr << "      flbc deform " << run.arguments.splats << " --weights " << file(kBinding)
             << " --pose POSE -o moved.ply\n";
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.h"
+#include "files/bound_model.h"
 #include "files/certificate_file.h"
 #include "files/load.h"
 #include "flbc/gradients.h"
@@ -50,7 +51,7 @@ void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solve
   if (!report.parts.empty()) std::cerr << report.parts.size() << " parts, ";
   std::cerr << report.control_points << " control points, ";
   if (is_meshless(arguments.settings)) {
-    std::cerr << solver.points().cols() << " vertices of the model, no mesh; ";
+    std::cerr << solver.binding().points.cols() << " vertices of the model, no mesh; ";
   } else {
     std::cerr << report.vertices << " vertices, " << report.cells
               << (Dim == 2 ? " triangles; " : " tetrahedra; ")
@@ -61,7 +62,7 @@ void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solve
   if (is_certified(report)) {
     std::cerr << ", within " << 100 * report.certificate.relative_gap << "% of the optimum";
   }
-  std::cerr << describe(solver.placement(), solver.cage()) << '\n';
+  std::cerr << describe(solver.rig().placement(), solver.cage()) << '\n';
 }
 
 // Programs that read VTK show the coordinate functions as fields.
@@ -86,19 +87,8 @@ void save_gradients(const std::string& path, const CageSolver<Dim>& solver, bool
   const auto& domain = solver.domain();
   const auto& weights = solver.domain_weights();
   if (!of_model) return io::write_weights(path, vertex_gradients(domain, weights));
-  const auto places = places_in_mesh(solver.cage(), domain, solver.placement());
+  const auto places = places_in_mesh(solver.cage(), domain, solver.rig().placement());
   io::write_weights(path, gradients_at(domain, weights, places));
-}
-
-// Of vertices without weights.
-template <int Dim>
-void warn_border(const Cage<Dim>& cage, const PointList<Dim>& model, const SparseWeights& weights,
-                 const SolveSettings& settings) {
-  if (settings.outside != OutsidePoints::kKeep || is_point_file(settings.model)) return;
-  const auto soup = io::read_polygons(settings.model);
-  const auto edges = edges_of_polygons(model, soup.polygons, soup.polylines);
-  const auto text = Border<Dim>(cage, model, edges, weights).describe({});
-  if (!text.empty()) std::cerr << "flbc: " << settings.model << ' ' << text << '\n';
 }
 
 template <int Dim>
@@ -106,22 +96,28 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
   const auto& settings = arguments.settings;
   require_writable(arguments.save_domain, {io::kMesh<Dim>});
   PointList<Dim> model;
-  if (!settings.model.empty()) model = load_model<Dim>(settings.model);
-
-  const EdgeList none;
-  CageSolver<Dim> solver(cage, model, none, settings);
+  EdgeList edges;
+  if (!settings.model.empty()) {
+    model = load_model<Dim>(settings.model);
+    if (!is_point_file(settings.model)) {
+      const auto soup = io::read_polygons(settings.model);
+      edges = edges_of_polygons(model, soup.polygons, soup.polylines);
+    }
+  }
+  CageSolver<Dim> solver(cage, model, edges, settings);
   solver.make_domain(arguments.quiet);
   if (!arguments.certificate.empty() && count_parts(solver.domain()) > 1) {
     throw InputError(settings.cage +
                      ": a certificate needs a cage in one part; solve each part by itself");
   }
   solver.solve(arguments.quiet);
-  const auto& rows = solver.rows();
-  const auto delivered = measure_quality(cage.points, solver.points(), rows);
+  const auto& binding = solver.binding();
+  if (!arguments.quiet) warn_outside(binding, settings.model, solver.outside_verb());
+  const auto delivered = measure_quality(cage.points, binding.points, binding.weights);
   const auto json = arguments.report.empty() ? std::string() : to_text(solver.json(delivered));
   {
     const HeldSignals held;
-    io::write_weights(arguments.output, rows);
+    write_binding(arguments.output, binding);
     if (!arguments.save_domain.empty()) save_domain(arguments.save_domain, solver);
     if (!arguments.gradients.empty()) {
       save_gradients(arguments.gradients, solver, !settings.model.empty());
@@ -135,7 +131,8 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
   }
   if (!arguments.quiet) {
     print_summary(arguments, solver, delivered);
-    warn_border(cage, model, rows, settings);
+    const bool keeps = binding.policy == OutsidePoints::kKeep;
+    if (keeps) warn_border(binding, settings.model, std::vector<Pose<Dim>>{});
   }
   return report_convergence(solver.report(), settings) ? kDone : kNotConverged;
 }
@@ -151,7 +148,7 @@ void add_solve_command(CLI::App& app, int& exit_status) {
       "Weights sum to 1 and reproduce the vertices, also if the solve does not converge.\n"
       "\n"
       "Examples:\n"
-      "  flbc solve cage.obj --model model.obj -o weights.npy\n"
+      "  flbc solve cage.obj --model model.obj -o binding.npz\n"
       "  flbc solve cage.obj --vertices 20000 --certify -o certified.mtx");
   command->add_option("CAGE", settings.cage, "closed polylines (2D) or surface (3D)")->required();
   command->option_defaults()->group("Output");

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.h"
+#include "files/bound_model.h"
 #include "files/load.h"
-#include "files/locality_file.h"
 #include "files/movable_model.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
@@ -24,7 +24,6 @@
 #include "report/report_json.h"
 #include "report/sparsify_report.h"
 #include "solve/progress_bar.h"
-#include "solve/weights_of_model.h"
 #include "system/held_signals.h"
 
 namespace flbc::app {
@@ -33,13 +32,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct SparsifyArguments {
-  std::string weights;
-  std::string cage;
+  BindingFiles files;
   std::string points;
   std::string output;
   std::vector<std::string> poses;
   std::string report;
-  std::string locality;
   std::string reduction = kAutomatic;
   bool quiet = false;
   SparsifyOptions options;
@@ -49,42 +46,20 @@ void check_files(const SparsifyArguments& arguments) {
   require_writable(arguments.output, {io::Content::kWeights});
   if (arguments.report != "-") require_writable(arguments.report, "json");
   auto inputs = arguments.poses;
-  inputs.insert(inputs.end(),
-                {arguments.weights, arguments.cage, arguments.points, arguments.locality});
+  inputs.insert(inputs.end(), {arguments.files.weights, arguments.files.cage, arguments.points});
   require_distinct(inputs, {arguments.output, arguments.report});
 }
 
+// The binding of the vertices of a domain mesh or a model.
 template <int Dim>
-struct ConnectedPoints {
-  PointList<Dim> points;
-  EdgeList edges;
-};
-
-// The vertices of a domain mesh or a model.
-template <int Dim>
-ConnectedPoints<Dim> load_connected_points(const std::string& path) {
+Binding<Dim> load(const SparsifyArguments& arguments) {
+  const auto& path = arguments.points;
+  if (path.empty()) return load_binding<Dim>(arguments.files.weights);
   const MovedFile same{path, path};
   if (io::holds(path, kMeshFiles)) require_formats_of<Dim>(same);
   const MovableModel<Dim> model(same);
   if (model.points().cols() == 0) throw InputError(path + ": the model has no vertices");
-  return {model.points(), model.edges()};
-}
-
-template <int Dim>
-SparseWeights load_weights(const SparsifyArguments& arguments, const PointList<Dim>& control_points,
-                           const PointList<Dim>& points) {
-  auto weights = io::read_weights(arguments.weights);
-  check_sizes(weights, control_points.cols(), points.cols(),
-              {arguments.weights, arguments.cage, arguments.points});
-  return weights;
-}
-
-template <int Dim>
-std::vector<PointList<Dim>> poses_of(const SparsifyArguments& arguments) {
-  const RestCage<Dim> rest(arguments.cage);
-  std::vector<PointList<Dim>> poses;
-  for (const auto& path : arguments.poses) poses.push_back(rest.load_pose(path));
-  return poses;
+  return load_binding<Dim>(arguments.files, path, model.points(), model.edges(), false);
 }
 
 std::uintmax_t size_of_file(const std::string& path) {
@@ -94,54 +69,46 @@ std::uintmax_t size_of_file(const std::string& path) {
 }
 
 template <int Dim>
-SparseWeights make_sparse(const Cage<Dim>& cage, const ConnectedPoints<Dim>& model,
-                          const SparseWeights& weights, const std::vector<PointList<Dim>>& poses,
-                          const std::string& method, const SparsifyArguments& arguments) {
-  const std::string stage = "reducing influences";
-  ProgressBar bar(arguments.quiet, stage);
-  auto options = arguments.options;
-  options.masks =
-      load_locality_inside(arguments.locality, cage, model.points, arguments.points, weights);
-  options.progress = [&](double done) { bar.show(stage, done); };
-  return reduce_influences<Dim>(cage.points, model.points, model.edges, weights, poses, options,
-                                reduction_named(method));
-}
-
-template <int Dim>
-void sparsify_weights(const Cage<Dim>& cage, const SparsifyArguments& arguments) {
+void sparsify_weights(const SparsifyArguments& arguments) {
   validate<Dim>(arguments.options);
-  const auto model = load_connected_points<Dim>(arguments.points);
-  const auto method = reduction_for(arguments.reduction, arguments.points, model.edges);
-  const auto before = load_weights(arguments, cage.points, model.points);
-  const auto poses = poses_of<Dim>(arguments);
-  const ConnectedPoints<Dim> attached{attached_points(cage, model.points, before), model.edges};
+  const auto& name = arguments.points.empty() ? arguments.files.weights : arguments.points;
+  const auto bound = load<Dim>(arguments);
+  const auto method = reduction_for(arguments.reduction, name, bound.edges);
+  const auto rest = rest_cage_of(arguments.files, bound);
+  std::vector<PointList<Dim>> poses;
+  for (const auto& path : arguments.poses) poses.push_back(rest.load_pose(path));
   const auto start = std::chrono::steady_clock::now();
-  const auto after = naming(arguments.points, [&] {
-    return make_sparse<Dim>(cage, attached, before, poses, method, arguments);
+  const auto reduced = naming(name, [&] {
+    const std::string stage = "reducing influences";
+    ProgressBar bar(arguments.quiet, stage);
+    auto options = arguments.options;
+    options.progress = [&](double done) { bar.show(stage, done); };
+    return bound.reduced(options, poses, reduction_named(method));
   });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  const auto &before = bound.weights, &after = reduced.weights;
   Json report{{"method", method},
               {"dim", Dim},
-              {"control_points", cage.size()},
-              {"points", model.points.cols()},
+              {"control_points", bound.cage.size()},
+              {"points", bound.points.cols()},
               {"seconds", seconds.count()}};
   report["options"] = {{"threshold", arguments.options.threshold}};
   if (arguments.options.max_influences < std::numeric_limits<Index>::max()) {
     report["options"]["max_influences"] = arguments.options.max_influences;
   }
-  report["before"] = weights_json(arguments.weights, size_of_file(arguments.weights), before,
-                                  cage.points, attached.points);
+  report["before"] = weights_json(arguments.files.weights, size_of_file(arguments.files.weights),
+                                  before, bound.cage.points, bound.points);
   {
     const ProgressBar bar(arguments.quiet, "measuring the errors");
     report["error"] = errors_json<Dim>(
-        {cage.points, model.points, model.edges, before, after, poses, arguments.poses});
+        {bound.cage.points, bound.points, bound.edges, before, after, poses, arguments.poses});
   }
   report["version"] = FLBC_VERSION;
   {
     const HeldSignals held;
-    io::write_weights(arguments.output, after);
+    write_binding(arguments.output, reduced);
     report["after"] = weights_json(arguments.output, size_of_file(arguments.output), after,
-                                   cage.points, attached.points);
+                                   bound.cage.points, bound.points);
     if (!arguments.report.empty()) {
       io::write_file(arguments.report, [&](std::ostream& file) { file << to_text(report); });
     }
@@ -160,12 +127,13 @@ void add_sparsify_command(CLI::App& app, int&) {
       "not.\n"
       "\n"
       "Examples:\n"
-      "  flbc sparsify weights.npy --cage cage.obj --points model.obj -k 8 -o few.mtx\n"
-      "  flbc sparsify weights.npy --cage cage.obj --points model.obj -k 4 -o four.mtx");
-  command->add_option("WEIGHTS", a.weights, std::string("weights: ") + kWeightFormats)->required();
-  command->add_option("--cage", a.cage, "cage of the weights")->required();
-  command->add_option("--points", a.points, "model or mesh whose vertices have these weights")
+      "  flbc sparsify binding.npz -k 4 -o four.npz\n"
+      "  flbc sparsify weights.npy --cage cage.obj --points model.obj -k 8 -o few.mtx");
+  command->add_option("WEIGHTS", a.files.weights, std::string("weights: ") + kWeightFormats)
       ->required();
+  add_cage_option(*command, a.files.cage);
+  command->add_option("--points", a.points,
+                      "model or mesh whose vertices have these weights; a .npz file has them");
   auto* count = command->add_option("-k,--max-influences", a.options.max_influences,
                                     "maximum influences per vertex, at least 3 in 2D and 4 in 3D");
   auto* threshold = command->add_option(
@@ -174,7 +142,6 @@ void add_sparsify_command(CLI::App& app, int&) {
   add_reduction_option(*command, a.reduction);
   command->add_option("-o,--output", a.output, std::string("sparse weights: ") + kWeightFormats)
       ->required();
-  add_locality_option(*command, a.locality);
   command
       ->add_option(
           "--pose", a.poses,
@@ -189,8 +156,12 @@ void add_sparsify_command(CLI::App& app, int&) {
       throw OptionError("give -k (maximum influences per vertex), --threshold, or both");
     }
     check_files(*arguments);
-    std::visit([&](const auto& cage) { sparsify_weights(cage, *arguments); },
-               load_cage(arguments->cage));
+    require_cage(arguments->files);
+    if (!arguments->files.is_one() && arguments->points.empty()) {
+      throw OptionError(arguments->files.weights + ": only .npz files have points; add --points");
+    }
+    dimension_of(arguments->files) == 2 ? sparsify_weights<2>(*arguments)
+                                        : sparsify_weights<3>(*arguments);
   });
 }
 

@@ -9,6 +9,7 @@
 #include "commands/commands.h"
 #include "commands/pose_options.h"
 #include "draw/base64.h"
+#include "files/bound_model.h"
 #include "files/load.h"
 #include "files/movable_model.h"
 #include "files/upright.h"
@@ -19,7 +20,6 @@
 #include "flbc/sparsify_error.h"
 #include "poses/poses.h"
 #include "report/sparsify_report.h"
-#include "solve/weights_of_model.h"
 #include "view/model_page.h"
 #include "view/page.h"
 
@@ -28,8 +28,7 @@ namespace {
 
 struct ViewArguments {
   std::string model;
-  std::string weights;
-  std::string cage;
+  BindingFiles files;
   PoseArguments poses;
   std::optional<Index> max_influences;  // none: by the number of vertices
   std::string picture;
@@ -56,25 +55,25 @@ void check_arguments(const ViewArguments& arguments) {
 }
 
 void check_files(const ViewArguments& arguments, const CageFiles& poses) {
-  std::vector<std::string> inputs{arguments.model, arguments.weights, arguments.cage,
+  std::vector<std::string> inputs{arguments.model, arguments.files.weights, arguments.files.cage,
                                   arguments.picture};
   inputs.insert(inputs.end(), poses.paths.begin(), poses.paths.end());
   require_distinct(inputs, {arguments.output});
 }
 
 template <int Dim>
-view::PageContent<Dim> load_content(const ViewArguments& arguments, const CageFiles& poses) {
+view::PageContent<Dim> load_content(const ViewArguments& arguments, const CageFiles& poses,
+                                    const Binding<Dim>& binding, view::ShownModel<Dim> model) {
   view::PageContent<Dim> content;
   content.title = std::filesystem::path(arguments.model).stem().string();
   content.model_file = path_beside(arguments.output, arguments.model);
-  content.weights_file = path_beside(arguments.output, arguments.weights);
-  content.cage_file = path_beside(arguments.output, arguments.cage);
-  content.cage = load_shown_cage<Dim>(arguments.cage);
-  auto model = load_shown_model<Dim>(arguments.model);
+  content.weights_file = path_beside(arguments.output, arguments.files.weights);
+  content.cage_file = path_beside(arguments.output, arguments.files.cage_file());
+  content.cage = shown_cage_of(arguments.files, binding);
   content.points = std::move(model.points);
   content.surface = std::move(model.surface);
   look_from_front(content, up_of(arguments.up, arguments.model));
-  const RestCage<Dim> rest(arguments.cage);
+  const auto rest = rest_cage_of(arguments.files, binding);
   content.poses = shown_poses(load_poses(arguments.poses, poses, rest, 1));
   if (!arguments.picture.empty()) {
     content.picture = "data:" + media_type_of(arguments.picture) + ";base64," +
@@ -105,12 +104,12 @@ void write_page(const ViewArguments& arguments, const CageFiles& poses) {
   const auto given = io::read_weights(arguments.weights);
   const Cage<Dim> rest{content.cage.points, content.cage.facets};
   check_reproduction<Dim>(given, rest, content.points,
-                          {arguments.weights, arguments.cage, arguments.model});
+                          {arguments.files.weights, arguments.files.cage, arguments.model});
   // The page moves larger models on the graphics card, which takes 8 influences per vertex.
   constexpr Eigen::Index kManyVertices = 100'000;
   const Index usual = content.points.cols() > kManyVertices ? 8 : view::kMostInfluences;
-  content.weights = naming(arguments.weights, [&] {
-    return view::limit_influences(rest.points, attached_points(rest, content.points, given), given,
+  content.weights = naming(arguments.files.weights, [&] {
+    return view::limit_influences(binding.cage.points, binding.points, given,
                                   arguments.max_influences.value_or(usual));
   });
   const auto page = make_page(content);
@@ -143,8 +142,8 @@ void add_view_command(CLI::App& app, int&) {
       ->add_option("MODEL", a.model,
                    "model (.obj .off .ply .stl .glb .gltf), or domain mesh whose boundary is shown")
       ->required();
-  command->add_option("--weights", a.weights, describe_weight_file())->required();
-  command->add_option("--cage", a.cage, "cage of the weights")->required();
+  command->add_option("--weights", a.files.weights, describe_weight_file())->required();
+  add_cage_option(*command, a.files.cage);
   add_rate_option(*command, a.poses, add_pose_option(*command, a.poses));
   command->add_option(
       "-k,--max-influences", a.max_influences,
@@ -158,8 +157,9 @@ void add_view_command(CLI::App& app, int&) {
     check_arguments(*arguments);
     const auto files = find_cages(arguments->poses.cages);
     check_files(*arguments, files);
-    dimension_of_cage(arguments->cage) == 2 ? write_page<2>(*arguments, files)
-                                            : write_page<3>(*arguments, files);
+    require_cage(arguments->files);
+    dimension_of(arguments->files) == 2 ? write_page<2>(*arguments, files)
+                                        : write_page<3>(*arguments, files);
   });
 }
 

@@ -54,47 +54,41 @@ void mesh_domain(Comparison<Dim>& all) {
   CageSolver<Dim> solver(all.cage, all.shape.points, all.shape.edges, settings);
   solver.make_domain(arguments.quiet);
   all.domain = solver.domain();
-  all.placement = solver.placement();
+  all.placement = solver.rig().placement();
   if (arguments.model.empty()) all.shape = shape_of(all.domain);
   all.folder.add(domain_file<Dim>(), "",
                  [&](const std::string& path) { io::write_domain(path, all.domain); });
 }
 
-template <int Dim>
-Solution weights_of_mesh(const Comparison<Dim>& all, const Column<Dim>& column) {
-  const auto& settings = column.settings;
-  ProgressBar bar(all.arguments.quiet, "setting up: boundary values, distances", settings.options);
-  Observer observer;
-  observer.progress = [&](const Progress& progress) {
-    bar.show(progress);
-    return true;
-  };
-  return compute_weights(all.cage, all.domain, settings, observer);
-}
-
-template <int Dim>
-SparseWeights weights_of_shape(const Comparison<Dim>& all, const Column<Dim>& column) {
-  if (all.arguments.model.empty()) return column.of_mesh;
-  return weights_of_points(all.cage, all.domain, column.of_mesh, all.placement, column.settings);
-}
-
 // \return what moves the vertices of the mesh, and the seconds for its weights
 template <int Dim>
-std::pair<MovedBy<Dim>, StageSeconds> solve_green(const Comparison<Dim>& all, Column<Dim>& column) {
+std::pair<Motion<Dim>, StageSeconds> solve_green(const Comparison<Dim>& all, Column<Dim>& column) {
   const auto n = all.cage.size();
+  const auto of_control_points = [&](const PointList<Dim>& points) {
+    return SparseWeights(WeightMatrix(green_coordinates(all.cage, points).topRows(n)));
+  };
   const auto start = std::chrono::steady_clock::now();
   auto mesh = by_green_coordinates(all.cage, all.domain.points);
   const double seconds = seconds_since(start);
-  column.of_mesh = WeightMatrix(mesh.weights.dense().topRows(n));
+  column.of_mesh = of_control_points(all.domain.points);
   column.moved = by_green_coordinates(all.cage, all.points());
-  column.rows = SparseWeights(WeightMatrix(column.moved.weights.dense().topRows(n)));
+  column.rows = of_control_points(all.points());
   return {std::move(mesh), {0, seconds, 0, 0}};
+}
+
+// By weights that need not reproduce the points.
+template <int Dim>
+Motion<Dim> by_weights(const Comparison<Dim>& all, const PointList<Dim>& points,
+                       const SparseWeights& weights) {
+  return [binding = bound_by<Dim>(all.cage, points, weights)](const PointList<Dim>& pose) {
+    return binding.deform(pose);
+  };
 }
 
 // What holds for the deformation, of which weights of control points are only a part.
 template <int Dim>
-double reproduction_error(const Comparison<Dim>& all, const MovedBy<Dim>& moved) {
-  return displacements<Dim>(all.points(), moved.at(all.cage.points)).maxCoeff() /
+double reproduction_error(const Comparison<Dim>& all, const Motion<Dim>& moved) {
+  return displacements<Dim>(all.points(), moved(all.cage.points)).maxCoeff() /
          bounding_box_diagonal(all.cage.points);
 }
 
@@ -104,12 +98,12 @@ double reach(const SparseWeights& weights) {
 }
 
 template <int Dim>
-void add_distortion(const Comparison<Dim>& all, const MovedBy<Dim>& mesh, Column<Dim>& column) {
+void add_distortion(const Comparison<Dim>& all, const Motion<Dim>& mesh, Column<Dim>& column) {
   auto poses = test_poses<Dim>(all.cage.points);
   if (all.pose.cols() > 0) poses = {all.pose};
   Distortion sum;
   for (const auto& pose : poses) {
-    const auto one = distortion_of<Dim>(all.domain, mesh.at(pose));
+    const auto one = distortion_of<Dim>(all.domain, mesh(pose));
     sum.isometric += one.isometric / static_cast<double>(poses.size());
     sum.volume += one.volume / static_cast<double>(poses.size());
     sum.flipped += one.flipped / static_cast<double>(poses.size());
@@ -121,7 +115,7 @@ void add_distortion(const Comparison<Dim>& all, const MovedBy<Dim>& mesh, Column
 
 //! \param mesh  moves the vertices of the mesh
 template <int Dim>
-void measure(const Comparison<Dim>& all, const MovedBy<Dim>& mesh, const StageSeconds& seconds,
+void measure(const Comparison<Dim>& all, const Motion<Dim>& mesh, const StageSeconds& seconds,
              Column<Dim>& column) {
   const auto& settings = column.settings;
   column.facts = {{"method", name_of_method(settings, settings.options.method)},
@@ -139,7 +133,7 @@ void measure(const Comparison<Dim>& all, const MovedBy<Dim>& mesh, const StageSe
   constexpr int kFrames = 5;
   const auto& pose = all.pose.cols() > 0 ? all.pose : all.cage.points;
   const auto start = std::chrono::steady_clock::now();
-  for (int k = 0; k < kFrames; ++k) column.moved.at(pose);
+  for (int k = 0; k < kFrames; ++k) column.moved(pose);
   column.facts["setup_seconds"] = seconds.setup;
   column.facts["solve_seconds"] = seconds.solve + seconds.recover;
   column.facts["seconds_per_frame"] = seconds_since(start) / kFrames;
@@ -151,12 +145,22 @@ void solve_column(const Comparison<Dim>& all, Column<Dim>& column) {
     const auto [mesh, seconds] = solve_green(all, column);
     return measure(all, mesh, seconds, column);
   }
-  auto solution = weights_of_mesh(all, column);
-  column.of_mesh = std::move(solution.weights);
-  column.rows = weights_of_shape(all, column);
-  column.moved = by_weights<Dim>(column.rows, all.cage.points, all.points());
-  measure(all, by_weights<Dim>(column.of_mesh, all.cage.points, all.domain.points),
-          solution.report.seconds, column);
+  const auto& settings = column.settings;
+  ProgressBar bar(all.arguments.quiet, "setting up: boundary values, distances", settings.options);
+  auto options = bind_options(all.cage, all.domain, settings);
+  options.outside = OutsidePoints::kNearest;
+  options.observer.progress = [&](const Progress& progress) {
+    bar.show(progress);
+    return true;
+  };
+  const bool has_model = !all.arguments.model.empty();
+  Rig<Dim> rig(all.cage, MadeDomain<Dim>{all.domain}, has_model ? all.points() : PointList<Dim>(),
+               {}, options);
+  const auto seconds = rig.solve().report.seconds;
+  column.of_mesh = rig.solution().weights;
+  column.rows = rig.weights_of_points();
+  column.moved = by_weights(all, all.points(), column.rows);
+  measure(all, by_weights(all, all.domain.points, column.of_mesh), seconds, column);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "files/upright.h"
 #include "flbc/meshing.h"
-#include "poses/moved_by.h"
+#include "poses/poses.h"
 #include "run/folder.h"
 #include "run/inputs.h"
 #include "solve/solve_settings.h"
@@ -38,7 +38,7 @@ struct Column {
   std::string failure{};     //!< if there are no results
   SparseWeights of_mesh{};   //!< of the vertices of the mesh
   SparseWeights rows{};      //!< the same of the shape's points
-  MovedBy<Dim> moved{};      //!< how they move
+  Motion<Dim> moved{};       //!< how they move
   nlohmann::ordered_json facts{};
 
   std::string weights_file() const { return "weights_" + name + ".npy"; }

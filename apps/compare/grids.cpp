@@ -14,7 +14,7 @@ namespace {
 
 template <int Dim>
 PointList<Dim> posed_points(const Comparison<Dim>& all, const Column<Dim>& column) {
-  return column.moved.at(all.pose);
+  return column.moved(all.pose);
 }
 
 draw::WeightPictureOptions options_of(const CompareArguments& arguments) {

@@ -63,7 +63,7 @@ void require_control_point(Index control_point, Eigen::Index count);
 //! Writes a result of text; signals wait meanwhile. \throws IoError
 void write_text(const std::string& path, const std::string& text);
 
-constexpr const char* kWeightFormats = ".mtx, .npy, .csv";
+constexpr const char* kWeightFormats = ".npz (a binding), .mtx, .npy, .csv";
 
 std::string describe_weight_file();
 

@@ -231,16 +231,6 @@ Locality load_locality(const std::string& path, const Cage<Dim>& cage, const Poi
   return locality;
 }
 
-template <int Dim>
-std::vector<flbc::Mask> load_locality_inside(const std::string& path, const Cage<Dim>& cage,
-                                             const PointList<Dim>& points, const std::string& model,
-                                             const SparseWeights& weights) {
-  if (path.empty()) return {};
-  return end_at_facets(cage, attached_points(cage, points, weights),
-                       load_locality(path, cage, points, model).masks);
-}
-
 FLBC_INSTANTIATE_FUNCTION(load_locality)
-FLBC_INSTANTIATE_FUNCTION(load_locality_inside)
 
 }  // namespace flbc::app

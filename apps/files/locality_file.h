@@ -38,11 +38,4 @@ template <int Dim>
 Locality load_locality(const std::string& path, const Cage<Dim>& cage, const PointList<Dim>& points,
                        const std::string& model, int mirror_axis = -1);
 
-//! Its masks without those that end at facets, for weights that obey the others.
-//! \param weights  of the P points: those outside end at the facets that they follow
-template <int Dim>
-std::vector<flbc::Mask> load_locality_inside(const std::string& path, const Cage<Dim>& cage,
-                                             const PointList<Dim>& points, const std::string& model,
-                                             const SparseWeights& weights);
-
 }  // namespace flbc::app

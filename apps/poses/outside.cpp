@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "poses/outside.h"
 
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -8,8 +9,6 @@
 #include "flbc/deform.h"
 #include "flbc/placement.h"
 #include "report/facts.h"
-#include "solve/cage_solver.h"
-#include "solve/weights_of_model.h"
 
 namespace flbc::app {
 namespace {
@@ -56,9 +55,25 @@ struct CellCount {
 }  // namespace
 
 template <int Dim>
-Border<Dim>::Border(Cage<Dim> rest, const PointList<Dim>& points, const EdgeList& edges,
-                    const SparseWeights& weights)
-    : cage_(std::move(rest)), crossings_(find_crossings(cage_, points, are_still(weights), edges)) {
+Border<Dim>::Border(const Binding<Dim>& binding)
+    : cage_(binding.cage),
+      crossings_(find_crossings(cage_, binding.rest(), are_still(binding.weights), binding.edges)) {
+}
+
+void warn_unknown_border(const std::string& file) {
+  std::cerr << "flbc: " << file
+            << ": the deformation jumps where a moved facet passes through a mesh of these points; "
+               "this is not checked, because points have no edges\n";
+}
+
+template <int Dim>
+void warn_border(const Binding<Dim>& binding, const std::string& file,
+                 const std::vector<Pose<Dim>>& poses) {
+  const auto still = are_still(binding.weights);
+  if (std::find(still.begin(), still.end(), true) == still.end()) return;
+  if (binding.edges.ends.empty()) return warn_unknown_border(file);
+  const auto text = Border<Dim>(binding).describe(poses);
+  if (!text.empty()) std::cerr << "flbc: " << file << ' ' << text << '\n';
 }
 
 template <int Dim>
@@ -107,22 +122,6 @@ nlohmann::ordered_json Border<Dim>::json(const std::vector<Pose<Dim>>& poses) co
 }
 
 template <int Dim>
-void warn_outside(const SparseWeights& weights, const Cage<Dim>& rest, const PointList<Dim>& points,
-                  const std::string& file) {
-  const Index still = count_without_weights(weights);
-  if (still > 0) {
-    std::cerr << "flbc: " << file << ": " << still << " of " << points.cols()
-              << " vertices have no weights; they stay where they are\n";
-  }
-  const Eigen::VectorXd offsets =
-      displacements<Dim>(points, attached_points(rest, points, weights));
-  const auto outside = (offsets.array() > 0).count();
-  if (outside == 0) return;
-  print_outside(file, outside, points.cols(),
-                offsets.maxCoeff() / bounding_box_diagonal(rest.points), OutsidePoints::kNearest);
-}
-
-template <int Dim>
 void warn_inverted(const MovableModel<Dim>& model, const PointList<Dim>& posed,
                    const std::string& file, const std::string& pose) {
   CellCount count;
@@ -145,8 +144,8 @@ void warn_inverted(const MovableModel<Dim>& model, const PointList<Dim>& posed,
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                                      \
-  template void warn_outside(const SparseWeights&, const Cage<Dim>&, const PointList<Dim>&,        \
-                             const std::string&);                                                  \
+  template void warn_border(const Binding<Dim>&, const std::string&,                               \
+                            const std::vector<Pose<Dim>>&);                                        \
   template class Border<Dim>;                                                                      \
   template void warn_inverted(const MovableModel<Dim>&, const PointList<Dim>&, const std::string&, \
                               const std::string&);

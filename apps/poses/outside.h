@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "files/movable_model.h"
+#include "flbc/binding.h"
 #include "flbc/border.h"
-#include "flbc/sparse_weights.h"
 #include "poses/poses.h"
 
 namespace flbc::app {
@@ -18,10 +18,8 @@ namespace flbc::app {
 template <int Dim>
 class Border {
  public:
-  // \param rest  its facets may be missing; then no border is found
-  // \param points  Dim x P, of the model
-  Border(Cage<Dim> rest, const PointList<Dim>& points, const EdgeList& edges,
-         const SparseWeights& weights);
+  // Without facets of the cage, no border is found.
+  explicit Border(const Binding<Dim>& binding);
 
   bool is_empty() const { return crossings_.empty(); }
 
@@ -39,11 +37,14 @@ class Border {
   std::vector<BorderCrossing<Dim>> crossings_;
 };
 
-// Prints how many vertices have no weights, and how many follow the nearest point of the cage at
-// an offset, if there are any. \param rest  may be without facets \param file  of the model
+// Prints that the deformation of points may jump where a mesh of them would cross the cage.
+void warn_unknown_border(const std::string& file);
+
+// Prints where vertices of a binding that move meet vertices without weights, and what to hold
+// still, if there is such a place. \param file  of the model
 template <int Dim>
-void warn_outside(const SparseWeights& weights, const Cage<Dim>& rest, const PointList<Dim>& points,
-                  const std::string& file);
+void warn_border(const Binding<Dim>& binding, const std::string& file,
+                 const std::vector<Pose<Dim>>& poses);
 
 // Prints how many cells of a volume mesh, or polygons of a model in the plane, are inverted in a
 // pose, if there are any. Surfaces have none.

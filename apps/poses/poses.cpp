@@ -8,6 +8,7 @@
 #include "files/model_facets.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
+#include "flbc/green.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/same_vertices.h"
@@ -184,8 +185,17 @@ Index main_control_point(const SparseWeights& weights, const PointList<Dim>& res
   return static_cast<Index>(chosen);
 }
 
+template <int Dim>
+Motion<Dim> by_green_coordinates(const Cage<Dim>& cage, const PointList<Dim>& points) {
+  return [cage, weights = SparseWeights(green_coordinates(cage, points))](
+             const PointList<Dim>& pose) -> PointList<Dim> {
+    return deform<Dim>(weights, control_points_and_normals(cage, pose));
+  };
+}
+
 template class RestCage<2>;
 template class RestCage<3>;
+FLBC_INSTANTIATE_FUNCTION(by_green_coordinates)
 FLBC_INSTANTIATE_FUNCTION(load_poses)
 FLBC_INSTANTIATE_FUNCTION(animation_of)
 FLBC_INSTANTIATE_FUNCTION(main_control_point)

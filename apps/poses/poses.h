@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,6 @@
 #include "flbc/io/model.h"
 #include "flbc/types.h"
 #include "gltf/skin.h"
-#include "poses/moved_by.h"
 
 namespace flbc::app {
 
@@ -100,15 +100,23 @@ struct Displacement {
   std::size_t pose = 0;    //!< in which it does
 };
 
+//! The points of a model, Dim x P, in a pose of the cage, Dim x n.
+template <int Dim>
+using Motion = std::function<PointList<Dim>(const PointList<Dim>& pose)>;
+
+//! By Green coordinates. \throws InputError if a point is outside the cage
+template <int Dim>
+Motion<Dim> by_green_coordinates(const Cage<Dim>& cage, const PointList<Dim>& points);
+
 //! \param points  Dim x P, where the model rests
 template <int Dim>
-Displacement measure_displacement(const MovedBy<Dim>& moved, const PointList<Dim>& points,
+Displacement measure_displacement(const Motion<Dim>& moved, const PointList<Dim>& points,
                                   const std::vector<Pose<Dim>>& poses) {
   Displacement result;
   result.lengths.resize(static_cast<Eigen::Index>(poses.size()), points.cols());
   for (std::size_t k = 0; k < poses.size(); ++k) {
     result.lengths.row(static_cast<Eigen::Index>(k)) =
-        displacements<Dim>(points, moved.at(poses[k].points)).transpose();
+        displacements<Dim>(points, moved(poses[k].points)).transpose();
   }
   if (result.lengths.size() == 0) return result;
   Eigen::Index pose = 0;

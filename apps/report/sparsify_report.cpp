@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "files/bound_model.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "flbc/cell_locator.h"
@@ -13,7 +14,6 @@
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "help/options.h"
-#include "solve/weights_of_model.h"
 
 namespace flbc::app {
 namespace {

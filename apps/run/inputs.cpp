@@ -86,7 +86,7 @@ RunInputs<Dim> load_inputs(const Cage<Dim>& cage, const RunArguments& arguments)
 
 template <int Dim>
 std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs) {
-  std::vector<std::string> names{domain_file<Dim>(), kWeights, kSparseWeights};
+  std::vector<std::string> names{domain_file<Dim>(), kWeights, kSparseWeights, kBinding};
   if (inputs.makes_cage) names.emplace_back(kCage);
   if (inputs.shape.file) names.emplace_back(kDomainWeights);
   for (const auto& pose : inputs.poses) {

@@ -26,6 +26,7 @@ constexpr const char* kDomain = "domain";  //!< the extension depends on the dim
 constexpr const char* kDomainWeights = "domain_weights.npy";
 constexpr const char* kWeights = "weights.npy";
 constexpr const char* kSparseWeights = "sparse_weights.mtx";
+constexpr const char* kBinding = "binding.npz";
 constexpr const char* kSkin = "model.glb";        //!< of four influences, which every reader knows
 constexpr const char* kFullSkin = "model_8.glb";  //!< of up to eight
 constexpr const char* kSplats = ".ply";           //!< extension of moved splats

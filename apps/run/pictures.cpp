@@ -67,7 +67,7 @@ void add_picture(Run<Dim>& run, const char* title, const std::string& facts,
 // The points in a pose, as deformed files have them.
 template <int Dim>
 PointList<Dim> posed(const Run<Dim>& run, const Drawn<Dim>& drawn, const Pose<Dim>& pose) {
-  return &drawn.points == &run.shape().points ? run.moved.at(pose.points)
+  return &drawn.points == &run.shape().points ? run.reduced.deform(pose.points)
                                               : deform<Dim>(drawn.weights, pose.points);
 }
 

@@ -5,6 +5,7 @@
 #include "files/load.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
+#include "flbc/io/binding_file.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/poses.h"
@@ -32,20 +33,21 @@ std::vector<PointList<Dim>> points_of(const std::vector<Pose<Dim>>& poses) {
 }
 
 template <int Dim>
-SparseWeights reduce(const Run<Dim>& run, const std::string& method,
-                     const std::vector<PointList<Dim>>& poses, Index max_influences) {
+Binding<Dim> reduce(const Run<Dim>& run, const std::string& method,
+                    const std::vector<PointList<Dim>>& poses, Index max_influences) {
   const std::string stage = "reducing influences";
   ProgressBar bar(run.arguments.quiet, stage);
   SparsifyOptions limits{max_influences};
   limits.progress = [&](double done) { bar.show(stage, done); };
-  return run.solver.rig().reduced(limits, poses, reduction_named(method));
+  return run.solver.binding().reduced(limits, poses, reduction_named(method));
 }
 
 // Relative to the size, over the poses given or else over smooth random ones.
 template <int Dim>
 ErrorNorms error_of_reduction(const Run<Dim>& run, const std::vector<PointList<Dim>>& given) {
   const auto& poses = given.empty() ? smooth_poses(run.cage.points, kRandomPoses) : given;
-  return relative_deformation_error<Dim>(run.shape().points, poses, run.weights(), run.reduced);
+  return relative_deformation_error<Dim>(run.shape().points, poses, run.weights(),
+                                         run.reduced.weights);
 }
 
 std::string facts_of(const SparseWeights& before, const SparseWeights& after,
@@ -105,18 +107,9 @@ Json write_skin(Run<Dim>& run, const std::string& name, Index max_influences) {
   gltf::SkinOptions options;
   options.max_influences = max_influences;
   options.name = shape.name;
-  if (run.report["sparsify"]["method"] == kPoisson) options.edges = shape.edges;
-  options.masks = run.solver.rig().masks().of_points;
   options.turn = turn_upright(up_axis(run.arguments.up, shape.points));
   options.cage_edges = view::as_facets(shown_cage(run).edges);
-  // A reduction of its own would not be symmetric.
-  const bool is_mirrored =
-      run.arguments.settings.mirror_axis >= 0 && max_influences < run.arguments.max_influences;
-  const auto weights = is_mirrored ? reduce(run, run.report["sparsify"]["method"],
-                                            points_of(run.poses()), max_influences)
-                                   : run.reduced;
-  const auto skin =
-      gltf::export_skin(run.cage.points, shape.points, weights, shape.surface, options, animation);
+  const auto skin = gltf::export_skin(run.reduced, shape.surface, options, animation);
   run.folder.add_text(name, facts_of(skin, run) + left_out_of(skin), skin.content);
   const double size = bounding_box_diagonal<Dim>(shape.points);
   return {
@@ -145,13 +138,15 @@ void reduce_influences(Run<Dim>& run) {
   const auto method = reduction_for(run.arguments.reduction, file, shape.edges);
   run.reduced =
       naming(file, [&] { return reduce(run, method, poses, run.arguments.max_influences); });
-  run.moved = by_weights<Dim>(run.reduced, run.cage.points, shape.points);
+  if (method != kPoisson) run.reduced.edges = {};  // later reductions are alike
 
   const auto& before = run.weights();
-  const auto& after = run.reduced;
+  const auto& after = run.reduced.weights;
   const auto error = error_of_reduction(run, poses);
   run.folder.add(kSparseWeights, facts_of(before, after, error, poses.size()),
                  [&](const std::string& path) { io::write_weights(path, after); });
+  run.folder.add(kBinding, "weights, cage, and all that other commands need of them",
+                 [&](const std::string& path) { io::write_binding(path, run.reduced); });
 
   const auto size_of_file = [&](const std::string& name) {
     std::error_code ignored;

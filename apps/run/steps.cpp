@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "files/bound_model.h"
 #include "files/load.h"
 #include "files/model_facets.h"
 #include "flbc/deform.h"
@@ -15,9 +16,7 @@
 #include "report/check_report.h"
 #include "report/facts.h"
 #include "report/report_json.h"
-#include "solve/domain_jacobians.h"
 #include "solve/progress_bar.h"
-#include "solve/weights_of_model.h"
 
 namespace flbc::app {
 
@@ -36,12 +35,10 @@ void mesh_interior(Run<Dim>& run) {
   solver.make_domain(run.arguments.quiet);
   const auto& domain = solver.domain();
   if (!run.has_model()) run.inputs.shape = shape_of(domain);
-  if (run.inputs.splats) {
-    run.splats = placing<Dim>(run.arguments.splats, [&] {
-      return place_points(run.cage, domain, run.inputs.splats->points(),
-                          run.arguments.settings.outside);
+  if (run.inputs.splats) {  // refuses those outside before the solve
+    placing<Dim>(run.arguments.splats, [&] {
+      place_points(run.cage, run.inputs.splats->points(), run.arguments.settings.outside);
     });
-    if (!run.arguments.quiet) warn_outside(run.splats, run.cage, run.arguments.splats);
   }
   const auto name = domain_file<Dim>();
   run.report["mesh"] = {{"file", name},
@@ -61,6 +58,15 @@ template <int Dim>
 void compute_weights(Run<Dim>& run) {
   auto& solver = run.solver;
   solver.solve(run.arguments.quiet);
+  const auto& arguments = run.arguments;
+  if (!arguments.quiet) {
+    warn_outside(solver.binding(), arguments.settings.model, solver.outside_verb());
+  }
+  if (run.inputs.splats) {
+    run.splats =
+        solver.binding().transferred(run.inputs.splats->points(), {}, arguments.settings.outside);
+    if (!arguments.quiet) warn_outside(run.splats, arguments.splats);
+  }
   const auto delivered = measure_quality(run.cage.points, run.attached(), run.weights());
   run.report["solve"] = solver.json(delivered);
   if (run.has_model()) {
@@ -83,7 +89,7 @@ void compute_weights(Run<Dim>& run) {
           << report.mesh_error << " (--vertices " << 4 * report.vertices << ": about "
           << report.mesh_error / 10 << ")";
   }
-  facts << describe(solver.placement(), run.cage);
+  facts << describe(solver.rig().placement(), run.cage);
   if (is_certified(report)) {
     facts << ", within " << 100 * report.certificate.relative_gap << "% of the optimum";
   }
@@ -105,18 +111,15 @@ namespace {
 
 template <int Dim>
 void deform_splats(Run<Dim>& run) {
-  const auto& domain = run.solver.domain();
-  const auto& of_domain = run.solver.domain_weights();
-  const auto weights = weights_at(run.cage, domain, of_domain, run.splats);
-  const auto moved = by_weights<Dim>(weights, run.cage.points, run.inputs.splats->points());
-  const DomainJacobians<Dim> jacobians(run.cage, domain, of_domain, run.splats);
+  const auto jacobians = run.splats.point_jacobians();
   for (const auto& pose : run.poses()) {
     const auto name = name_of_deformed(pose.number, run.poses().size(), kSplats);
     Facts facts;
-    facts << weights.num_points() << " splats";
+    facts << run.splats.points.cols() << " splats";
     run.folder.add(name, facts.text(), [&](const std::string& path) {
       naming(path, [&] {
-        run.inputs.splats->write(path, moved.at(pose.points), {}, 0, jacobians.at(pose.points));
+        run.inputs.splats->write(path, run.splats.deform(pose.points), {}, 0,
+                                 jacobians.at(pose.points));
       });
     });
     run.report["deform"].push_back({{"pose", pose.name}, {"file", name}});
@@ -126,13 +129,9 @@ void deform_splats(Run<Dim>& run) {
 // Where vertices stay that are outside of the cage.
 template <int Dim>
 void tell_border(Run<Dim>& run) {
-  if (count_without_weights(run.reduced) == 0) return;
-  const auto& shape = run.shape();
-  const Border<Dim> border(run.cage, shape.points, shape.edges, run.reduced);
-  run.report["border"] = border.json(run.poses());
-  const auto text = border.describe(run.poses());
-  if (run.arguments.quiet || text.empty()) return;
-  std::cerr << "flbc: " << run.arguments.settings.model << ' ' << text << '\n';
+  if (count_without_weights(run.reduced.weights) == 0) return;
+  run.report["border"] = Border<Dim>(run.reduced).json(run.poses());
+  if (!run.arguments.quiet) warn_border(run.reduced, run.arguments.settings.model, run.poses());
 }
 
 }  // namespace
@@ -140,11 +139,13 @@ void tell_border(Run<Dim>& run) {
 template <int Dim>
 void deform_shape(Run<Dim>& run) {
   const auto& shape = run.shape();
-  run.displacement = measure_displacement(run.moved, shape.points, run.poses());
+  run.displacement = measure_displacement<Dim>(
+      [&](const PointList<Dim>& pose) { return run.reduced.deform(pose); }, shape.points,
+      run.poses());
   auto& report = run.report["deform"] = nlohmann::ordered_json::array();
   for (std::size_t k = 0; k < run.poses().size(); ++k) {
     const auto& pose = run.poses()[k];
-    const PointList<Dim> points = run.moved.at(pose.points);
+    const PointList<Dim> points = run.reduced.deform(pose.points);
     const auto name = name_of_deformed(pose.number, run.poses().size(), shape.extension);
     run.folder.add(name, "", [&](const std::string& path) {
       if (shape.file) {

@@ -23,18 +23,17 @@ struct Run {
   RunFolder& folder;
   nlohmann::ordered_json report{};
 
-  SparseWeights reduced{};      //!< of the shape's points, at most so many influences of each
-  MovedBy<Dim> moved{};         //!< how the shape moves, by these weights
+  Binding<Dim> reduced{};       //!< of the shape's points, at most so many influences of each
   Displacement displacement{};  //!< in the poses
-  Placement<Dim> splats{};      //!< of the splats, if there are any
+  Binding<Dim> splats{};        //!< of the splats, if there are any
 
   const std::vector<Pose<Dim>>& poses() const { return inputs.poses; }
   const Shape<Dim>& shape() const { return inputs.shape; }
   //! The points that the weights reproduce: the shape's, or the nearest ones of the cage.
-  const PointList<Dim>& attached() const { return solver.points(); }
+  const PointList<Dim>& attached() const { return solver.binding().points; }
   bool has_model() const { return !arguments.settings.model.empty(); }
   //! Of the shape's points, with all influences.
-  const SparseWeights& weights() const { return solver.rows(); }
+  const SparseWeights& weights() const { return solver.binding().weights; }
 };
 
 //! cage.obj, if the cage has been made.
@@ -53,7 +52,7 @@ void compute_weights(Run<Dim>& run);
 template <int Dim>
 void check_weights_of_mesh(Run<Dim>& run);
 
-//! sparse_weights.mtx
+//! sparse_weights.mtx, and binding.npz with all that commands need of cage and model.
 template <int Dim>
 void reduce_influences(Run<Dim>& run);
 

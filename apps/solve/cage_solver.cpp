@@ -118,33 +118,20 @@ nlohmann::ordered_json parts_json(const Cage<Dim>& cage, const std::vector<Solve
 }  // namespace
 
 template <int Dim>
-Solution compute_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
-                         const SolveSettings& settings, const Observer& observer) {
-  auto options = settings.options;
-  if (settings.coordinates) {
-    return compute_coordinates(cage, domain, *settings.coordinates,
-                               {options.non_negative, options.threads}, observer);
-  }
+BindOptions bind_options(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
+                         const SolveSettings& settings) {
+  BindOptions options;
+  options.max_influences = 0;
+  options.outside = settings.outside;
+  options.mirror_axis = settings.mirror_axis;
+  options.coordinates = settings.coordinates;
+  options.solver = settings.options;
   if (settings.penalty) {
-    options.penalty = published_penalty(cage, domain, options.method, *settings.penalty);
+    options.solver.penalty =
+        published_penalty(cage, domain, settings.options.method, *settings.penalty);
   }
-  if (settings.phi.empty()) return flbc::solve(cage, domain, options, observer);
-  auto problem =
-      make_problem(cage, domain, DistanceScheme::kConstant, *resolve(options).smoothness);
-  problem.phi = WeightFunctions(io::read_weights(settings.phi).dense());
-  return naming(settings.phi, [&] { return flbc::solve(problem, options, observer); });
-}
-
-template <int Dim>
-SparseWeights weights_of_points(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
-                                const SparseWeights& of_domain, const Placement<Dim>& placement,
-                                const SolveSettings& settings) {
-  const auto& options = settings.options;
-  if (settings.coordinates && is_pointwise(*settings.coordinates)) {
-    return pointwise_coordinates(cage, placement, *settings.coordinates,
-                                 options.non_negative == NonNegative::kProject, options.threads);
-  }
-  return weights_at(cage, domain, of_domain, placement);
+  if (!settings.phi.empty()) options.phi = io::read_weights(settings.phi).dense();
+  return options;
 }
 
 template <int Dim>
@@ -174,13 +161,10 @@ MadeDomain<Dim> CageSolver<Dim>::fill_cage(bool quiet) {
 }
 
 template <int Dim>
-Placement<Dim> CageSolver<Dim>::place_in_cage(bool quiet) {
+void CageSolver<Dim>::require_inside(bool quiet) {
   const ProgressBar bar(quiet, "locating the model vertices in the cage");
-  const auto place = [&] {
-    return placing<Dim>(settings_.model, [&] { return place_points(cage_, model_, outside_); });
-  };
   try {
-    return place();
+    placing<Dim>(settings_.model, [&] { place_points(cage_, model_, outside_); });
   } catch (const InputError& error) {
     if (settings_.embed || !io::holds(settings_.model, {io::Content::kModel}) ||
         !only_loose_are_outside(cage_, model_, io::read_polygons(settings_.model))) {
@@ -188,7 +172,6 @@ Placement<Dim> CageSolver<Dim>::place_in_cage(bool quiet) {
     }
     outside_ = OutsidePoints::kNearest;
     outside_verb_ = "belong to no face and are";
-    return place();
   }
 }
 
@@ -197,45 +180,42 @@ void CageSolver<Dim>::make_domain(bool quiet) {
   // Refusals come before a mesh is made, which takes long.
   const bool has_model = !settings_.model.empty();
   if (!quiet && has_model) warn_tiny<Dim>(cage_.points, model_, settings_.model);
-  if (is_meshless(settings_)) {
-    meshless_.placement = place_in_cage(quiet);
-  } else {
-    if (has_model && outside_ == OutsidePoints::kFail) place_in_cage(quiet);
-    const auto start = std::chrono::steady_clock::now();
-    if (settings_.embed) embedded_ = embeddable_points(cage_, model_);
-    auto made = settings_.domain.empty()
-                    ? fill_cage(quiet)
-                    : MadeDomain<Dim>{io::read_domain<Dim>(settings_.domain), "none"};
-    mesh_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    mesher_ = made.mesher;
-    find_model(std::move(made), quiet || !has_model);
+  if (has_model && outside_ == OutsidePoints::kFail) require_inside(quiet);
+  const auto start = std::chrono::steady_clock::now();
+  if (settings_.embed) embedded_ = embeddable_points(cage_, model_);
+  MadeDomain<Dim> made{{}, "none"};
+  if (!settings_.domain.empty()) {
+    made.mesh = io::read_domain<Dim>(settings_.domain);
+  } else if (!is_meshless(settings_)) {
+    made = fill_cage(quiet);
   }
-  if (!quiet) warn_outside(placement(), cage_, settings_.model, outside_verb_);
-  if (rig_) load_masks(quiet);
+  mesh_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  mesher_ = made.mesher;
+  find_model(std::move(made), quiet || !has_model);
+  load_masks(quiet);
 }
 
 template <int Dim>
 void CageSolver<Dim>::find_model(MadeDomain<Dim> made, bool quiet) {
   const ProgressBar bar(quiet, "locating the model vertices in the mesh");
-  BindOptions options;
-  options.solver.threads = settings_.options.threads;
+  auto options = bind_options<Dim>(cage_, made.mesh, settings_);
   options.outside = outside_;
   rig_ = placing<Dim>(settings_.model, [&] {
-    return std::make_unique<Rig<Dim>>(cage_, std::move(made), model_, edges_, options);
+    return is_meshless(settings_)
+               ? std::make_unique<Rig<Dim>>(cage_, model_, edges_, options)
+               : std::make_unique<Rig<Dim>>(cage_, std::move(made), model_, edges_, options);
   });
-  rig_->set_evaluation([this](const Placement<Dim>& placement) { return evaluated(placement); });
 }
 
 template <int Dim>
 void CageSolver<Dim>::load_masks(bool quiet) {
-  auto options = rig_->options();
-  options.mirror_axis = settings_.mirror_axis;
-  rig_->set_options(options);
   if (settings_.locality.empty()) return;
+  auto options = rig_->options();
   const auto& points = settings_.model.empty() ? domain().points : model_;
   locality_ =
       load_locality(settings_.locality, cage_, points, settings_.model, settings_.mirror_axis);
   options.masks = locality_.masks;
+  options.solver.reach = locality_.reach;
   naming(settings_.locality, [&] { rig_->set_options(options); });
   for (const auto& note : {locality_.note(), rig_->masks().note()}) {
     if (!note.empty() && !quiet) {
@@ -258,50 +238,20 @@ void CageSolver<Dim>::announce() const {
 }
 
 template <int Dim>
-void CageSolver<Dim>::solve_without_mesh() {
-  const auto start = std::chrono::steady_clock::now();
-  meshless_.rows = naming(settings_.model, [&] {
-    return weights_of_points<Dim>(cage_, {}, {}, placement(), settings_);
-  });
-  auto& report = meshless_.solution.report;
-  report.control_points = cage_.size();
-  report.objective = std::numeric_limits<double>::quiet_NaN();
-  report.seconds.solve =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-template <int Dim>
 void CageSolver<Dim>::solve(bool quiet) {
-  if (is_meshless(settings_)) {
-    const ProgressBar bar(quiet, "computing weights");
-    return solve_without_mesh();
-  }
-  if (!quiet) announce();
-  auto settings = settings_;
-  settings.options.masks = rig_->masks().of_mesh;
-  settings.options.reach = locality_.reach;
-  ProgressBar bar(quiet, "setting up: boundary values, distances", settings.options);
-  Observer observer;
-  observer.progress = [&](const Progress& progress) {
+  if (!quiet && !is_meshless(settings_)) announce();
+  ProgressBar bar(quiet, "setting up: boundary values, distances", rig_->options().solver);
+  auto options = rig_->options();
+  options.observer.progress = [&](const Progress& progress) {
     bar.show(progress);
     return true;
   };
-  observer.stage = [&](Stage stage, double done) { bar.show(name_of(stage), done); };
-  rig_->set_solution(naming(settings_.domain.empty() ? settings_.cage : settings_.domain,
-                            [&] { return compute_weights(cage_, domain(), settings, observer); }));
-  rig_->weights_of_points();
-}
-
-template <int Dim>
-SparseWeights CageSolver<Dim>::evaluated(const Placement<Dim>& placement) const {
-  auto rows = naming(settings_.model, [&] {
-    return weights_of_points(cage_, domain(), domain_weights(), placement, settings_);
-  });
-  if (!settings_.embed || &placement != &rig_->placement()) return rows;
-  return SparseWeights::of(cage_.size(), rows.num_points(), [&](Index p) {
-    const Index number = embedded_.number[p];  // exactly those of the vertex
-    return number < 0 ? rows.at(p) : domain_weights().at(cage_.size() + number);
-  });
+  options.observer.stage = [&](Stage stage, double done) { bar.show(name_of(stage), done); };
+  rig_->set_options(options);
+  naming(settings_.domain.empty() ? settings_.cage : settings_.domain, [&] { rig_->solve(); });
+  binding_ = naming(settings_.model, [&] { return rig_->binding(); });
+  options.observer = {};
+  rig_->set_options(options);
 }
 
 // Of weights of a method that does not minimize it.
@@ -319,8 +269,8 @@ nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
   if (!has_objective && report().parts.empty()) json["objective"] = objective();
   if (!settings_.model.empty()) {
     json["outside"] = {{"policy", name_of(outside_)},
-                       {"on_cage", beside_json(placement().on_cage)},
-                       {"outside", beside_json(placement().outside)}};
+                       {"on_cage", beside_json(rig_->placement().on_cage)},
+                       {"outside", beside_json(rig_->placement().outside)}};
   }
   if (!settings_.locality.empty()) {
     json["locality"] = {{"file", settings_.locality},
@@ -344,27 +294,6 @@ std::string describe(const Placement<Dim>& placement, const Cage<Dim>& cage) {
   return text.str();
 }
 
-void print_outside(const std::string& file, std::size_t count, std::size_t all, double distance,
-                   OutsidePoints policy, const char* verb) {
-  const char* const what = policy == OutsidePoints::kKeep ? "stay where they are"
-                           : policy == OutsidePoints::kNearest
-                               ? "follow its nearest point at a constant offset"
-                               : "are extrapolated";
-  Facts facts;
-  facts << file << ": " << count << " of " << all << " vertices " << verb
-        << " outside the cage, by up to " << 100 * distance << "% of its size; they " << what;
-  std::cerr << "flbc: " << facts.text() << '\n';
-}
-
-template <int Dim>
-void warn_outside(const Placement<Dim>& placement, const Cage<Dim>& cage, const std::string& file,
-                  const char* verb) {
-  if (placement.outside.empty()) return;
-  print_outside(file, placement.outside.size(), placement.places.size(),
-                farthest(placement.outside).distance() / bounding_box_diagonal(cage.points),
-                placement.policy, verb);
-}
-
 bool report_convergence(const SolveReport& report, const SolveSettings& settings) {
   if (report.status == SolveStatus::kConverged) {
     // The criteria of some methods say little about the distance to the optimum.
@@ -384,16 +313,11 @@ bool report_convergence(const SolveReport& report, const SolveSettings& settings
   return false;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                             \
-  template Solution compute_weights(const Cage<Dim>&, const DomainMesh<Dim>&,             \
-                                    const SolveSettings&, const Observer&);               \
-  template SparseWeights weights_of_points(const Cage<Dim>&, const DomainMesh<Dim>&,      \
-                                           const SparseWeights&, const Placement<Dim>&,   \
-                                           const SolveSettings&);                         \
-  template class CageSolver<Dim>;                                                         \
-  template std::string describe(const Placement<Dim>&, const Cage<Dim>&);                 \
-  template void warn_outside(const Placement<Dim>&, const Cage<Dim>&, const std::string&, \
-                             const char*);
+#define FLBC_INSTANTIATE(Dim)                                                 \
+  template BindOptions bind_options(const Cage<Dim>&, const DomainMesh<Dim>&, \
+                                    const SolveSettings&);                    \
+  template class CageSolver<Dim>;                                             \
+  template std::string describe(const Placement<Dim>&, const Cage<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -22,16 +22,10 @@
 
 namespace flbc::app {
 
-//! Computes the coordinates of the settings, or solves with their options.
+//! The settings as options of a Rig, with all influences.
 template <int Dim>
-Solution compute_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
-                         const SolveSettings& settings, const Observer& observer);
-
-//! Their weights at placed points. \param of_domain  not used for pointwise coordinates
-template <int Dim>
-SparseWeights weights_of_points(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
-                                const SparseWeights& of_domain, const Placement<Dim>& placement,
-                                const SolveSettings& settings);
+BindOptions bind_options(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
+                         const SolveSettings& settings);
 
 //! The steps of a solve, to be taken in this order: make_domain(), solve(). Errors name the files.
 //! What the library does for any program, a Rig does.
@@ -51,40 +45,33 @@ class CageSolver {
   //! \param quiet  without a progress line
   void solve(bool quiet);
 
-  //! The model, or else the mesh, with its weights. All but rows() and points() of settings without
-  //! a mesh need it.
+  //! The model, or else the mesh, with its weights.
   Rig<Dim>& rig() const { return *rig_; }
   const Cage<Dim>& cage() const { return cage_; }
   const DomainMesh<Dim>& domain() const { return rig_->mesh(); }
   const SparseWeights& domain_weights() const { return solution().weights; }
-  const Solution& solution() const { return rig_ ? rig_->solution() : meshless_.solution; }
+  const Solution& solution() const { return rig_->solution(); }
   const SolveReport& report() const { return solution().report; }
   double mesh_seconds() const { return mesh_seconds_; }
   //! The mesher of the mesh; "none" if it was read.
   const std::string& mesher() const { return mesher_; }
 
-  //! The points that the weights reproduce: the model's vertices, or those of the mesh. Vertices
-  //! that follow the nearest point of the cage are there.
-  const PointList<Dim>& points() const { return placement().points; }
-  //! Their weights.
-  const SparseWeights& rows() const { return rig_ ? rig_->weights_of_points() : meshless_.rows; }
-
-  //! Where the points are.
-  const Placement<Dim>& placement() const { return rig_ ? rig_->placement() : meshless_.placement; }
+  //! All weights of the model's vertices, or else of those of the mesh.
+  const Binding<Dim>& binding() const { return binding_; }
+  //! How vertices outside are printed.
+  const char* outside_verb() const { return outside_verb_; }
 
   //! The report of the whole. \param delivered  quality of rows()
   nlohmann::ordered_json json(const Quality& delivered) const;
 
  private:
   // Vertices of no face may be outside: they follow the nearest point of the cage.
-  Placement<Dim> place_in_cage(bool quiet);
+  void require_inside(bool quiet);
   MadeDomain<Dim> fill_cage(bool quiet);
   void find_model(MadeDomain<Dim> made, bool quiet);
   void load_masks(bool quiet);
   // Says what the problem does not determine, and how long a long solve may take.
   void announce() const;
-  void solve_without_mesh();
-  SparseWeights evaluated(const Placement<Dim>& placement) const;
   double objective() const;
 
   const Cage<Dim>& cage_;
@@ -98,27 +85,12 @@ class CageSolver {
   Locality locality_;
   EmbeddablePoints<Dim> embedded_;  // of the model, if it is to be embedded
   std::unique_ptr<Rig<Dim>> rig_;
-  struct {
-    Placement<Dim> placement;
-    SparseWeights rows;
-    Solution solution;  // its report
-  } meshless_;          // without a mesh
+  Binding<Dim> binding_;
 };
 
 //! How many vertices were snapped to the cage; empty for none.
 template <int Dim>
 std::string describe(const Placement<Dim>& placement, const Cage<Dim>& cage);
-
-//! Prints how many vertices are outside the cage, how far, and what they do.
-//! \param distance  of the farthest, relative to the cage size \param verb  in "vertices VERB outside"
-void print_outside(const std::string& file, std::size_t count, std::size_t all, double distance,
-                   OutsidePoints policy, const char* verb = "are");
-
-//! The same of a placement, if there are any.
-//! \param file  of the model
-template <int Dim>
-void warn_outside(const Placement<Dim>& placement, const Cage<Dim>& cage, const std::string& file,
-                  const char* verb = "are");
 
 //! Calls an action that places the vertices of a model. Refusals name the file, and what to do with
 //! vertices outside the cage.

@@ -89,18 +89,6 @@ std::vector<Channel> channels_of(const Animation<Dim>& animation, const Eigen::M
   return channels;
 }
 
-// The points themselves, up to the tolerance.
-template <int Dim>
-PointList<Dim> reproduced(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                          const SparseWeights& weights) {
-  auto result = deform<Dim>(weights, control_points);
-  const double tolerance = kBoundaryTolerance * bounding_box_diagonal(control_points);
-  for (Eigen::Index p = 0; p < points.cols(); ++p) {
-    if ((result.col(p) - points.col(p)).norm() <= tolerance) result.col(p) = points.col(p);
-  }
-  return result;
-}
-
 bool is_identity(const std::vector<Index>& sources, Eigen::Index num_points) {
   for (std::size_t v = 0; v < sources.size(); ++v) {
     if (sources[v] != static_cast<Index>(v)) return false;
@@ -192,16 +180,14 @@ void validate(const Animation<Dim>& animation, Eigen::Index num_control_points) 
 }
 
 template <int Dim>
-ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                         const SparseWeights& weights, const Surface& surface,
+ExportedSkin export_skin(const Binding<Dim>& binding, const Surface& surface,
                          const SkinOptions& options, const Animation<Dim>& animation) {
+  const auto& control_points = binding.cage.points;
+  const PointList<Dim> points = binding.rest();
+  const auto& weights = binding.weights;
   check(control_points, points, weights, surface, options);
   validate(animation, control_points.cols());
-  SparsifyOptions limits{options.max_influences};
-  limits.masks = options.masks;
-  const auto few =
-      reduce_influences<Dim>(control_points, reproduced(control_points, points, weights),
-                             options.edges, weights, animation.poses, limits);
+  const auto few = binding.reduced({options.max_influences}, animation.poses).weights;
   const auto stored = to_joint_weights(few, options.weight_format);
   const Vector<Dim> origin = origin_of(control_points, options.format);
   const bool is_usd = options.format == SkinFormat::kUsda;
@@ -229,10 +215,9 @@ ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<D
   return result;
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                                 \
-  template void validate(const Animation<Dim>&, Eigen::Index);                                \
-  template ExportedSkin export_skin(const PointList<Dim>&, const PointList<Dim>&,             \
-                                    const SparseWeights&, const Surface&, const SkinOptions&, \
+#define FLBC_INSTANTIATE(Dim)                                                                \
+  template void validate(const Animation<Dim>&, Eigen::Index);                               \
+  template ExportedSkin export_skin(const Binding<Dim>&, const Surface&, const SkinOptions&, \
                                     const Animation<Dim>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

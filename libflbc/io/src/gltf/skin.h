@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "flbc/sparsify.h"
+#include "flbc/binding.h"
 #include "flbc/sparsify_error.h"
 #include "gltf/joint_weights.h"
 #include "model/surface.h"
@@ -26,8 +26,6 @@ struct SkinOptions {
   WeightFormat weight_format = WeightFormat::kFloat;
   std::string name = "model";  //!< of the mesh, in .glb
   SkinFormat format = SkinFormat::kGlb;
-  EdgeList edges{};           //!< between the points, for the reduction; empty = each point alone
-  std::vector<Mask> masks{};  //!< of the points, for the reduction
   //! Rotation from the model to y up, for readers. The root has it; coordinates stay as they are.
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   FacetList<2> cage_edges{};  //!< 2 x E, between control points, in .glb; no column = not written
@@ -61,17 +59,14 @@ struct ExportedSkin {
   ErrorNorms deformation_error{};
 };
 
-//! Weights are reduced by reduce_influences() with the poses of the animation. Non-negative weights
+//! Weights are reduced by Binding::reduced() with the poses of the animation. Non-negative weights
 //! with at most `max_influences` influences are unchanged.
-//! \param control_points  Dim x n \param points  Dim x P \param weights  of P points, which
-//! reproduce these or other points
-//! \param surface  of these points; in 2D it lies in the plane z = 0
+//! \param binding  of P points \param surface  of these points; in 2D it lies in the plane z = 0
 //! \throws OptionError for another number of influences; InputError if sizes do not match, there
 //! are more than 65535 control points, or a coordinate is too large for single precision, and as
 //! validate() and sparsify()
 template <int Dim>
-ExportedSkin export_skin(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                         const SparseWeights& weights, const Surface& surface,
+ExportedSkin export_skin(const Binding<Dim>& binding, const Surface& surface,
                          const SkinOptions& options = {}, const Animation<Dim>& animation = {});
 
 }  // namespace flbc::gltf

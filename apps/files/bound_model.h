@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//! \file
+//! Bindings as commands read and write them: one file, or weights with the files of the rest.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "flbc/binding.h"
+#include "poses/poses.h"
+#include "view/page.h"
+
+namespace flbc::app {
+
+//! Files that hold a binding. A .npz file has the cage; weights of other formats need it.
+struct BindingFiles {
+  std::string weights;
+  std::string cage;
+
+  bool is_one() const;
+  //! Whether the rest cage is known.
+  bool has_cage() const { return is_one() || !cage.empty(); }
+  //! The file that has the cage, for messages.
+  const std::string& cage_file() const { return cage.empty() ? weights : cage; }
+};
+
+//! Adds --cage, the rest cage of weights that have none. \param name  such as "--cage"
+CLI::Option* add_cage_option(CLI::App& command, std::string& cage, const char* name = "--cage");
+
+//! \throws OptionError if there is no cage, or a second one
+void require_cage(const BindingFiles& files, const char* option = "--cage");
+
+//! 2 or 3.
+int dimension_of(const BindingFiles& files);
+
+//! A binding of a .npz file. \throws IoError; InputError if its dimension is another one
+template <int Dim>
+Binding<Dim> load_binding(const std::string& path);
+
+//! The binding of a model: of the file, or by weights and cage.
+//! \param model  for messages \param points  Dim x P, at rest
+//! \param reproduces  whether weights must reproduce the points; those of method bbw do not
+//! \throws IoError; InputError if it is not the binding of these points, naming both files
+template <int Dim>
+Binding<Dim> load_binding(const BindingFiles& files, const std::string& model,
+                          const PointList<Dim>& points, EdgeList edges, bool reproduces = true);
+
+//! Writes a binding (.npz), or its weights in another format.
+template <int Dim>
+void write_binding(const std::string& path, const Binding<Dim>& binding);
+
+//! The rest cage of a binding, as its file has it if there is one, for poses.
+template <int Dim>
+RestCage<Dim> rest_cage_of(const BindingFiles& files, const Binding<Dim>& binding);
+
+//! The cage of a binding, as its file has it if there is one.
+template <int Dim>
+view::ShownCage<Dim> shown_cage_of(const BindingFiles& files, const Binding<Dim>& binding);
+
+//! Prints how many points are outside the cage, how far, and what they do, if there are any.
+//! \param file  of the model \param verb  in "vertices VERB outside"
+template <int Dim>
+void warn_outside(const Binding<Dim>& binding, const std::string& file, const char* verb = "are");
+
+//! Prints that some vertices are outside the cage.
+//! \param distance  of the farthest, relative to the cage size \param verb  as above
+void print_outside(const std::string& file, std::size_t count, std::size_t all, double distance,
+                   OutsidePoints policy, const char* verb = "are");
+
+//! Files that should belong together, for messages.
+struct WeightFiles {
+  std::string weights;
+  std::string cage;
+  std::string model;
+};
+
+//! \throws InputError naming both files if there are not as many rows as control points, or not as
+//! many columns as points
+void check_sizes(const SparseWeights& weights, Eigen::Index num_control_points,
+                 Eigen::Index num_points, const WeightFiles& files);
+
+//! The number of points without weights, which do not move.
+Index count_without_weights(const SparseWeights& weights);
+
+}  // namespace flbc::app
