@@ -100,17 +100,15 @@ std::string describe_reduction(const view::PageContent<Dim>& content, const Spar
 
 template <int Dim>
 void write_page(const ViewArguments& arguments, const CageFiles& poses) {
-  auto content = load_content<Dim>(arguments, poses);
-  const auto given = io::read_weights(arguments.weights);
-  const Cage<Dim> rest{content.cage.points, content.cage.facets};
-  check_reproduction<Dim>(given, rest, content.points,
-                          {arguments.files.weights, arguments.files.cage, arguments.model});
+  auto model = load_shown_model<Dim>(arguments.model);
+  const auto binding = load_binding<Dim>(arguments.files, arguments.model, model.points, {});
+  const auto& given = binding.weights;
+  auto content = load_content<Dim>(arguments, poses, binding, std::move(model));
   // The page moves larger models on the graphics card, which takes 8 influences per vertex.
   constexpr Eigen::Index kManyVertices = 100'000;
   const Index usual = content.points.cols() > kManyVertices ? 8 : view::kMostInfluences;
   content.weights = naming(arguments.files.weights, [&] {
-    return view::limit_influences(binding.cage.points, binding.points, given,
-                                  arguments.max_influences.value_or(usual));
+    return view::limit_influences(binding, arguments.max_influences.value_or(usual));
   });
   const auto page = make_page(content);
   write_text(arguments.output, page);

@@ -32,8 +32,7 @@ void write_page(Run<Dim>& run) {
   content.points = shape.points;
   content.surface = shape.surface;
   look_from_front(content, run.arguments.up);
-  content.weights = view::limit_influences<Dim>(run.cage.points, run.attached(),
-                                                run.reduced.weights, view::kMostInfluences);
+  content.weights = view::limit_influences(run.reduced, view::kMostInfluences);
   content.poses = shown_poses(run.poses());
   const auto page = view::make_page(content);
   run.report["page"] = {{"file", kPage}, {"bytes", page.size()}};

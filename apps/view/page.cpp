@@ -237,29 +237,27 @@ std::string to_script(const std::string& text) {
 }  // namespace
 
 template <int Dim>
-SparseWeights limit_influences(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                               const SparseWeights& weights, Index most) {
+SparseWeights limit_influences(const Binding<Dim>& binding, Index most) {
   if (most < Dim + 1 || most > kMostInfluences) {
     throw OptionError("a page holds from " + std::to_string(Dim + 1) + " to " +
                       std::to_string(kMostInfluences) + " influences per vertex, not " +
                       std::to_string(most));
   }
-  std::vector<Index> crowded;
-  std::vector<Index> number(weights.num_points(), -1);  // among them
+  const auto& weights = binding.weights;
+  std::vector<Index> crowded, number;
   for (Index p = 0; p < weights.num_points(); ++p) {
-    if (weights.count(p) <= most) continue;
-    number[p] = static_cast<Index>(crowded.size());
-    crowded.push_back(p);
+    if (weights.count(p) > most) crowded.push_back(p);
   }
   if (crowded.empty()) return weights;
-  const Index n = weights.num_control_points();
-  const PointList<Dim> places = points(Eigen::all, crowded);
-  const auto given = SparseWeights::of(n, static_cast<Index>(crowded.size()),
-                                       [&](Index k) { return weights.at(crowded[k]); });
-  const auto few = sparsify<Dim>(control_points, places, given, {most});
-  return SparseWeights::of(n, weights.num_points(), [&](Index p) {
-    return number[p] < 0 ? weights.at(p) : few.at(number[p]);
-  });
+  const auto part =
+      ModelPart<Dim>{binding.points, {}, weights, binding.masks}.taken(crowded, number);
+  SparsifyOptions limits{most};
+  limits.masks = part.masks;
+  const auto few = sparsify<Dim>(binding.cage.points, part.points, part.weights, limits);
+  return SparseWeights::of(weights.num_control_points(), weights.num_points(),
+                           [&](Index p) -> Eigen::VectorXd {
+                             return number[p] < 0 ? weights.at(p) : few.at(number[p]);
+                           });
 }
 
 template <int Dim>

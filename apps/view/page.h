@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "flbc/binding.h"
 #include "flbc/sparse_weights.h"
 #include "model/surface.h"
 
@@ -14,15 +15,12 @@ namespace flbc::view {
 //! Most influences of a point that a page holds.
 constexpr Index kMostInfluences = 16;
 
-//! Reduces the points that have more than `most` influences by sparsify(); all others keep their
-//! weights as they are, negative ones too.
-//! \param control_points  Dim x n \param points  Dim x P \param weights  of P points
-//! \param most  Dim + 1 .. kMostInfluences
-//! \return weights of P points
+//! Reduces the points that have more than `most` influences by sparsify(), with the masks of the
+//! binding; all others keep their weights as they are, negative ones too.
+//! \param most  Dim + 1 .. kMostInfluences \return weights of the points
 //! \throws OptionError if `most` is out of range; InputError as sparsify()
 template <int Dim>
-SparseWeights limit_influences(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                               const SparseWeights& weights, Index most);
+SparseWeights limit_influences(const Binding<Dim>& binding, Index most);
 
 template <int Dim>
 struct ShownCage {

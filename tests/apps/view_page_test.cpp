@@ -175,18 +175,19 @@ TEST_IN_2D_AND_3D(ViewPage, InfluencesAreReducedOnlyWhereThereAreTooMany) {
   weights.col(1).setZero();
   weights(0, 1) = 1.5;  // as others deliver them: few, but one of them negative
   weights(1, 1) = -0.5;
-  const auto few =
-      limit_influences<Dim>(content.cage.points, content.points, weights, Dim + 1).dense();
+  Binding<Dim> binding;
+  binding.cage.points = content.cage.points;
+  binding.points = content.points;
+  binding.weights = weights;
+  const auto few = limit_influences(binding, Dim + 1).dense();
   EXPECT_EQ(few.col(1), weights.col(1));
   for (const Index p : {0, 2, 3, 4}) {
     EXPECT_LE((few.col(p).array() != 0).count(), Dim + 1);
     EXPECT_LT((content.cage.points * few.col(p) - content.points.col(p)).norm(), 1e-8);
   }
-  EXPECT_EQ((limit_influences<Dim>(content.cage.points, content.points, weights, 8).dense()),
-            weights);
+  EXPECT_EQ(limit_influences(binding, 8).dense(), weights);
   for (const Index most : {Dim, 17}) {
-    EXPECT_THROW((limit_influences<Dim>(content.cage.points, content.points, weights, most)),
-                 OptionError);
+    EXPECT_THROW(limit_influences(binding, most), OptionError);
   }
 }
 
