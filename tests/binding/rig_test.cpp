@@ -124,9 +124,13 @@ TEST_IN_2D_AND_3D(RigTest, TakesTheSolutionOfAnother) {
   second.set_solution(first.solve());
   EXPECT_TRUE(second.weights_of_points() == first.weights_of_points());
   const auto control_points = with_one_moved<Dim>(first.cage().points, 0.05);
+  EXPECT_TRUE(second.solve().weights == first.solution().weights) << "converged ones are kept";
   first.reshape(control_points);
   second.reshape(control_points);
-  EXPECT_TRUE(second.weights_of_points() == first.weights_of_points());
+  EXPECT_TRUE(second.mesh().points == first.mesh().points) << "it follows the given weights";
+  const Eigen::MatrixXd difference =
+      second.weights_of_points().dense() - first.weights_of_points().dense();
+  EXPECT_LT(difference.squaredNorm() / difference.size(), 1e-6);
   EXPECT_THROW(second.set_solution({}), InputError);
 }
 
@@ -136,7 +140,7 @@ TEST_IN_2D_AND_3D(RigTest, WithoutAModelThePointsAreTheVerticesOfTheMesh) {
   EXPECT_TRUE(whole.placement().points == mesh.points);
   const auto& solution = whole.solve();
   EXPECT_TRUE(whole.weights_of_points() == solution.weights);
-  const auto few = whole.reduced(SparsifyOptions{Dim + 1});
+  const auto few = whole.binding().reduced({Dim + 1}).weights;
   for (Index v = 0; v < mesh.num_vertices(); ++v) EXPECT_LE(few.count(v), Dim + 1);
   EXPECT_LT((deform<Dim>(few, cage.points) - mesh.points).cwiseAbs().maxCoeff(), 1e-12);
   // A vertex inside obeys a mask of the control point that it needs least.
@@ -235,18 +239,56 @@ TEST_IN_2D_AND_3D(RigTest, AShapeWithoutMirrorImagesIsRefused) {
   expect_reproduces<Dim>(rig, box.points);
 }
 
-TEST_IN_2D_AND_3D(RigTest, EvaluatesWeightsAsAsked) {
-  auto asked = rig<Dim>();
-  const auto usual = asked.weights_of_points();
-  const auto other =
-      pointwise_coordinates(asked.cage(), asked.placement(), Coordinates::kMeanValue, false);
-  asked.set_evaluation([&](const Placement<Dim>& placement) {
-    EXPECT_EQ(&placement, &asked.placement());
-    return other;
-  });
-  EXPECT_TRUE(asked.weights_of_points() == other);
-  asked.set_evaluation({});
-  EXPECT_TRUE(asked.weights_of_points() == usual);
+// Cotangent weights of all cells at the interior vertices, times the weights: 0 if they are
+// harmonic.
+template <int Dim>
+double harmonic_residual(const DomainMesh<Dim>& mesh, const WeightMatrix& weights) {
+  const auto boundary = boundary_vertices(build_topology(mesh), mesh.num_vertices());
+  WeightMatrix sums = WeightMatrix::Zero(weights.rows(), weights.cols());
+  for (Index s = 0; s < mesh.num_cells(); ++s) {
+    Eigen::Matrix<double, Dim + 1, Dim + 1> corners;
+    corners.row(0).setOnes();
+    for (int k = 0; k <= Dim; ++k) {
+      corners.template block<Dim, 1>(1, k) = mesh.points.col(mesh.cells(k, s));
+    }
+    const Eigen::Matrix<double, Dim + 1, Dim + 1> inverse = corners.inverse();
+    const Eigen::Matrix<double, Dim + 1, Dim> hats = inverse.template rightCols<Dim>();
+    for (int a = 0; a <= Dim; ++a) {
+      for (int b = 0; b <= Dim; ++b) {
+        sums.col(mesh.cells(a, s)) += std::abs(corners.determinant()) *
+                                      hats.row(a).dot(hats.row(b)) * weights.col(mesh.cells(b, s));
+      }
+    }
+  }
+  double largest = 0;
+  for (Index v = 0; v < mesh.num_vertices(); ++v) {
+    if (!boundary[v]) largest = std::max(largest, sums.col(v).cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+TEST_IN_2D_AND_3D(RigTest, OtherCoordinatesSurviveAReshape) {
+  const auto [cage, mesh, name] = sample<Dim>();
+  BindOptions options;
+  options.coordinates = Coordinates::kHarmonic;
+  Rig<Dim> rig(cage, mesh, mesh.points, {}, options);
+  EXPECT_LT(harmonic_residual<Dim>(rig.mesh(), rig.solve().weights.dense()), 1e-9);
+  rig.reshape(with_one_moved<Dim>(cage.points, 0.05));
+  EXPECT_LT(harmonic_residual<Dim>(rig.mesh(), rig.solution().weights.dense()), 1e-9);
+  EXPECT_GT((rig.mesh().points - mesh.points).norm(), 1e-3);
+  EXPECT_EQ(rig.binding().report.method, "harmonic");
+}
+
+TEST_IN_2D_AND_3D(RigTest, PointwiseCoordinatesAreThoseOfThePointsThemselves) {
+  auto usual = rig<Dim>();
+  auto options = usual.options();
+  options.coordinates = Coordinates::kMeanValue;
+  const auto points = usual.placement().points;
+  Rig<Dim> with_mesh(usual.cage(), usual.mesh(), points, {}, options);
+  Rig<Dim> without(usual.cage(), points, {}, options);
+  const auto exact = pointwise_coordinates<Dim>(usual.cage(), points, Coordinates::kMeanValue);
+  EXPECT_LT((with_mesh.binding().weights.dense() - exact).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((without.binding().weights.dense() - exact).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 }  // namespace
