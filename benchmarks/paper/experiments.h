@@ -14,11 +14,9 @@ bool run_figure5(const Context& context);  //!< error against time
 bool run_figure6(const Context& context);  //!< the same on large meshes
 bool run_speed(const Context& context);    //!< time to a tolerance of 1e-5, up to millions of cells
 bool run_race(const Context& context);     //!< iterations and time to a true error of 1e-5
-bool run_many(const Context& context);     //!< many control points: all pairs, active set
 bool run_samples(const Context& context);  //!< harmonic and race, on the samples of meshes/
 bool run_models(const Context& context);   //!< by default, next to harmonic coordinates
-bool run_tolerance(const Context& context);   //!< true errors relative to the tolerance
-bool run_smoothness(const Context& context);  //!< what SolverOptions::smoothness gives and costs
+bool run_tolerance(const Context& context);  //!< true errors relative to the tolerance
 
 //! What the library computes for some samples of meshes/, in the current folder. Each entry has the
 //! iterations and a mean of squared weights: `figure 168/0.41573`. One thread; depends in the last

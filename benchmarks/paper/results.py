@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reading the CSV files that flbc_bench_paper and programs.py write, and formatting their cells."""
+"""Reading the CSV files that flbc_bench_paper writes, and formatting their cells."""
 
 import csv
 import math
