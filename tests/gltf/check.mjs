@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whether a .glb file is valid, and moves its model as flbc deform does:
 //   node check.mjs SKIN.glb --model MODEL [--pose TIME MOVED_MODEL]... [--joints N] [--slots N]
-//                  [--tolerance T] [--texture]
-// Models are .obj or .mesh; between two poses their mean is expected.
+//                  [--texture]
+// Models are .obj; between two poses their mean is expected.
 import { readFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import validator from 'gltf-validator';
@@ -26,7 +26,6 @@ function parse(argv) {
       model: { type: 'string' },
       joints: { type: 'string' },
       slots: { type: 'string' },
-      tolerance: { type: 'string', default: '1e-5' },
       texture: { type: 'boolean', default: false },
     },
   });
@@ -92,6 +91,6 @@ if (slots > 4) {
   console.log(`${path}: valid`);
 } else {
   const error = worst(await ViewedSkin.read(path), options);
-  require(error <= Number(options.tolerance), `${path}: ${error} of the size away from flbc deform`);
+  require(error <= 1e-5, `${path}: ${error} of the size away from flbc deform`);
   console.log(`${path}: valid; ${error} of the size, moving by ${travel / sizeOf(options.model)}`);
 }

@@ -58,17 +58,6 @@ globe() {
   }'
 }
 
-# A cage with 300 control points: a circle, and a wave running round it.
-circle() { # HEIGHT
-  awk -v h="$1" -v n=300 'BEGIN {
-    pi = atan2(0, -1)
-    for (k = 0; k < n; ++k) {
-      a = 2 * pi * k / n; r = 1 + h * sin(3 * a); print "v", r * cos(a), r * sin(a), 0
-    }
-    printf "l"; for (k = 0; k <= n; ++k) printf " %d", k % n + 1; print ""
-  }'
-}
-
 # Two keyframes that lead from a cage to its pose.
 keyframes() { # CAGE POSE
   paste -d' ' <(grep '^v ' "$1") <(grep '^v ' "$2") | awk '
@@ -101,12 +90,11 @@ check_model() { # NAME MODEL CAGE POSE JOINTS [OPTIONS OF CHECK]
   done
 }
 
-# ---- 3D: a sample, still, moving, rounded --------------------------------------------------------
+# ---- 3D: a sample, still, moving -----------------------------------------------------------------
 cage=$meshes/3d/limb_cage.obj
 pose=$meshes/3d/limb_cage_pose.obj
 model=$meshes/3d/limb_model.obj
-"$flbc" solve "$cage" --method harmonic --vertices 1500 -q -o limb.npy --model "$model" \
-  --save-domain limb.mesh
+"$flbc" solve "$cage" --method harmonic --vertices 1500 -q -o limb.npy --model "$model"
 check_model limb "$model" "$cage" "$pose" 54
 
 export_skin limb "$model" "$cage" still.glb -k 4
@@ -115,21 +103,6 @@ check still.glb --model "$model"
 keyframes "$cage" "$pose" >keyframes.txt
 export_skin limb "$model" "$cage" keyframes.glb -k 4 --keyframes keyframes.txt
 check keyframes.glb --model "$model" --pose 0.5 "$model" --pose 2 limb.4.posed.obj
-
-# Rounding errors of at most 4 influences, each less than one unit, times how far the cage moves.
-for case in "16 6e-5" "8 1.5e-2"; do
-  read -r bits tolerance <<<"$case"
-  export_skin limb "$model" "$cage" "limb.$bits-bit.glb" --quantize "$bits" -k 4 \
-    --pose "$cage" "$pose" --fps 1
-  check "limb.$bits-bit.glb" --model "$model" --pose 0 "$model" --pose 1 limb.4.posed.obj \
-    --tolerance "$tolerance"
-done
-
-# ---- 3D: the boundary of a mesh, where most vertices have few influences -------------------------
-"$flbc" solve "$cage" --method harmonic --domain limb.mesh -q -o domain3.npy
-prepare domain3 limb.mesh "$cage" "$pose" 4
-export_skin domain3 limb.mesh "$cage" domain3.glb -k 4 --pose "$cage" "$pose" --fps 1
-check domain3.glb --model limb.mesh --pose 0 limb.mesh --pose 1 domain3.4.posed.mesh
 
 # ---- 3D: quadrilaterals with colors and a seam --------------------------------------------------
 cube 1.5 0 >cube.obj
@@ -164,17 +137,9 @@ check again.glb --model cut.obj --pose 0 cut.obj --pose 0.5 cut.4.posed.obj --te
 export_skin globe source.glb cube.obj kept.glb -k 8 --pose cube.obj cube_pose.obj --fps 2
 check kept.glb --model painted.obj --pose 0 painted.obj --pose 0.5 globe.8.posed.obj --texture
 
-# ---- 2D: a sample, a mesh, and more joints than a byte can count ---------------------------------
+# ---- 2D: a sample ---------------------------------------------------------------------------------
 cage=$meshes/2d/figure_cage.obj
 pose=$meshes/2d/figure_cage_pose.obj
 model=$meshes/2d/figure_model.obj
-"$flbc" solve "$cage" --method harmonic --vertices 1500 -q -o figure.npy --model "$model" \
-  --save-domain figure.obj
+"$flbc" solve "$cage" --method harmonic --vertices 1500 -q -o figure.npy --model "$model"
 check_model figure "$model" "$cage" "$pose" 40
-"$flbc" solve "$cage" --method harmonic --domain figure.obj -q -o domain2.npy
-check_model domain2 figure.obj "$cage" "$pose" 40
-
-circle 0 >circle.obj
-circle 0.2 >circle_pose.obj
-"$flbc" solve circle.obj --method harmonic --vertices 2000 -q -o circle.npy --save-domain disc.obj
-check_model circle disc.obj circle.obj circle_pose.obj 300

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vertices of .obj and .mesh files, as arrays of three numbers.
+// Vertices of .obj files, as arrays of three numbers.
 import { readFileSync } from 'node:fs';
 
 const wordsOf = (line) => line.trim().split(/\s+/);
@@ -9,15 +9,9 @@ function pointsOfObj(text) {
   return lines.map((line) => wordsOf(line).slice(1, 4).map(Number));
 }
 
-function pointsOfMesh(text) {
-  const lines = text.split('\n');
-  const first = lines.indexOf('Vertices') + 2;
-  return lines.slice(first, first + Number(lines[first - 1])).map((line) => wordsOf(line).slice(0, 3).map(Number));
-}
-
 export function readPoints(path) {
   const text = readFileSync(path, 'utf8');
-  const points = path.endsWith('.mesh') ? pointsOfMesh(text) : pointsOfObj(text);
+  const points = pointsOfObj(text);
   if (points.length === 0) throw new Error(`${path}: no vertices`);
   return points.map(([x, y, z = 0]) => [x, y, z]);
 }
