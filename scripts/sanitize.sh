@@ -44,5 +44,5 @@ fi
 cmake --preset asan >/dev/null
 # shellcheck disable=SC2086
 cmake --build --preset asan ${TARGETS:+--target $TARGETS}
-ctest --preset asan --label-exclude 'install|blender' --exclude-regex '_in_other_programs|_in_a_browser|_in_firefox' \
+ctest --preset asan --label-exclude 'install|blender' --exclude-regex 'gltf_validator|_in_a_browser|_in_firefox' \
   --timeout 1800 "$@"
