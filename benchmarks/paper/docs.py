@@ -3,7 +3,7 @@
 """Keeps the tables and measurements of README.md and docs/ equal to stored results.
 
     docs.py OUT_FOLDER    copies the results of OUT_FOLDER (a full run of all models), writes tables and
-                          measurements, and draws the charts
+                          measurements, and draws the chart of the race
     docs.py --stored      writes tables and measurements of the stored results again
     docs.py --check       fails if a table or a measurement differs from the stored results it is made of, or
                           a stored result from docs/results/SHA256SUMS
@@ -36,7 +36,7 @@ MARKED = re.compile(r"(<!-- results: (\w+) -->\n)(.*?)(<!-- end of results -->\n
 NUMBER = re.compile(r"(<!--n:([\w.-]+)-->)(.*?)(<!--/n-->)")
 LINK = re.compile(r"\(\S*results/(\w+)\.csv\)")
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
-FROZEN = {"authors2014", "blender", "cages", "compare", "many", "mesh_deform", "mesh_error", "pipeline", "points",
+FROZEN = {"authors2014", "blender", "cages", "compare", "figure3", "figure5", "figure6", "many", "mesh_deform", "mesh_error", "pipeline", "points",
           "smoothness", "sparsify"}
 UNFIT = ("quick run", "incomplete", "only models")  # comments of results not to be taken over
 
@@ -154,7 +154,6 @@ if __name__ == "__main__":
         rewrite()
         sys.exit(check())
     status = take_over(pathlib.Path(sys.argv[1]))
-    import curves
-    for chart in curves.draw_all(STORED, ROOT / "docs" / "images", ("figure5", "figure6", "race")):
-        print(chart)
+    import plots
+    print(plots.draw_race(STORED, ROOT / "docs" / "images"))
     sys.exit(status)

@@ -58,14 +58,6 @@ def published(model):
     return lambda rows: short(ratio(of_method(rows, "paper")[model], "error", "paper_flbc_error"))
 
 
-def penalty_of_the_papers(rows):
-    """Time to 1e-5 with it, relative to the default method."""
-    def seconds(name):
-        curve = [row for row in rows if row["model"] == "woody" and row["method"] == name]
-        return results.reach([(results.after_setup(row), value(row, "error")) for row in curve], 1e-5)
-    return f"{seconds('lbc2014') / seconds('weights'):.0f}"
-
-
 NUMBERS = {
     "race.seconds.weights": lambda rows: span(
         (value(r, "total_seconds") for r in rows if r["method"] == "weights"), lambda seconds: f"{seconds:.2f}"),
@@ -86,7 +78,6 @@ NUMBERS = {
     **{f"table1.min.{model}": lambda rows, model=model: f"{value(smallest(rows, model), 'min_weight_without'):.1e}"
        for model in ("shark", "armadillo", "beast")},
     **{f"table2.published.{model}": published(model) for model in ("logo", "woody", "cactus", "horse", "armadillo")},
-    "figure5.woody.published": penalty_of_the_papers,
 }
 
 
