@@ -37,7 +37,7 @@ cmake --build --preset fuzz
 fuzz=$PWD/build/fuzz/flbc_fuzz
 work=$PWD/build/fuzz
 mapfile -t known < <("$fuzz" --list)
-if [ ${#readers[@]} -eq 0 ]; then readers=("${known[@]%% *}"); fi
+if [ ${#readers[@]} -eq 0 ]; then readers=("${known[@]}"); fi
 rm -rf "$work/seeds"
 "$fuzz" --seeds "$work/seeds"
 
@@ -48,8 +48,7 @@ number_in() {
 
 # fuzz_reader READER: fuzzes one reader; see its log and findings for the result.
 fuzz_reader() {
-  local reader=$1 file
-  file=$(printf '%s\n' "${known[@]}" | sed -n "s/^$reader //p")
+  local reader=$1
   local corpus=$work/corpus/$reader findings=$work/findings/$reader
   if [ -n "${SEED:-}" ]; then rm -rf "$corpus"; fi
   mkdir -p "$corpus" "$findings"
@@ -57,9 +56,7 @@ fuzz_reader() {
   if [ -d "tests/fuzz/found/$reader" ]; then inputs+=("$PWD/tests/fuzz/found/$reader"); fi
   local options=(-max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=4096
     -print_final_stats=1 -artifact_prefix="$findings/" -seed="${SEED:-0}" -runs="${RUNS:--1}"
-    -reload=0)
-  local dictionary=tests/fuzz/dictionaries/${file##*.}.dict
-  if [ -f "$dictionary" ]; then options+=(-dict="$dictionary"); fi
+    -reload=0 -dict="$work/seeds/$reader.dict")
   echo "$reader: $seconds s ..."
   rm -f "$work/$reader.failed"
   OMP_NUM_THREADS=1 "$fuzz" "$reader" "${options[@]}" "${inputs[@]}" >"$work/$reader.log" 2>&1 ||
@@ -67,8 +64,8 @@ fuzz_reader() {
 }
 
 for reader in "${readers[@]}"; do
-  if ! printf '%s\n' "${known[@]%% *}" | grep -qxF -- "$reader"; then
-    echo "scripts/fuzz.sh: no reader \"$reader\"; there are: ${known[*]%% *}" >&2
+  if ! printf '%s\n' "${known[@]}" | grep -qxF -- "$reader"; then
+    echo "scripts/fuzz.sh: no reader \"$reader\"; there are: ${known[*]}" >&2
     exit 1
   fi
 done

@@ -2,7 +2,7 @@
 # Installs missing Debian packages; returns immediately if all are installed:
 #   scripts/install_dependencies.sh [GROUP|PACKAGE...]
 # Always those of the program and of the Python module. GROUP: netgen for the second 3D mesher; tests,
-# browser, clang, release, pictures, or site, which scripts of these names need; openfoam with MPI
+# browser, clang, release, or site, which scripts of these names need; openfoam with MPI
 # and the headers of OpenFOAM; web, windows, or aarch64 with sources to compile for these systems.
 set -euo pipefail
 
@@ -20,7 +20,6 @@ declare -A groups=(
   [clang]="clang libclang-rt-14-dev libomp-14-dev"
   [release]="dpkg-dev file help2man mmdebstrap patchelf python3-pip python3-setuptools python3-venv
     python3-wheel"
-  [pictures]="python3-pil python3-matplotlib fonts-lato gifsicle chromium"
   [site]="doxygen mkdocs mkdocs-material libjs-katex"
   [openfoam]="openfoam openmpi-bin bzip2"
   [web]="emscripten nodejs libboost-dev libfast-float-dev zopfli"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is measured against certified optima: tables 1 and 2 and figures 5 and 6 of the paper, the
+// What is measured against certified optima: tables 1 and 2 of the paper, the
 // race to an error of 1e-5, the accuracy of the tolerance, and the samples.
 #include <cmath>
 #include <filesystem>
@@ -79,45 +79,6 @@ void add_methods(ResultTable& table, bool with_published_penalty, const Measure&
           [&](const auto& setting) { return Rows{measure(setting, method)}; }, method.name);
     }
   }
-}
-
-// A point of a curve is a run of its own with so many iterations, so that time and weights are
-// those a user would get by stopping there.
-struct Curves {
-  const char* model;
-  Index vertices;
-  int first;              // iterations of the first point
-  int factor;             // from point to point
-  int last;               // iterations of the last point: methods that solve a global system
-  int last_of_gradients;  // methods in the gradient domain
-};
-
-template <int Dim>
-Rows curve(const Curves& curves, const Setting<Dim>& setting, const NamedMethod& method) {
-  const bool gradients = method.method == Method::kGradient || method.method == Method::kPaper;
-  const int last = setting.context.iterations(gradients ? curves.last_of_gradients : curves.last);
-  const auto optimum = reference(setting);
-  auto options = method.options(setting.problem, setting.context.threads);
-  options.tolerance = 1e-30;  // never met: the number of iterations decides
-  Rows rows;
-  for (int iterations = curves.first; iterations <= last; iterations *= curves.factor) {
-    options.max_iterations = iterations;
-    rows.push_back(row_of(setting, method, solve(setting.problem, options), optimum));
-  }
-  return rows;
-}
-
-bool run_curves(const Context& context, const char* name, const std::vector<Curves>& all,
-                const char* about) {
-  ResultTable table(context, name, about);
-  for (const auto& curves : all) {
-    for (const auto& method : methods()) {
-      add_rows(
-          table, model(curves.model), curves.vertices,
-          [&](const auto& setting) { return curve(curves, setting, method); }, method.name);
-    }
-  }
-  return table.finish();
 }
 
 constexpr double kRaceError = 1e-5;
@@ -257,19 +218,6 @@ bool run_table2(const Context& context) {
   add_methods(table, true,
               [](const auto& setting, const auto& method) { return by_own_rule(setting, method); });
   return table.finish();
-}
-
-bool run_figure5(const Context& context) {
-  return run_curves(context, "figure5",
-                    {{"woody", model("woody").paper_size, 5, 2, 2560, 2560},
-                     {"horse", model("horse").paper_size, 5, 2, 2560, 1280}},
-                    "Figure 5: error: mean squared difference to the certified optimum");
-}
-
-bool run_figure6(const Context& context) {
-  return run_curves(context, "figure6",
-                    {{"woody", 50000, 10, 4, 640, 640}, {"horse", 20000, 10, 4, 640, 640}},
-                    "Figure 6: the same on large meshes");
 }
 
 bool run_race(const Context& context) {

@@ -4,9 +4,7 @@
 #include <cstdio>
 
 #include "experiments.h"
-#include "flbc/cage_from_model.h"
 #include "flbc/names.h"
-#include "flbc/sparsify.h"
 #include "problems.h"
 
 namespace flbc::bench {
@@ -55,33 +53,15 @@ std::string published() {
   std::string text;
   for (const auto method : {Method::kLbc2014, Method::kPaper, Method::kGradient}) {
     options.method = method;
-    text += solved(std::string("limb ") + name_of(method), cage, options) + ", ";
+    text += ", " + solved(std::string("limb ") + name_of(method), cage, options);
   }
   return text;
-}
-
-// An automatic cage, large enough for the active set, and few influences.
-std::string automatic() {
-  const auto model = read_cage<3>("meshes/3d/star_model.obj");
-  CagingOptions caging;
-  caging.control_points = 100;
-  const auto cage = cage_from_model<3>(model.points, model.facets, caging).cage;
-  const auto mesh = mesh_of(cage, kVertices);
-  SolverOptions options;
-  options.threads = 1;
-  const auto solution = solve(cage, mesh, options);
-  SparsifyOptions few;
-  few.max_influences = 8;
-  const auto reduced = reduce_influences<3>(cage.points, mesh.points, edges_of_cells(mesh),
-                                            solution.weights, {}, few);
-  return entry("cage of star", solution.report.iterations, solution.weights) +
-         entry(", 8 influences", few.max_influences, reduced);
 }
 
 }  // namespace
 
 std::string behavior() {
-  return sample<2>("figure") + ", " + sample<3>("limb") + ", " + published() + automatic();
+  return sample<2>("figure") + ", " + sample<3>("limb") + published();
 }
 
 }  // namespace flbc::bench

@@ -3,17 +3,18 @@
 """Keeps the tables and measurements of README.md and docs/ equal to stored results.
 
     docs.py OUT_FOLDER    copies the results of OUT_FOLDER (a full run of all models), writes tables and
-                          measurements, and draws the charts
+                          measurements, and draws the chart of the race
     docs.py --stored      writes tables and measurements of the stored results again
     docs.py --check       fails if a table or a measurement differs from the stored results it is made of, or
                           a stored result from docs/results/SHA256SUMS
     docs.py --behavior PROGRAM
                           names the results of another behavior than that of flbc_bench_paper (README.md), and
-                          then exits with 77; those measured outside this repository have none
+                          then exits with 77
 
 A table is on a page between <!-- results: NAME --> and <!-- end of results -->. Its results are in
 docs/results/NAME.csv, as flbc_bench_paper wrote them, or in the file that tables.SOURCES names. Its
-last line has the commit that made it. A measurement in a sentence is between <!--n:NAME--> and <!--/n-->, and
+last line has the commit that made it. FROZEN results are not measured again: their tables and measurements
+stay as they are, and the program that measured is in the commit below the table. A measurement in a sentence is between <!--n:NAME--> and <!--/n-->, and
 measured.NUMBERS computes it. Every stored result is in a table or in a measurement, or a page links to it.
 """
 
@@ -35,19 +36,21 @@ MARKED = re.compile(r"(<!-- results: (\w+) -->\n)(.*?)(<!-- end of results -->\n
 NUMBER = re.compile(r"(<!--n:([\w.-]+)-->)(.*?)(<!--/n-->)")
 LINK = re.compile(r"\(\S*results/(\w+)\.csv\)")
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+FROZEN = {"authors2014", "blender", "cages", "compare", "figure3", "figure5", "figure6", "many", "mesh_deform", "mesh_error", "pipeline", "points",
+          "smoothness", "sparsify"}
 UNFIT = ("quick run", "incomplete", "only models")  # comments of results not to be taken over
 
 
-def is_stored(source):
-    return (STORED / f"{source}.csv").exists()
+def is_checked(source):
+    return source not in FROZEN and (STORED / f"{source}.csv").exists()
 
 
 def table(name, present):
-    return tables.markdown(STORED, name) if is_stored(tables.source_of(name)) else present
+    return tables.markdown(STORED, name) if is_checked(tables.source_of(name)) else present
 
 
 def number(name, present):
-    return measured.text(STORED, name) if is_stored(measured.source_of(name)) else present
+    return measured.text(STORED, name) if is_checked(measured.source_of(name)) else present
 
 
 def with_results(page):
@@ -100,16 +103,14 @@ def behavior_of(text):
 
 
 def differences(before, now):
-    """Names of the entries that differ by more than vector width and compiler explain."""
-    return [name for name in before.keys() | now.keys()
-            if name not in before or name not in now
+    """Names of the present entries that differ by more than vector width and compiler explain."""
+    return [name for name in now
+            if name not in before
             or not math.isclose(before[name][0], now[name][0], rel_tol=0.02)
             or not math.isclose(before[name][1], now[name][1], rel_tol=0, abs_tol=1.5e-5)]
 
 
 SKIPPED = 77  # as CMake knows it
-OF_AUTOMATIC_CAGE = {"cage of star", "8 influences"}
-WITH_AUTOMATIC_CAGES = {"cages", "many", "pipeline", "sparsify"}
 
 
 def check_behavior(program):
@@ -117,15 +118,11 @@ def check_behavior(program):
     now = behavior_of(printed)
     stale = []
     for path in sorted(STORED.glob("*.csv")):
-        _, comments = results.read(STORED, path.stem)
-        if any("outside" in comment for comment in comments):
+        if path.stem in FROZEN:
             continue
+        _, comments = results.read(STORED, path.stem)
         commit = next((comment for comment in comments if comment.startswith("commit ")), "")
-        before = behavior_of(commit.partition(";")[2])
-        differ = set(differences(before, now))
-        if path.stem not in WITH_AUTOMATIC_CAGES:
-            differ -= OF_AUTOMATIC_CAGE
-        if differ:
+        if differences(behavior_of(commit.partition(";")[2]), now):
             stale.append(path.name)
     if not stale:
         return 0
@@ -136,7 +133,7 @@ def check_behavior(program):
 
 def take_over(out):
     STORED.mkdir(exist_ok=True)
-    for name in sorted(set().union(*(sources(page.read_text()) for page in PAGES))):
+    for name in sorted(set().union(*(sources(page.read_text()) for page in PAGES)) - FROZEN):
         _, comments = results.read(out, name)
         if any(c.startswith(UNFIT) for c in comments):
             sys.exit(f"docs.py: {name}.csv is of a quick, partial or incomplete run; nothing was taken over")
@@ -157,7 +154,6 @@ if __name__ == "__main__":
         rewrite()
         sys.exit(check())
     status = take_over(pathlib.Path(sys.argv[1]))
-    import curves
-    for chart in curves.draw_all(STORED, ROOT / "docs" / "images", ("figure5", "figure6", "race")):
-        print(chart)
+    import plots
+    print(plots.draw_race(STORED, ROOT / "docs" / "images"))
     sys.exit(status)

@@ -9,12 +9,8 @@ namespace flbc::bench {
 
 bool run_table1(const Context& context);   //!< with and without non-negativity
 bool run_table2(const Context& context);   //!< methods compared at the paper's sizes
-bool run_figure3(const Context& context);  //!< time and memory against resolution
-bool run_figure5(const Context& context);  //!< error against time
-bool run_figure6(const Context& context);  //!< the same on large meshes
 bool run_speed(const Context& context);    //!< time to a tolerance of 1e-5, up to millions of cells
 bool run_race(const Context& context);     //!< iterations and time to a true error of 1e-5
-bool run_many(const Context& context);     //!< many control points: all pairs, active set
 bool run_samples(const Context& context);  //!< harmonic and race, on the samples of meshes/
 bool run_models(const Context& context);   //!< by default, next to harmonic coordinates
 bool run_tolerance(const Context& context);  //!< true errors relative to the tolerance

@@ -49,10 +49,6 @@ def million(rows):
     return min((row for row in rows if row["model"] == "horse"), key=lambda row: abs(value(row, "cells") - 1e6))
 
 
-def large(rows):
-    return max(rows, key=lambda row: value(row, "vertices"))
-
-
 def smallest(rows, model):
     return min((row for row in rows if row["model"] == model), key=lambda row: value(row, "vertices"))
 
@@ -62,60 +58,26 @@ def published(model):
     return lambda rows: short(ratio(of_method(rows, "paper")[model], "error", "paper_flbc_error"))
 
 
-def penalty_of_the_papers(rows):
-    """Time to 1e-5 with it, relative to the default method."""
-    def seconds(name):
-        curve = [row for row in rows if row["model"] == "woody" and row["method"] == name]
-        return results.reach([(results.after_setup(row), value(row, "error")) for row in curve], 1e-5)
-    return f"{seconds('lbc2014') / seconds('weights'):.0f}"
-
-
-def more_influences(rows):
-    """Growth of influences from smoothness 0 to 0.003, in percent."""
-    found = [{row["smoothness"]: value(row, "mean_influences") for row in mine}
-             for mine in results.by(rows, "model")]
-    return span((100 * (mine["0.003"] / mine["0"] - 1) for mine in found), lambda growth: f"{growth:.0f}")
-
-
-def distorted(rows):
-    """The largest distortion of local coordinates relative to harmonic ones."""
-    found = [{row["coordinates"]: value(row, "distortion") for row in mine} for mine in results.by(rows, "model")]
-    return f"{max(mine.get('local_smooth', mine['local']) / mine['harmonic'] for mine in found):.2f}"
-
-
 NUMBERS = {
     "race.seconds.weights": lambda rows: span(
         (value(r, "total_seconds") for r in rows if r["method"] == "weights"), lambda seconds: f"{seconds:.2f}"),
     **{f"race.ratio.{name}": against_default(name) for name in ("lbc2014-tuned", "gradient", "paper")},
     "race.gap": lambda rows: f"{max(value(r, 'reference_gap') for r in rows):.1e}",
-    "authors2014.ratio": lambda rows: span((value(r, "lbc_over_flbc") for r in rows), factor),
     "models.horse.vertices": lambda rows: thousands(smallest(rows, "horse")["vertices"]),
     "models.horse.seconds": lambda rows: short(value(smallest(rows, "horse"), "total_seconds")),
     "models.influences": lambda rows: span((value(r, "mean_influences") for r in rows), factor),
     "models.influences.harmonic": lambda rows: span((value(r, "harmonic_influences") for r in rows), factor),
     "models.ratio": lambda rows: span((ratio(r, "total_seconds", "harmonic_seconds") for r in rows), factor),
-    "many.large.vertices": lambda rows: thousands(large(rows)["vertices"]),
-    "many.large.seconds": lambda rows: short(value(large(rows), "seconds")),
-    "many.speedup": lambda rows: short(max(ratio(r, "all_seconds", "seconds") for r in rows if r["all_seconds"])),
     "speed.million.vertices": lambda rows: thousands(million(rows)["vertices"]),
     "speed.million.mebibytes": lambda rows: f"{value(million(rows), 'peak_mebibytes'):,.0f}",
     "speed.ratio": lambda rows: span((ratio(r, "total_seconds", "harmonic_seconds") for r in rows), factor),
     "speed.power.seconds": powers("total_seconds"),
     "speed.power.mebibytes": powers("peak_mebibytes"),
-    "pipeline.seconds": lambda rows: span((value(r, "total") for r in rows), factor),
-    "pipeline.bind": lambda rows: factor(sum(value(rows[0], step) for step in ("mesh", "solve", "sparsify"))),
     "tolerance.worst": lambda rows: f"{max(value(r, 'error') for r in rows):.2f}",
     "table1.plane": lambda rows: f"{max(value(r, 'squared_distance') for r in rows if value(r, 'vertices') > 7e3):.1e}",
     **{f"table1.min.{model}": lambda rows, model=model: f"{value(smallest(rows, model), 'min_weight_without'):.1e}"
        for model in ("shark", "armadillo", "beast")},
     **{f"table2.published.{model}": published(model) for model in ("logo", "woody", "cactus", "horse", "armadillo")},
-    "figure5.woody.published": penalty_of_the_papers,
-    "cages.defects": lambda rows: str(sum(int(r["outside"]) + int(r["crossings"]) + (r["check"] != "sound") +
-                                         (r["solve"] != "converged") for r in rows)),
-    "smoothness.influences": more_influences,
-    "compare.distortion": distorted,
-    "sparsify.8": lambda rows: short(max(100 * value(r, "positions_smooth") for r in rows
-                                         if r["k"] == "8" and "another" not in r["weights"])),
 }
 
 

@@ -1,14 +1,21 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes tables.md and the figures from the CSV files of flbc_bench_paper.
+"""Makes tables.md and the chart of the race from the CSV files of flbc_bench_paper.
 
     plots.py OUT_FOLDER
 """
 
+import math
 import pathlib
 import sys
 
+import results
 import tables
+from results import value
+
+# Methods of the race, as in the table of README.md.
+RACE = {"paper": "2019 gradient ADMM, as published", "lbc2014-tuned": "2014 splitting, penalty tuned by us",
+        "weights": "libflbc, default method"}
 
 
 def write_tables(out):
@@ -19,15 +26,60 @@ def write_tables(out):
     return path
 
 
+def draw_race(stored, folder):
+    """Seconds to the error of the race, 900 x 400 pixels; no mark where a method did not reach it.
+    Marks and not bars, because a logarithmic axis has no zero."""
+    import matplotlib
+    from matplotlib import ticker
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    plt.rcParams.update({
+        "font.family": ["Lato", "DejaVu Sans"], "font.size": 10, "axes.titlesize": 11, "axes.grid": True,
+        "axes.spines.top": False, "axes.spines.right": False, "grid.color": "#e4e4e4", "grid.linewidth": 0.7,
+        "axes.axisbelow": True, "legend.frameon": False, "legend.fontsize": 8.5})
+    rows, comments = results.read(stored, "race")
+    if not rows:
+        return "no results of the race"
+    models = results.by(rows, "model")
+    figure, axis = plt.subplots(figsize=(9, 4), dpi=100, layout="constrained")
+    reached = {(row["model"], row["method"]): value(row, "total_seconds") for row in rows if row["converged"] == "1"}
+    for method, _, color, marker in results.METHODS:
+        for place, model in enumerate(mine[0]["model"] for mine in models):
+            if method not in RACE or (model, method) not in reached:
+                continue
+            seconds = reached[model, method]
+            axis.plot(place, seconds, marker, color=color, markersize=8, label=RACE[method] if place == 0 else None)
+            ratio = seconds / reached.get((model, "weights"), math.nan)
+            text = f"{seconds:.2f} s" if method == "weights" else f"{ratio:.{0 if ratio >= 10 else 1}f}\u00d7"
+            left = method == "lbc2014-tuned"  # on the other side, because the two are close
+            axis.annotate(text, (place, seconds), xytext=(-8 if left else 8, 0), textcoords="offset points",
+                          color=color, fontsize=9, ha="right" if left else "left", va="center")
+    axis.set_yscale("log")
+    low, high = axis.get_ylim()
+    axis.set_ylim(low, high * (high / low) ** 0.18)  # space for the legend
+    axis.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5) if high < 300 * low else (1,)))
+    axis.yaxis.set_major_formatter(ticker.FuncFormatter(lambda x, _: f"{x:g}"))
+    axis.yaxis.set_minor_locator(ticker.NullLocator())
+    axis.grid(axis="x", visible=False)
+    axis.set_xlim(-0.4, len(models) - 0.3)
+    axis.set_xticks(range(len(models)), [f"{mine[0]['model']}\nn = {mine[0]['control_points']}" for mine in models])
+    axis.set_ylabel("seconds (logarithmic)")
+    axis.set_title("Seconds to a true mean squared error of 1e-5, setup included")
+    axis.legend(loc="upper center", ncol=len(RACE))
+    machine = comments[1].split("; compiler")[0] if len(comments) > 1 else ""
+    figure.supxlabel("n: control points. \u00d7: time relative to libflbc. We implemented the 2014 and 2019 methods. "
+                     f"{machine}.", fontsize=8, color="#666666")
+    figure.savefig(folder / "seconds_to_error.png", dpi=figure.dpi)
+    return folder / "seconds_to_error.png"
+
+
 def main(out):
     print(write_tables(out))
     try:
-        import curves
+        print(draw_race(out, out))
     except ImportError:
-        sys.exit("plots.py: no pictures without matplotlib: install the Debian package python3-matplotlib "
+        sys.exit("plots.py: no picture without matplotlib: install the Debian package python3-matplotlib "
                  f"and run again; the numbers are in {out}")
-    for path in curves.draw_all(out, out):
-        print(path)
 
 
 if __name__ == "__main__":

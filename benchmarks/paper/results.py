@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reading the CSV files that flbc_bench_paper and programs.py write, and formatting their cells."""
+"""Reading the CSV files that flbc_bench_paper writes, and formatting their cells."""
 
 import csv
 import math
@@ -77,11 +77,6 @@ def by(rows, column):
     return [[row for row in rows if row[column] == name] for name in in_order(row[column] for row in rows)]
 
 
-def after_setup(row):
-    """Seconds of solve and recovery: the setup before is the same for all methods."""
-    return value(row, "solve_seconds") + value(row, "recover_seconds")
-
-
 def exponent(x, y):
     """Slope of the least-squares line through the logarithms; None for fewer than two points."""
     points = [(math.log(a), math.log(b)) for a, b in zip(x, y) if a > 0 and b > 0]
@@ -90,16 +85,3 @@ def exponent(x, y):
     mean_x, mean_y = (sum(p[k] for p in points) / len(points) for k in (0, 1))
     return (sum((a - mean_x) * (b - mean_y) for a, b in points) /
             sum((a - mean_x) ** 2 for a, _ in points))
-
-
-def reach(points, threshold):
-    """The x at which the error first falls to the threshold, interpolated between (x, error) by logarithms."""
-    before = None
-    for x, error in points:
-        if error <= threshold:
-            if before is None:
-                return x
-            part = math.log(before[1] / threshold) / math.log(before[1] / error)
-            return before[0] * (x / before[0]) ** part
-        before = (x, error)
-    return math.nan

@@ -23,14 +23,13 @@ if ! compgen -G "$models/2d/*.obj" >/dev/null && ! compgen -G "$models/3d/*.obj"
 fi
 
 [[ -f build/release/build.ninja ]] || cmake --preset release
-cmake --build --preset release --target flbc_bench_paper flbc_app
+cmake --build --preset release --target flbc_bench_paper
 
 # A case that failed must not keep the others from being drawn.
 status=0
 bench=build/release/benchmarks/flbc_bench_paper
 origin="commit $(git describe --always --dirty 2>/dev/null || echo unknown-dirty); $($bench --behavior)"
 $bench "$models" "$out" --origin "$origin" "$@" || status=$?
-/usr/bin/python3 -B benchmarks/paper/programs.py "$models" "$out" build/release --origin "$origin" "$@" || status=$?
 [[ -d $out ]] || exit "$status"
 /usr/bin/python3 -B benchmarks/paper/plots.py "$out" || status=$?
 exit "$status"

@@ -4,7 +4,7 @@
 import math
 
 import results
-from results import by, cells, ratio, text, thousands, value
+from results import by, cells, thousands, value
 
 # Tables that are made of another result than that of their own name.
 SOURCES = {"harmonic": "models"}
@@ -72,11 +72,6 @@ MODELS = [*SIZE, ("cells", "cells:,.0f"), ("mesh, s", "mesh_seconds:.2f"),
           ("reproduction error", "reproduction_error:.1e")]
 TABLE1 = [*SIZE, ("squared distance", "squared_distance:.1e"), ("(paper)", "paper_squared_distance:.1e"),
           ("largest difference", "largest_difference:.1e"), ("smallest weight without", "min_weight_without:.1e")]
-CAGES = [("model", lambda row: row["model"] + (", 2D" if row["dim"] == "2" else "")), ("vertices", "vertices:,.0f"),
-         ("control points", "control_points"),
-         ("distance", "distance:.1%"), ("symmetric across", "symmetric_across"), ("s", "processor_seconds:.2f")]
-
-
 def with_published(row):
     published = cells(row, "paper_lbc_error:.1e", "paper_flbc_error:.1e")
     return sized(row) + (f" ({' / '.join(published)})" if row["paper_lbc_error"] else "")
@@ -98,27 +93,8 @@ def table2(rows):
         [row for row in rows if row["method"] in compared and row["paper_flbc_error"]])
 
 
-def creases(row):
-    return f"{value(row, 'crease_mean'):.2f}, {value(row, 'crease_high'):.1f}" if row["crease_mean"] else ""
-
-
-SMOOTHNESS = [("smoothness", "smoothness"), ("influences", "mean_influences:.2f"),
-              ("jump of gradients", "gradient_jump:.2f"), ("creases: mean, 99%", creases),
-              ("iterations", lambda row: iterations(row) if row["iterations"] else "")]
-
-
-def smoothness(rows):
-    """One model in 2D, and two in 3D of few and many control points."""
-    kept = ("0", "0.003", "harmonic")
-    return grouped(sized, *SMOOTHNESS)([row for row in rows if row["model"] in ("woody", "horse", "armadillo")
-                                        and row["smoothness"] in kept])
-
-
 SAMPLES = [*HARMONIC[:4], HARMONIC[5], *((f"To 1e-5: {label}, s", f"to_1e-5_{name}:.2f") for name, label in (
     ("weights", "local"), ("lbc2014-tuned", "2014, tuned penalty"), ("paper", "2019")))]
-COMPARE = [("coordinates", "coordinates"), ("influences", "influences:.1f"),
-           ("reach", "reach:.1%"), ("smallest weight", "min_weight:.1e"), ("distortion", "distortion:.3f"),
-           ("time, s", lambda row: text(value(row, "setup_seconds") + value(row, "solve_seconds"), ".2f"))]
 SPEED = [*SIZE, ("cells", "cells:,.0f"), ("time, s", "total_seconds:.2f"),
          ("true error", "error:.1e"), ("harmonic, s", "harmonic_seconds:.2f"), ("MiB", "peak_mebibytes:,.0f")]
 
@@ -137,10 +113,6 @@ def race(rows):
     return [header for header, _ in SIZE] + [f"{results.LABELS[name]}, s" for name in names], body
 
 
-AUTHORS2014 = [SIZE[0], ("authors' program, s", "lbc_seconds:.2f"), ("libflbc, s", "flbc_seconds:.2f"),
-               ("ratio", "lbc_over_flbc:.0f")]
-
-
 def tolerance(rows):
     """The largest true error relative to the tolerance; a line per model."""
     wanted = results.in_order(row["tolerance"] for row in rows)
@@ -152,76 +124,5 @@ def tolerance(rows):
             [line(mine[0]["model"], mine) for mine in by(rows, "model")] + [line("**worst**", rows)])
 
 
-def many_run(prefix):
-    """The cell of a run on the active set, or with a prefix on all pairs."""
-    return lambda row: ", ".join(cells(row, f"{prefix}iterations:,.0f", f"{prefix}seconds:.2f",
-                                       f"{prefix}mebibytes:,.0f")) if row[prefix + "iterations"] else "-"
-
-
-MANY = [("cage", "cage"), ("n", "control_points"), ("V", "vertices:,.0f"), ("tolerance", "tolerance:.0e"),
-        ("all pairs: iterations, s, MiB", many_run("all_")), ("active set: iterations, s, MiB", many_run("")),
-        ("speedup", lambda row: text(ratio(row, "all_seconds", "seconds"), ".1f"))]
-
-
-def percent(row, column):
-    number = 100 * value(row, column)
-    return f"{number:,.0f}" if number >= 100 else f"{number:.3g}"
-
-
-def error(column):
-    """In percent, root mean square (largest)."""
-    return lambda row: f"{percent(row, column)} ({percent(row, column + '_max')})"
-
-
-def animated(row):
-    kinds = ("edges_animation", "positions_animation")
-    return ", ".join(percent(row, kind) for kind in kinds) if row["edges_animation"] else ""
-
-
-
-PIPELINE = [("model", "model"), ("cage of", "cage_of"), ("total, s", "total:.1f"), ("cage", "cage:.1f"),
-            ("mesh", "mesh:.1f"), ("solve", "solve:.1f"), ("reduce to 8", "sparsify:.1f"), ("export", "export:.1f"),
-            ("at the same time: check", "check:.1f"), ("pictures", "pictures:.1f")]
-MESH_DEFORM = [("model", "model"),
-               *((title, lambda row, name=name: f"{row[name + '_least']}% to {row[name + '_largest']}%")
-                 for title, name in (("add-on", "addon"), ("Mesh Deform", "mesh_deform")))]
-
-
-def sparsified(row):
-    return (f"{row['weights']}, {thousands(row['points'])} points, n = {row['control_points']}, "
-            f"{value(row, 'influences_before'):.0f} influences before")
-
-
-SPARSIFY = [("K", "k"), ("method", "method"), ("edges", error("edges_smooth")),
-            ("positions", error("positions_smooth")), ("animation: edges, positions", animated),
-            ("s", "seconds:.3f")]
-
-
-def sparsify(rows):
-    """4 and 8 influences, without the weights of another scheme."""
-    return grouped(sparsified, *SPARSIFY)([row for row in rows if row["k"] != "6" and "another" not in row["weights"]])
-
-
-MESH_ERROR = [("model", "model"),
-              *((f"mesh of {thousands(number)}", f"mesh_{number}") for number in (5000, 10000, 20000)),
-              *((f"iteration, tolerance {t}", f"iteration_{t}") for t in ("1e-5", "1e-6", "1e-7"))]
-BLENDER = [("deformer", "deformer"), ("bind, s", "bind_seconds"), ("frame, ms", "frame_milliseconds"),
-           ("error of an affine map", "affine_error")]
-POINTS = [("step, one core", "step"), ("million points per second", "million_per_second")]
-
-
-def compare(rows):
-    """One model. Local coordinates have the default smoothness."""
-    rows = [row for row in rows if row["model"] == rows[0]["model"]]
-    names = {row["coordinates"] for row in rows}
-    kept = [row for row in rows if row["coordinates"] != "local" or "local_smooth" not in names]
-    return lines(*COMPARE)([dict(row, coordinates=row["coordinates"].removesuffix("_smooth")) for row in kept])
-
-
-TABLES = {"models": lines(*MODELS), "harmonic": lines(*HARMONIC), "race": race,
-          "authors2014": lines(*AUTHORS2014), "speed": lines(*SPEED), "mesh_deform": lines(*MESH_DEFORM),
-          "many": lines(*MANY), "tolerance": tolerance, "smoothness": smoothness, "cages": lines(*CAGES),
-          "compare": compare, "sparsify": sparsify,
-          "pipeline": lines(*PIPELINE),
-          "samples": lines(*SAMPLES), "mesh_error": lines(*MESH_ERROR), "blender": lines(*BLENDER),
-          "points": lines(*POINTS), "table1": lines(*TABLE1), "table2": table2}
+TABLES = {"models": lines(*MODELS), "harmonic": lines(*HARMONIC), "race": race, "speed": lines(*SPEED),
+          "tolerance": tolerance, "samples": lines(*SAMPLES), "table1": lines(*TABLE1), "table2": table2}

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "toolkit.h"
 
-#include <malloc.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -220,17 +219,8 @@ int available_cores() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-double resident_mebibytes() {
-  malloc_trim(0);
-  return status_mebibytes("VmRSS");
-}
-
 double peak_mebibytes() {
   return status_mebibytes("VmHWM");
-}
-
-void reset_peak() {
-  std::ofstream("/proc/self/clear_refs") << 5;
 }
 
 }  // namespace flbc::bench

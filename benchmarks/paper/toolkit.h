@@ -101,13 +101,7 @@ class ResultTable {
 
 int available_cores();
 
-//! Resident memory now, in MiB, after freed memory went back to the system.
-double resident_mebibytes();
-
-//! Largest resident memory in MiB since the process began or the last reset_peak().
+//! Largest resident memory in MiB since the process began.
 double peak_mebibytes();
-
-//! Starts the peak anew. Where the system refuses, the peak stays that of the whole process.
-void reset_peak();
 
 }  // namespace flbc::bench

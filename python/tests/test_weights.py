@@ -147,14 +147,18 @@ def test_bind_equals_its_steps(limb, moved):
     assert abs(every.weights - solution.at(vertices)).max() == 0
 
 
-def test_bind_keeps_vertices_outside_at_an_offset(square):
+@pytest.mark.parametrize("max_influences", [0, 4])
+@pytest.mark.parametrize("outside, place", [("nearest", [1.25, 3.5]), ("keep", [1.25, 0.5])])
+def test_bind_places_vertices_outside(square, outside, place, max_influences):
     points = [[0.5, 0.5], [1.25, 0.5]]
+    options = {"mesh_vertices": 200, "max_influences": max_influences}
     with pytest.raises(flbc.InputError, match="outside"):
-        flbc.bind(points, None, square, mesh_vertices=200)
-    binding = flbc.bind(points, None, square, mesh_vertices=200, outside="nearest")
+        flbc.bind(points, None, square, **options)
+    binding = flbc.bind(points, None, square, outside=outside, **options)
     assert binding.outside.tolist() == [1]
+    assert (binding.weights[[1]].nnz == 0) == (outside == "keep")
     assert np.allclose(binding.deform(square.points), points)
-    assert np.allclose(binding.deform(square.points + [0, 3]), np.add(points, [0, 3]))
+    assert np.allclose(binding.deform(square.points + [0, 3]), [[0.5, 3.5], place])
 
 
 def test_border_names_control_points_to_hold(square):
@@ -182,18 +186,6 @@ def test_pages_take_planar_vertices_with_z(square):
     assert flbc.view(points, [[0, 1, 2]], weights, square).html
     with pytest.raises(flbc.InputError, match="vertices has shape"):
         flbc.view(points + 1, [[0, 1, 2]], weights, square)
-
-
-@pytest.mark.parametrize("max_influences", [0, 4])
-def test_bind_leaves_vertices_outside_where_they_are(square, max_influences):
-    points = np.array([[0.5, 0.5], [1.25, 0.5]])
-    binding = flbc.bind(
-        points, None, square, mesh_vertices=200, outside="keep", max_influences=max_influences
-    )
-    assert binding.outside.tolist() == [1]
-    assert binding.weights[[1]].nnz == 0
-    assert np.allclose(binding.deform(square.points), points)
-    assert np.allclose(binding.deform(square.points + [0, 3]), [[0.5, 3.5], [1.25, 0.5]])
 
 
 @pytest.mark.parametrize("max_influences", [0, 4])

@@ -138,23 +138,6 @@ TEST_F(DeformFormats, DisplacementsOfMeshesAreFields) {
   }
 }
 
-// A 2D mesh gets a field, or becomes a colored model.
-TEST_F(DeformFormats, DisplacementsOfMeshesIn2D) {
-  const auto mesh = samples<2>().front().mesh;
-  io::write_domain("p.obj", mesh);
-  const auto command = "p.obj --weights " + linear_weights(mesh.points) + " --rest " +
-                       simplex<2>("r.obj") + " --pose " + simplex<2>("q.obj", 1, {3, 4, 0}) +
-                       " --show-displacement -o ";
-  deform(command + "p.vtu");
-  const auto fields = fields_in_vtu(slurp("p.vtu"));
-  ASSERT_EQ(fields.size(), 1U);
-  EXPECT_EQ(fields[0].name, "displacement");
-  EXPECT_LT((fields[0].values.array() - 5).abs().maxCoeff(), 1e-12);
-  deform(command + "p.ply");
-  const auto shown = read_by_openmesh("p.ply", Options(Options::VertexColor));
-  for (const auto v : shown.vertices()) EXPECT_EQ(shown.color(v), OpenMesh::Vec3uc(23, 48, 114));
-}
-
 // The rows of weights are what flbc solve gives for the same file.
 TEST_F(DeformFormats, StlHasTheVerticesThatWeightsBelongTo) {
   for (const std::string name : {"2d/figure", "3d/limb"}) {

@@ -87,35 +87,6 @@ TEST_F(ExportCommand, InfoTellsWhatIsInASkin) {
   }
 }
 
-TEST_F(ExportCommand, BoundaryOfADomain) {
-  for (const std::string name : {"d.mesh", "d.msh"}) {
-    SCOPED_TRACE(name);
-    const auto domain = name;
-    expect("mesh 3d/torus_cage.obj --vertices 600 -o " + domain);
-    expect("solve 3d/torus_cage.obj --method harmonic -q --domain " + domain + " -o w.npy");
-    expect_export(domain + " --weights w.npy --cage 3d/torus_cage.obj -o s.glb", 0,
-                  "at most 3 influences per vertex;");
-    const auto file = skin("s.glb");
-    const auto mesh = io::read_domain<3>(domain);
-    const auto sources = file.sources();
-    EXPECT_LT(sources.size(), mesh.num_vertices());
-    EXPECT_LT(distance(file.skinned(file.joints()), mesh.points(Eigen::all, sources)), 1e-5);
-  }
-}
-
-TEST_F(ExportCommand, QuadranglesWithATexture) {
-  const auto arguments = square();
-  expect_export(arguments + " -o s.glb", 0,
-                "s.glb: 4 vertices, 2 triangles, 4 joints, at most 4 influences per vertex; ");
-  const auto file = skin("s.glb");
-  EXPECT_EQ(file.json["meshes"][0]["name"], "square");
-  EXPECT_EQ(file.attribute("TEXCOORD_0"),
-            (Eigen::MatrixXd(2, 4) << 0, 1, 1, 0, 1, 1, 0, 0).finished());
-  EXPECT_EQ(file.attribute("NORMAL"), Eigen::Vector3d(0, 0, 1).replicate(1, 4));
-  EXPECT_FALSE(file.has("JOINTS_1"));
-  EXPECT_EQ(expect_export(arguments + " -q -o s.glb", 0, "").errors, "");
-}
-
 // A picture by its first bytes alone: nobody decodes it here.
 constexpr char kPicture[] = "\x89PNG\r\n\x1a\nand so on";
 
@@ -204,29 +175,6 @@ TEST_F(ExportCommand, TheCagesWireIsInASceneThatIsNotShown) {
   };
   EXPECT_FALSE(has_node(0));
   EXPECT_TRUE(has_node(1));
-}
-
-// What is painted on a model comes along from every format that has it.
-TEST_F(ExportCommand, AttributesOfOtherFormats) {
-  const auto model = file("m.obj",
-                          "v 0.25 0.25 0.125 1 0 0.2\nv 0.5 0.25 0.125 0 0.4 0\n"
-                          "v 0.25 0.5 0.125 0 0.6 1\nvt 0.25 0.5\nvt 1 0\nvt 0.5 1\n"
-                          "vn 0 0.6 0.8\nvn 0 0 1\nvn 0.8 0 0.6\nf 1/1/1 2/2/2 3/3/3\n");
-  const auto rest = " --weights " + linear_weights(points_in<3>(model)) + " --cage " +
-                    tetrahedron() + " -q -o s.glb";
-  expect_export(model + rest, 0, "");
-  const auto expected = skin("s.glb");
-  EXPECT_LT((expected.attribute("NORMAL").col(0) - Vector<3>(0, 0.6, 0.8)).norm(), 1e-6);
-  for (const std::string name : {"m.ply", "m.off"}) {
-    SCOPED_TRACE(name);
-    expect("convert " + model + " -q -o " + name);
-    expect_export(name + rest, 0, "");
-    const auto found = skin("s.glb");
-    for (const char* attribute : {"POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0"}) {
-      ASSERT_TRUE(found.has(attribute)) << attribute;
-      EXPECT_LT(distance(found.attribute(attribute), expected.attribute(attribute)), 1e-6);
-    }
-  }
 }
 
 // Where the skin of a node puts its vertices if the control points move.
@@ -591,7 +539,6 @@ TEST_F(ExportCommand, RoundedWeights) {
   expect_export(arguments + "16", 0, "deformation error over random smooth poses ");
   EXPECT_EQ(skin("s.glb").influences("WEIGHTS_", true).colwise().sum(),
             Eigen::RowVectorXd::Constant(4, 65535));
-  expect_export(arguments + "12", 1, "--quantize: invalid value '12'; choose from 8|16");
 }
 
 TEST_F(ExportCommand, SequencesOfCages) {
@@ -634,9 +581,6 @@ TEST_F(ExportCommand, FilesThatDoNotFitAndWrongUsage) {
   refused(arguments + output + " -k 5", 1, "4 or 8 influences");
   refused(arguments + " -o s.gltf", 1, "must end in .glb");
   refused(arguments + " -o absent/s.glb", 4, "absent");
-  refused("m.fbx" + weights + cage + output, 1, "must end in .obj");
-  refused("absent.obj" + weights + cage + output, 4, "absent.obj");
-  refused(model + " --weights absent.npy" + cage + output, 4, "absent.npy");
   refused(model + weights + " --cage absent.obj" + output, 4, "absent.obj");
   refused(model + weights + " --cage 3d/limb_cage.obj" + output, 2,
           "w.npy: has weights for 4 control points, but 3d/limb_cage.obj has 54");
@@ -644,41 +588,16 @@ TEST_F(ExportCommand, FilesThatDoNotFitAndWrongUsage) {
           "w.npy: the weights do not belong to this model: with cage.obj they put vertex ");
   refused("3d/limb_model.obj" + weights + cage + output, 2,
           "w.npy: has weights of 4 points, but 3d/limb_model.obj has 3352");
-  const auto bare = file("bare.obj", "v 0.25 0.25 0.25\nl 1 1\n");
-  refused(bare + weights + cage + output, 2, "bare.obj: its");
-  const auto torn = file("torn.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n");
-  refused(torn + weights + cage + output, 2, "torn.obj:4: the index 7 is out of range");
   const auto outside = file("outside.obj", "v 0.5 0.5 0.25\nv 0 0 0\nv 0 1 0\nf 1 2 3\n");
   refused(outside + " --weights " + linear_weights(points_in<3>(outside)) + cage + output, 2,
           "outside.obj: point 0 at (0.5, 0.5, 0.25) lies outside");
   const auto plane = file("plane.obj", "v 0 0\nv 4 0\nv 0 4\nl 1 2 3 1\n");
-  refused(model + weights + " --cage " + plane + output, 2, "has weights of 3 points");
   refused(file("m.mesh", "") + weights + " --cage " + plane + output, 1, "the cage is in 2D");
 
   // No result may replace what is read.
   std::filesystem::copy("w.npy", "w.glb");
   expect_export(arguments + " -o w.glb --pose w.glb", 1, "would replace this input file");
   EXPECT_EQ(slurp("w.glb"), slurp("w.npy"));
-}
-
-TEST_F(ExportCommand, ARealModelWithTextureAndNormals) {
-  if (!has_model("3d/clothing.obj")) GTEST_SKIP() << "the real models are absent";
-  const auto model = model_path("3d/clothing.obj");
-  const auto cage = model_path("3d/clothing_cage.obj");
-  expect("solve " + cage + " --method harmonic --vertices 1500 -q -o w.npy --model " + model);
-  const auto arguments = model + " --weights w.npy --cage " + cage;
-  expect_export(arguments + " -o s.glb", 0, " 9132 triangles, 18 joints");
-  const auto file = skin("s.glb");
-  ASSERT_TRUE(file.has("TEXCOORD_0"));
-  const Eigen::MatrixXd lengths = file.attribute("NORMAL").colwise().norm();
-  EXPECT_LT((lengths.array() - 1).abs().maxCoeff(), 1e-6);
-  const auto points = points_in<3>(model);
-  // Seams part vertices, and all of them are there.
-  const auto sources = file.sources();
-  EXPECT_GT(sources.size(), points.cols());
-  EXPECT_EQ(std::set<Eigen::Index>(sources.begin(), sources.end()).size(), points.cols());
-  EXPECT_LT(distance(file.skinned(file.joints()), points(Eigen::all, sources)),
-            1e-6 * bounding_box_diagonal<3>(points));
 }
 
 }  // namespace

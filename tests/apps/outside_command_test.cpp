@@ -178,41 +178,6 @@ class BoxInMesh : public OutsideCommand, public ::testing::WithParamInterface<in
   }
 };
 
-TEST_P(BoxInMesh, NothingMovesAtRest) {
-  write_box("pose.obj", box());
-  for (const std::string policy : {"nearest", "keep"}) {
-    SCOPED_TRACE(policy);
-    const auto ended = run_box(policy);
-    expect_piece(ended.errors, "mesh.obj: 30 of 45 vertices are outside the cage");
-    expect_no_piece(ended.errors, "jump");
-    expect_no_piece(ended.errors, "inverted");
-    EXPECT_LT(distance(points_of("out/deformed.obj"), points_of("mesh.obj")), 1e-12);
-    EXPECT_LT(json_in("out/report.json")["deform"][0]["largest_displacement"], 1e-12);
-    EXPECT_LT(json_in("out/report.json")["sparsify"]["after"]["max_reproduction_error"], 1e-12);
-    for (const char* weights : {"out/weights.npy", "out/sparse_weights.mtx"}) {
-      expect(std::string("deform mesh.obj --rest box.obj --pose box.obj -q -o x.obj --weights ") +
-             weights);
-      EXPECT_LT(distance(points_of("x.obj"), points_of("mesh.obj")), 1e-12);
-    }
-  }
-}
-
-TEST_P(BoxInMesh, TranslationsMoveWhatFollows) {
-  const Vector<3> shift(3, -7, is_flat() ? 0 : 2);
-  write_box("pose.obj", moved({0, 1, 2, 3, 4, 5}, shift));
-  for (const std::string policy : {"nearest", "keep"}) {
-    SCOPED_TRACE(policy);
-    run_box(policy);
-    auto points = points_of("mesh.obj");
-    for (auto& point : points) {
-      if (policy == "nearest" || !is_outside(point)) point += shift;
-    }
-    EXPECT_LT(distance(points_of("out/deformed.obj"), points), 1e-11);
-    EXPECT_NEAR(json_in("out/report.json")["deform"][0]["largest_displacement"], shift.norm(),
-                1e-11);
-  }
-}
-
 TEST_P(BoxInMesh, FiguresAreThoseOfTheFiles) {
   const auto pose = moved({1}, {0.2, 4.5, 0});
   write_box("pose.obj", pose);

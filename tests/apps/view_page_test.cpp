@@ -245,8 +245,6 @@ TEST_F(ViewCommand, RefusesWithTheReason) {
   expect_refused("view " + arguments + " -o p.txt", 1, ".html");
   expect_refused("view " + arguments + " -k 17" + output, 1, "from 3 to 16 influences");
   expect_refused("view " + arguments + " --texture t.gif" + output, 1, ".png or .jpg");
-  expect_refused("view " + arguments + " --texture t.png" + output, 4, "t.png");
-  expect_refused("view " + arguments + " --pose 2d/ring_cage.obj" + output, 2, "ring_cage.obj");
   expect_refused("view 2d/ring_model.obj --weights w.npy --cage 2d/figure_cage.obj" + output, 2,
                  "ring_model.obj");
 }

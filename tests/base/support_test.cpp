@@ -10,68 +10,6 @@ namespace {
 
 using Eigen::MatrixXd;
 
-TEST_IN_2D_AND_3D(SupportTest, SampleCagesAreClosedAndOrientedOutwards) {
-  for (const auto& sample : samples<Dim>()) {
-    SCOPED_TRACE(sample.name);
-    for (const auto& defect : find_defects(sample.cage)) ADD_FAILURE() << defect.message;
-    EXPECT_GT(enclosed_measure(sample.cage), 0);
-    EXPECT_NEAR(enclosed_measure(sample.cage), total_volume(sample.mesh), 1e-12);
-  }
-}
-
-TEST_IN_2D_AND_3D(SupportTest, SampleShapesHaveTheirMeasureCornersAndTopology) {
-  const auto box = make_sample<Dim>(Shape::kBox, 2).cage;
-  const auto corner = make_sample<Dim>(Shape::kCorner, 2).cage;
-  const auto ring = make_sample<Dim>(Shape::kRing, 2).cage;
-  EXPECT_NEAR(enclosed_measure(box), 1, 1e-14);
-  EXPECT_NEAR(enclosed_measure(corner), 3, 1e-14);
-  EXPECT_NEAR(enclosed_measure(ring), 8, 1e-14);
-  const Index layers = Dim - 1;
-  EXPECT_EQ(box.size(), 4 * layers);
-  EXPECT_EQ(corner.size(), 6 * layers);
-  EXPECT_EQ(ring.size(), 8 * layers);
-  if (Dim == 3) {
-    // Every triangle has three sides, every side two triangles.
-    const auto euler = [](const Cage<Dim>& cage) { return cage.size() - cage.facets.cols() / 2; };
-    EXPECT_EQ(euler(box), 2);
-    EXPECT_EQ(euler(corner), 2);
-    EXPECT_EQ(euler(ring), 0);
-  }
-}
-
-TEST_IN_2D_AND_3D(SupportTest, SampleMeshesAreConformingAndFillTheirCages) {
-  for (const auto& sample : samples<Dim>()) {
-    SCOPED_TRACE(sample.name);
-    const auto& mesh = sample.mesh;
-    EXPECT_GE(mesh.num_vertices(), 50);
-    EXPECT_LE(mesh.num_vertices(), 400);
-    for (Index s = 0; s < mesh.num_cells(); ++s) {
-      EXPECT_GT(signed_simplex_measure<Dim>(cell_corners(mesh, s)), 1e-5);
-    }
-    const double mesh_boundary = sum_of_facets<Dim>(mesh.points, boundary_facets(mesh));
-    const double cage_boundary = sum_of_facets<Dim>(sample.cage.points, sample.cage.facets);
-    // Positive cells that fill the enclosed measure and have no boundary but the cage's leave
-    // neither gaps nor hanging vertices.
-    EXPECT_NEAR(mesh_boundary, cage_boundary, 1e-12);
-    const auto zero = MatrixXd::Zero(sample.cage.size(), mesh.num_vertices());
-    const auto judgement = judge<Dim>(sample.cage, mesh, zero);
-    EXPECT_EQ(judgement.boundary_vertices_off_cage, 0);
-    EXPECT_EQ(judgement.control_points_found, sample.cage.size());
-  }
-}
-
-TEST_IN_2D_AND_3D(SupportTest, JitterIsReproducibleAndMovesInteriorVerticesOnly) {
-  const auto straight = make_sample<Dim>(Shape::kBox, 3).mesh;
-  const auto moved = make_sample<Dim>(Shape::kBox, 3, 0.25).mesh;
-  EXPECT_EQ(moved.points, make_sample<Dim>(Shape::kBox, 3, 0.25).mesh.points);
-  const auto interior = interior_vertices(straight);
-  for (Index v = 0; v < straight.num_vertices(); ++v) {
-    EXPECT_EQ(interior[v], straight.points.col(v) != moved.points.col(v)) << v;
-  }
-  EXPECT_THROW(make_sample<Dim>(Shape::kBox, 3, 10), std::invalid_argument);
-  EXPECT_THROW(make_sample<Dim>(Shape::kBox, 0), std::invalid_argument);
-}
-
 TEST_IN_2D_AND_3D(SupportTest, JudgeAcceptsHarmonicCoordinates) {
   for (const auto& sample : samples<Dim>()) {
     SCOPED_TRACE(sample.name);

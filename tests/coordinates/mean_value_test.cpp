@@ -101,14 +101,6 @@ TEST_IN_2D_AND_3D(MeanValueTest, SumToOneAndReproduceEverywhere) {
   }
 }
 
-TEST_IN_2D_AND_3D(MeanValueTest, InASimplexAreItsBarycentricCoordinates) {
-  const auto sample = make_sample<Dim>(Shape::kSimplex, 1);
-  const auto points = scattered_points(sample.cage, 200);
-  const auto expected = barycentric_coordinates<Dim>(sample.cage.points, points);
-  const auto weights = mean_value_coordinates(sample.cage, points);
-  EXPECT_LT((weights - expected).cwiseAbs().maxCoeff(), 1e-11);
-}
-
 TEST_IN_2D_AND_3D(MeanValueTest, LagrangeAndLinearOnFacets) {
   for (const auto& sample : cages<Dim>()) {
     const auto& cage = sample.cage;
@@ -234,12 +226,6 @@ TEST_IN_2D_AND_3D(MeanValueTest, OrientationOfTheCageDoesNotMatter) {
                 .cwiseAbs()
                 .maxCoeff(),
             1e-2);
-}
-
-TEST_IN_2D_AND_3D(MeanValueTest, SameBitsForAnyNumberOfThreads) {
-  const auto sample = make_sample<Dim>(Shape::kRing, 3);
-  expect_same_for_any_threads(
-      [&] { return mean_value_coordinates(sample.cage, sample.mesh.points); });
 }
 
 TEST_IN_2D_AND_3D(MeanValueTest, NoPointsAndPointsThatAreNone) {

@@ -53,39 +53,39 @@ const Valid<Dim>& valid() {
 template <int Dim>
 Cage<Dim> some_cage(Mutator& mutator) {
   auto cage = valid<Dim>().sample.cage;
-  mutator.damage(Argument::kPoints, cage.points);
-  mutator.damage(Argument::kIndices, cage.facets);
+  mutator.damage(cage.points);
+  mutator.damage(cage.facets);
   return cage;
 }
 
 template <int Dim>
 DomainMesh<Dim> some_mesh(Mutator& mutator) {
   auto mesh = valid<Dim>().sample.mesh;
-  mutator.damage(Argument::kPoints, mesh.points);
-  mutator.damage(Argument::kIndices, mesh.cells);
+  mutator.damage(mesh.points);
+  mutator.damage(mesh.cells);
   return mesh;
 }
 
 template <int Dim>
 MeshTopology<Dim> some_topology(Mutator& mutator) {
   auto topology = valid<Dim>().problem.topology;
-  mutator.damage(Argument::kIndices, topology.facets);
-  mutator.damage(Argument::kIndices, topology.sides);
-  mutator.damage(Argument::kIndices, topology.cell_facets);
+  mutator.damage(topology.facets);
+  mutator.damage(topology.sides);
+  mutator.damage(topology.cell_facets);
   return topology;
 }
 
 template <int Dim>
 SparseWeights some_weights(Mutator& mutator) {
   WeightMatrix weights = valid<Dim>().weights.dense();
-  mutator.damage(Argument::kWeights, weights);
+  mutator.damage(weights);
   return weights;
 }
 
 template <int Dim>
 WeightFunctions some_phi(Mutator& mutator) {
   Eigen::MatrixXd phi = valid<Dim>().problem.phi.dense();
-  mutator.damage(Argument::kPhi, phi);
+  mutator.damage(phi);
   return WeightFunctions(phi);
 }
 
@@ -94,7 +94,7 @@ template <int Dim>
 PointList<Dim> some_points(Mutator& mutator) {
   PointList<Dim> points = valid<Dim>().sample.mesh.points;
   if (mutator.below(2) == 0) points.col(mutator.below(points.cols())) *= 1.5;
-  mutator.damage(Argument::kPoints, points);
+  mutator.damage(points);
   return points;
 }
 
@@ -102,7 +102,7 @@ template <int Dim>
 PointList<Dim> some_pose(Mutator& mutator) {
   PointList<Dim> pose = valid<Dim>().sample.cage.points;
   pose.col(mutator.below(pose.cols()))[0] += 0.01;
-  mutator.damage(Argument::kPoses, pose);
+  mutator.damage(pose);
   return pose;
 }
 
@@ -122,8 +122,8 @@ EdgeList some_edges(Mutator& mutator, const EdgeList& all) {
   for (Eigen::Index k = 0; k < count; ++k) ends.col(k) << all.ends[k][0], all.ends[k][1];
   Eigen::RowVectorXd lengths = Eigen::Map<const Eigen::RowVectorXd>(
       all.weights.data(), static_cast<Eigen::Index>(all.weights.size()));
-  mutator.damage(Argument::kIndices, ends);
-  mutator.damage(Argument::kWeights, lengths);
+  mutator.damage(ends);
+  mutator.damage(lengths);
   EdgeList edges;
   for (const auto& column : ends.colwise()) edges.ends.push_back({column[0], column[1]});
   edges.weights.assign(lengths.begin(), lengths.end());
@@ -272,7 +272,7 @@ void look_at_mesh(Mutator& mutator) {
       [&] { published_penalty(cage, mesh, Method::kPaper, 100); },
       [&] {
         auto parts = mesh_parts(valid<Dim>().sample.mesh);
-        mutator.damage(Argument::kIndices, parts.front().vertices);
+        mutator.damage(parts.front().vertices);
         join_parts(parts);
       },
       [&] { build_topology(mesh); },
@@ -292,7 +292,7 @@ void find_boundary(Mutator& mutator) {
       [&] { validate(mesh, topology); },
       [&] {
         auto sources = valid<Dim>().problem.boundary.control_vertices;
-        mutator.damage(Argument::kIndices, sources);
+        mutator.damage(sources);
         const auto distances = geodesic_distances(mesh, topology, sources);
         WeightFunctions(some_scheme(mutator), distances, mesh, cage.size());
       },
@@ -328,7 +328,7 @@ void place_near(Mutator& mutator) {
   const auto cage = some_cage<Dim>(mutator);
   const auto points = some_points<Dim>(mutator);
   std::vector<Index> which{0, 2, 3};
-  mutator.damage(Argument::kIndices, which);
+  mutator.damage(which);
   nearest_on_cage(cage, points, which);
 }
 
@@ -342,8 +342,8 @@ void evaluate(Mutator& mutator) {
   const auto placement = evaluator.place(some_points<Dim>(mutator));
   evaluator.weights(placement);
   auto pose = evaluator.pose(some_pose<Dim>(mutator));
-  mutator.damage(Argument::kPoses, pose.vertices);
-  mutator.damage(Argument::kPoses, pose.control_points);
+  mutator.damage(pose.vertices);
+  mutator.damage(pose.control_points);
   evaluator.move(placement, pose);
 }
 
@@ -384,9 +384,9 @@ void take_arrays(Mutator& mutator) {
   auto starts = weights.starts();
   auto control_points = weights.control_points();
   auto values = weights.values();
-  mutator.damage(Argument::kIndices, starts);
-  mutator.damage(Argument::kIndices, control_points);
-  mutator.damage(Argument::kWeights, values);
+  mutator.damage(starts);
+  mutator.damage(control_points);
+  mutator.damage(values);
   const SparseWeights taken(weights.num_control_points(), starts, control_points, values);
   deform<Dim>(taken, some_pose<Dim>(mutator));
 }
@@ -395,7 +395,7 @@ template <int Dim>
 void reduce(Mutator& mutator) {
   const auto& mesh = valid<Dim>().sample.mesh;
   PointList<Dim> control_points = valid<Dim>().sample.cage.points;
-  mutator.damage(Argument::kPoints, control_points);
+  mutator.damage(control_points);
   const auto points = some_points<Dim>(mutator);
   const auto weights = some_weights<Dim>(mutator);
   static const EdgeList all = edges_of_cells(mesh);
@@ -412,7 +412,7 @@ void reduce(Mutator& mutator) {
       },
       [&] {
         std::vector<Index> some{0, 3, 5};
-        mutator.damage(Argument::kIndices, some);
+        mutator.damage(some);
         const auto projected = project_non_negative(control_points, points, weights, some);
       },
       [&] {
@@ -431,15 +431,15 @@ void reduce(Mutator& mutator) {
 template <int Dim>
 void connect(Mutator& mutator) {
   std::vector<Index> polygon{0, 1, 2, 3}, polyline{3, 4};
-  mutator.damage(Argument::kIndices, polygon);
-  mutator.damage(Argument::kIndices, polyline);
+  mutator.damage(polygon);
+  mutator.damage(polyline);
   edges_of_polygons<Dim>(some_points<Dim>(mutator), {polygon}, {polyline});
 }
 
 template <int Dim>
 void transfer(Mutator& mutator) {
   PointList<Dim> control_points = valid<Dim>().sample.cage.points;
-  mutator.damage(Argument::kPoints, control_points);
+  mutator.damage(control_points);
   const auto mesh = some_mesh<Dim>(mutator);
   const ModelElements<Dim> from{mesh.points, mesh.cells.template topRows<3>()};
   Eigen::VectorXd distances;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc_fuzz READER [libFuzzer's options]; flbc_fuzz --list; flbc_fuzz --seeds FOLDER
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <set>
+#include <utility>
 
 #include "fuzz/reader.h"
 
@@ -16,8 +20,24 @@ std::unique_ptr<Reading> reading;
 
 void list() {
   for (const auto& reader : flbc::fuzz::all_readers()) {
-    std::printf("%s %s\n", reader.name.c_str(), reader.file.c_str());
+    std::puts(reader.name.c_str());
   }
+}
+
+// The words of the seeds, as a dictionary of libFuzzer.
+std::set<std::string> words_of(const std::vector<std::string>& seeds) {
+  std::set<std::string> words{"nan", "-1", "1e999", "1e-320", "4294967296"};
+  for (const auto& seed : seeds) {
+    std::string word;
+    for (const char c : seed + '\n') {
+      if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_') {
+        word += c;
+      } else if (!word.empty()) {
+        words.insert(std::exchange(word, {}));
+      }
+    }
+  }
+  return words;
 }
 
 void write_seeds(const std::string& folder) {
@@ -28,6 +48,8 @@ void write_seeds(const std::string& folder) {
       const auto path = folder + "/" + reader.name + "/seed" + std::to_string(k);
       flbc::fuzz::put_file(path, seed.data(), seed.size());
     }
+    std::ofstream dictionary(folder + "/" + reader.name + ".dict");
+    for (const auto& word : words_of(reader.seeds)) dictionary << '"' << word << "\"\n";
   }
 }
 

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -17,11 +16,6 @@
 #include "flbc/types.h"
 
 namespace flbc::fuzz {
-
-//! Kinds of arguments.
-enum class Argument { kPoints, kIndices, kPoses, kPhi, kWeights };
-constexpr std::array kArgumentNames{"points", "indices", "poses", "phi", "weights"};
-using Counts = std::array<std::int64_t, kArgumentNames.size()>;
 
 //! Damages arguments at random, the same way for the same seed.
 class Mutator {
@@ -45,9 +39,8 @@ class Mutator {
 
   //! Damages a matrix of numbers or indices in a third of the calls.
   template <class Matrix>
-  void damage(Argument argument, Matrix& matrix) {
+  void damage(Matrix& matrix) {
     if (below(3) != 0) return;
-    ++counts_[static_cast<std::size_t>(argument)];
     if (below(5) == 0) {
       resize(matrix);
       return;
@@ -60,15 +53,12 @@ class Mutator {
 
   //! The same for a list of indices.
   template <class Entry>
-  void damage(Argument argument, std::vector<Entry>& list) {
+  void damage(std::vector<Entry>& list) {
     using Row = Eigen::Matrix<Entry, 1, Eigen::Dynamic>;
     Row row = Eigen::Map<Row>(list.data(), 1, static_cast<Eigen::Index>(list.size()));
-    damage(argument, row);
+    damage(row);
     list.assign(row.data(), row.data() + row.size());
   }
-
-  //! Number of damaged arguments by kind.
-  const Counts& counts() const { return counts_; }
 
  private:
   // Changes the number of columns or, if it is not fixed, of rows.
@@ -108,7 +98,6 @@ class Mutator {
   }
 
   std::mt19937 random_;
-  Counts counts_{};
 };
 
 //! A public function, or a few that are used together.
@@ -126,9 +115,8 @@ std::vector<Call> all_calls();
 
 //! Makes a call.
 //! \param seed  of the damage
-//! \param counts  are increased by the damaged arguments
 //! \return whether the arguments were accepted
 //! \throws any exception except flbc::Error, as a finding
-bool accepts(const Call& call, std::uint32_t seed, Counts& counts);
+bool accepts(const Call& call, std::uint32_t seed);
 
 }  // namespace flbc::fuzz

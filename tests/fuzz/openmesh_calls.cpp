@@ -32,7 +32,7 @@ Model some_model(Mutator& mutator) {
   points << 0.3, 0.7, 0.4, 0.6,  //
       0.2, 0.2, 0.6, 0.6,        //
       0.4, 0.5, 0.5, 0.3;
-  mutator.damage(Argument::kPoints, points);
+  mutator.damage(points);
   Model model;
   for (const auto& point : points.colwise()) model.add_vertex({point[0], point[1], point[2]});
   using Vertex = OpenMesh::VertexHandle;
@@ -46,7 +46,7 @@ Model some_model(Mutator& mutator) {
 PointList<3> some_pose(Mutator& mutator) {
   PointList<3> pose = sample().cage.points;
   pose(0, 0) += 0.1;
-  mutator.damage(Argument::kPoses, pose);
+  mutator.damage(pose);
   return pose;
 }
 
@@ -54,10 +54,10 @@ void bind_model(Mutator& mutator) {
   auto model = some_model(mutator);
   auto cage = sample().cage;
   auto domain = sample().mesh;
-  mutator.damage(Argument::kPoints, cage.points);
-  mutator.damage(Argument::kIndices, cage.facets);
-  mutator.damage(Argument::kPoints, domain.points);
-  mutator.damage(Argument::kIndices, domain.cells);
+  mutator.damage(cage.points);
+  mutator.damage(cage.facets);
+  mutator.damage(domain.points);
+  mutator.damage(domain.cells);
   openmesh::BindOptions options;
   options.max_influences = mutator.one_of<Index>({0, 4, 8});
   options.outside = mutator.one_of({OutsidePoints::kFail, OutsidePoints::kNearest});
@@ -70,7 +70,7 @@ void bind_model(Mutator& mutator) {
 void attach_weights(Mutator& mutator) {
   auto model = some_model(mutator);
   WeightMatrix weights = WeightMatrix::Constant(8, 4, 0.125);
-  mutator.damage(Argument::kWeights, weights);
+  mutator.damage(weights);
   if (mutator.below(2) == 0) {
     openmesh::set_weights(model, weights);
   } else {
@@ -83,11 +83,11 @@ void attach_weights(Mutator& mutator) {
 void solve_on_cells(Mutator& mutator) {
   auto cage = sample().cage;
   auto domain = sample().mesh;
-  mutator.damage(Argument::kPoints, domain.points);
-  mutator.damage(Argument::kIndices, domain.cells);
+  mutator.damage(domain.points);
+  mutator.damage(domain.cells);
   auto mesh = openmesh::TetMesh::from(domain);
-  mutator.damage(Argument::kPoints, cage.points);
-  mutator.damage(Argument::kIndices, cage.facets);
+  mutator.damage(cage.points);
+  mutator.damage(cage.facets);
   SolverOptions options;
   options.max_iterations = 12;
   openmesh::solve(mesh, cage, options, {});

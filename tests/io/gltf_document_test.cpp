@@ -546,19 +546,6 @@ TEST_F(GltfDocumentTest, CompressedCopiesOfWhatMovesGo) {
   EXPECT_EQ(after.binary.find("compressed"), std::string::npos);
 }
 
-TEST_F(GltfDocumentTest, NodesThatShareAMeshGetTheirOwn) {
-  auto file = tetrahedron();
-  file.json["nodes"].push_back({{"mesh", 0}, {"translation", {5, 0, 0}}});
-  file.json["scenes"][0]["nodes"].push_back(1);
-  const auto before = read(file);
-  auto wanted = io::to_points<3>(before.model().soup, "");
-  ASSERT_EQ(wanted.cols(), 8);
-  for (Eigen::Index v = 0; v < 8; ++v) wanted(2, v) += 0.1 * wanted(0, v);
-  moved(before, wanted);
-  const auto again = io::to_points<3>(ModelFile(path("moved.glb")).model().soup, "");
-  EXPECT_LT((again - wanted).norm(), 1e-6);
-}
-
 // Equal numbers are often stored once.
 TEST_F(GltfDocumentTest, MorphTargetsThatShareNumbersTurnOnce) {
   auto original = tetrahedron();

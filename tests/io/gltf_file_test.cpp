@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// glTF files as models, written here with no more than a JSON parser.
+// glTF files as models.
+#include <array>
 #include <cstdint>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include <Eigen/Geometry>
@@ -10,75 +10,38 @@
 #include "flbc/io/cage_io.h"
 #include "flbc/io/model_file.h"
 #include "format_test.h"
+#include "support/new_glb.h"
 
 namespace flbc::testing {
 namespace {
 
 using io::ModelFile;
-using Json = nlohmann::ordered_json;
+using Json = NewGlb::Json;
 
 // A square of two triangles whose diagonal is a seam, so that its ends are in the file twice.
-struct Square {
-  Eigen::Matrix3Xf points{3, 6}, normals{3, 6};
-  Eigen::Matrix2Xf texture{2, 6};
-  std::vector<std::uint16_t> indices{0, 1, 2, 3, 4, 5};
-  Json json;
-  std::string picture = "\x89PNG\r\n\x1a\nnot really";
+struct Square : NewGlb {
+  const std::string picture = "\x89PNG\r\n\x1a\nnot really";
 
-  Square() {
-    points << 0, 1, 1, 0, 1, 0,  //
-        0, 0, 1, 0, 1, 1,        //
-        0, 0, 0, 0, 0, 0;
-    normals << Eigen::Vector3f::UnitZ().replicate(1, 6);
-    texture << 0, 0.5, 0.5, 0.5, 1, 0.5,  //
-        0, 0, 1, 0, 1, 1;
-    json = Json::parse(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+  explicit Square(const std::array<int, 6>& indices = {0, 1, 2, 3, 4, 5})
+      : NewGlb(R"({"scene":0,"scenes":[{"nodes":[0]}],
       "nodes":[{"children":[1],"translation":[10,0,0]},
                {"mesh":0,"rotation":[0,0,0.7071067811865476,0.7071067811865476],"scale":[2,2,2]}],
       "meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"indices":3,
                                 "material":0}]}],
       "materials":[{"name":"paint","pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,1],
         "baseColorTexture":{"index":0},"metallicFactor":0,"roughnessFactor":0.5}}],
-      "textures":[{"source":0}],"images":[{"bufferView":4,"mimeType":"image/png"}],
-      "accessors":[
-        {"bufferView":0,"componentType":5126,"count":6,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
-        {"bufferView":1,"componentType":5126,"count":6,"type":"VEC3"},
-        {"bufferView":2,"componentType":5126,"count":6,"type":"VEC2"},
-        {"bufferView":3,"componentType":5123,"count":6,"type":"SCALAR"}],
-      "bufferViews":[],"buffers":[{"byteLength":0}]})");
-  }
-
-  std::string binary() {
-    std::string bytes;
-    json["bufferViews"] = Json::array();
-    const auto add = [&](const void* data, std::size_t size) {
-      bytes.resize((bytes.size() + 3) / 4 * 4);
-      json["bufferViews"].push_back(
-          {{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", size}});
-      bytes.append(static_cast<const char*>(data), size);
-    };
-    add(points.data(), sizeof(float) * static_cast<std::size_t>(points.size()));
-    add(normals.data(), sizeof(float) * static_cast<std::size_t>(normals.size()));
-    add(texture.data(), sizeof(float) * static_cast<std::size_t>(texture.size()));
-    add(indices.data(), sizeof(std::uint16_t) * indices.size());
-    add(picture.data(), picture.size());
+      "textures":[{"source":0}],"images":[{"bufferView":4,"mimeType":"image/png"}]})") {
+    add<float>((Eigen::MatrixXd(3, 6) << 0, 1, 1, 0, 1, 0,  //
+                0, 0, 1, 0, 1, 1,                           //
+                0, 0, 0, 0, 0, 0)
+                   .finished());
+    add<float>(Eigen::MatrixXd(Vector<3>::UnitZ().replicate(1, 6)));
+    add<float>((Eigen::MatrixXd(2, 6) << 0, 0.5, 0.5, 0.5, 1, 0.5,  //
+                0, 0, 1, 0, 1, 1)
+                   .finished());
+    add<std::uint16_t>(Eigen::Map<const Eigen::RowVectorXi>(indices.data(), 6));
+    add_view(picture);
     bytes.resize((bytes.size() + 3) / 4 * 4);
-    json["buffers"][0]["byteLength"] = bytes.size();
-    return bytes;
-  }
-
-  std::string glb() {
-    const auto bytes = binary();
-    auto text = json.dump();
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    const auto word = [](std::size_t number) {
-      const auto value = static_cast<std::uint32_t>(number);
-      std::string result(4, '\0');
-      std::memcpy(result.data(), &value, 4);
-      return result;
-    };
-    return "glTF" + word(2) + word(28 + text.size() + bytes.size()) + word(text.size()) + "JSON" +
-           text + word(bytes.size()) + std::string("BIN\0", 4) + bytes;
   }
 };
 
@@ -95,7 +58,7 @@ class GltfFileTest : public FormatTest {
     file.write<3>(out, points);
     return out.str();
   }
-  void refuse(Square square, const std::string& message) {
+  void refuse(const Square& square, const std::string& message) {
     make("bad.glb", square.glb());
     expect_error<InputError>([&] { ModelFile(path("bad.glb")); }, {"bad.glb", message});
   }
@@ -117,8 +80,7 @@ TEST_F(GltfFileTest, WholeNumbersAreWhole) {
       refuse(square, "damaged");
     }
   }
-  Square floats;
-  floats.indices = {0, 0, 0, 0, 0xffff, 0x7f7f};  // three floats, the last one of 3e38
+  Square floats({0, 0, 0, 0, 0xffff, 0x7f7f});  // three floats, the last one of 3e38
   floats.json["accessors"][3]["componentType"] = 5126;
   floats.json["accessors"][3]["count"] = 3;
   refuse(floats, "damaged");
@@ -144,7 +106,7 @@ TEST_F(GltfFileTest, SeamsAreOneVertexInTheFrameOfTheScene) {
 }
 
 TEST_F(GltfFileTest, PointsMoveAndAllElseStays) {
-  Square square;
+  const Square square;
   make("a.glb", square.glb());
   const ModelFile file(path("a.glb"));
   const auto points = io::to_points<3>(file.model().soup, "");
@@ -162,17 +124,15 @@ TEST_F(GltfFileTest, PointsMoveAndAllElseStays) {
             file.model().attributes.texture_coordinates);
 
   // The bounds are those of the points in the file, which node and parent scale, turn, and shift.
-  const auto bytes = content("b.glb");
-  std::uint32_t size = 0;
-  std::memcpy(&size, bytes.data() + 12, 4);
-  const auto accessor = Json::parse(bytes.substr(20, size))["accessors"][0];
+  const auto accessor = GlbChunks(content("b.glb")).json["accessors"][0];
   EXPECT_NEAR(accessor["max"][0], std::cos(0.5), 1e-6);
   EXPECT_NEAR(accessor["max"][2], std::sin(0.5), 1e-6);
 }
 
 TEST_F(GltfFileTest, TextWithDataIsRead) {
   Square square;
-  const auto bytes = square.binary();
+  const auto& bytes = square.bytes;
+  square.json["buffers"][0]["byteLength"] = bytes.size();
   constexpr const char* kLetters =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -230,7 +190,6 @@ TEST_F(GltfFileTest, DamageEndsInMessages) {
   }
   const auto with = [&](const char* pointer, Json value) {
     Square square;
-    square.binary();
     square.json[Json::json_pointer(pointer)] = std::move(value);
     return square;
   };
@@ -243,9 +202,7 @@ TEST_F(GltfFileTest, DamageEndsInMessages) {
   refuse(with("/nodes/1/scale", Json::array({0, 1, 1})), "but no triangles");
   refuse(with("/meshes/0/primitives/0/material", 7), "material");
   refuse(with("/extensionsRequired", Json::array({"KHR_draco_mesh_compression"})), "uncompressed");
-  Square out_of_range;
-  out_of_range.indices[4] = 6;
-  refuse(out_of_range, "the vertex 6, which is out of range");
+  refuse(Square({0, 1, 2, 3, 6, 5}), "the vertex 6, which is out of range");
 }
 
 }  // namespace

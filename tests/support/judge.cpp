@@ -188,7 +188,7 @@ Eigen::MatrixXd demanded_boundary_weights(const Cage<Dim>& cage, const DomainMes
 
 template <int Dim>
 double objective(const DomainMesh<Dim>& mesh, const Eigen::MatrixXd& weights,
-                 const Eigen::MatrixXd& phi) {
+                 const Eigen::MatrixXd& phi, double smoothness) {
   check_size(weights, phi.rows(), mesh.num_vertices());
   check_size(phi, phi.rows(), mesh.num_cells());
   double sum = 0;
@@ -196,7 +196,8 @@ double objective(const DomainMesh<Dim>& mesh, const Eigen::MatrixXd& weights,
     const auto corners = corners_of<Dim>(mesh.points, mesh.cells.col(s));
     const auto gradients = linear_gradients<Dim>(corners, columns_of(weights, mesh.cells.col(s)));
     for (Eigen::Index i = 0; i < weights.rows(); ++i) {
-      sum += phi(i, s) * simplex_measure<Dim>(corners) * gradients.col(i).norm();
+      const double length = gradients.col(i).norm();
+      sum += simplex_measure<Dim>(corners) * length * (phi(i, s) + smoothness / 2 * length);
     }
   }
   return sum;
@@ -226,7 +227,7 @@ double mean_squared_difference(const DomainMesh<Dim>& mesh, const Eigen::MatrixX
                                 double);                                                          \
   template Eigen::MatrixXd demanded_boundary_weights(const Cage<Dim>&, const DomainMesh<Dim>&);   \
   template double objective(const DomainMesh<Dim>&, const Eigen::MatrixXd&,                       \
-                            const Eigen::MatrixXd&);                                              \
+                            const Eigen::MatrixXd&, double);                                      \
   template double mean_squared_difference(const DomainMesh<Dim>&, const Eigen::MatrixXd&,         \
                                           const Eigen::MatrixXd&);
 FLBC_INSTANTIATE(2)

@@ -59,10 +59,10 @@ Judgement<Dim> expect_coordinates(const Cage<Dim>& cage, const DomainMesh<Dim>& 
 template <int Dim>
 Eigen::MatrixXd demanded_boundary_weights(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh);
 
-//! sum_s sum_i phi_i^s A_s |grad w_i|_s. \param phi  n x F
+//! sum_s sum_i A_s (phi_i^s |grad w_i|_s + smoothness / 2 |grad w_i|_s^2). \param phi  n x F
 template <int Dim>
 double objective(const DomainMesh<Dim>& mesh, const Eigen::MatrixXd& weights,
-                 const Eigen::MatrixXd& phi);
+                 const Eigen::MatrixXd& phi, double smoothness = 0);
 
 //! The paper's (5): mean of (a - b)^2 over interior vertices and control points.
 //! \throws std::invalid_argument if there are no interior vertices

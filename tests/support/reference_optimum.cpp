@@ -11,20 +11,18 @@
 namespace flbc::testing {
 namespace {
 
-// Reads an expected item and throws if another one follows.
 class Reader {
  public:
   explicit Reader(const std::string& path) : path_(path), file_(path) {
     while (file_.peek() == '#') file_.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
-    check("a readable file");
   }
 
+  // What follows this word.
   template <class Value>
   Value value(const std::string& key) {
-    expect_key(key);
+    std::string found;
     Value value{};
-    file_ >> value;
-    check(key);
+    require(file_ >> found && found == key && file_ >> value, key);
     return value;
   }
 
@@ -33,49 +31,27 @@ class Reader {
   Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> columns(const std::string& key,
                                                                 Eigen::Index count,
                                                                 Eigen::Index size) {
-    expect_key(key);
-    Eigen::Index found_count = 0, found_size = 0;
-    file_ >> found_count >> found_size;
-    if (!file_ || found_size != size || found_count < 1 || (count >= 0 && found_count != count)) {
-      fail("the size of " + key);
-    }
-    Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> matrix(size, found_count);
-    for (auto column : matrix.colwise()) {
-      for (Scalar& entry : column) file_ >> entry;
-    }
-    check(key);
+    const auto found = value<Eigen::Index>(key);
+    require(found > 0 && (count < 0 || found == count) && value_is(size), "the size of " + key);
+    Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> matrix(size, found);
+    for (Scalar& entry : matrix.reshaped()) require(static_cast<bool>(file_ >> entry), key);
     return matrix;
   }
 
-  void expect_end() {
-    if (!(file_ >> std::ws).eof()) fail("the end");
+  void require(bool holds, const std::string& wanted) const {
+    if (!holds) throw std::runtime_error(path_ + ": expected " + wanted);
   }
+  bool is_at_end() { return (file_ >> std::ws).eof(); }
 
  private:
-  void expect_key(const std::string& key) {
-    std::string found;
-    if (!(file_ >> found) || found != key) fail(key);
-  }
-  void check(const std::string& wanted) const {
-    if (!file_) fail(wanted);
-  }
-  [[noreturn]] void fail(const std::string& wanted) const {
-    throw std::runtime_error(path_ + ": this is not " + wanted + ", which was expected here");
+  bool value_is(Eigen::Index expected) {
+    Eigen::Index found = 0;
+    return file_ >> found && found == expected;
   }
 
   std::string path_;
   std::ifstream file_;
 };
-
-template <int Dim>
-typename ReferenceOptimum<Dim>::Variant read_variant(Reader& reader, const std::string& variant,
-                                                     Index vertices, Index control_points) {
-  typename ReferenceOptimum<Dim>::Variant result;
-  result.objective = reader.value<double>(variant + "_objective");
-  result.gap = reader.value<double>(variant + "_gap");
-  result.weights = reader.columns<double>(variant + "_weights", vertices, control_points);
-  return result;
-}
 
 // After the name and the dimension.
 template <int Dim>
@@ -88,9 +64,15 @@ ReferenceOptimum<Dim> read_rest(Reader& reader, const std::string& name) {
   result.mesh.cells = reader.columns<Index>("cells", -1, Dim + 1);
   const Index vertices = result.mesh.num_vertices(), n = result.cage.size();
   result.phi = reader.columns<double>("phi", result.mesh.num_cells(), n);
-  result.unconstrained = read_variant<Dim>(reader, "unconstrained", vertices, n);
-  result.non_negative = read_variant<Dim>(reader, "non_negative", vertices, n);
-  reader.expect_end();
+  const auto read = [&](const std::string& variant) {
+    const auto objective = reader.value<double>(variant + "_objective");
+    const auto gap = reader.value<double>(variant + "_gap");
+    return typename ReferenceOptimum<Dim>::Variant{
+        objective, gap, reader.columns<double>(variant + "_weights", vertices, n)};
+  };
+  result.unconstrained = read("unconstrained");
+  result.non_negative = read("non_negative");
+  reader.require(reader.is_at_end(), "the end");
   return result;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc.html from its file, by real events: page_test.mjs BROWSER PAGE PROGRAM MESHES WORK
-// With files of models as further arguments it measures how long they take instead.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -9,7 +8,7 @@ import { setTimeout as sleep } from "node:timers/promises";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { largestDifference, launch, Page, vertices } from "../browser/page.mjs";
 
-const [executablePath, pagePath, program, meshes, work, ...measured] = process.argv.slice(2);
+const [executablePath, pagePath, program, meshes, work] = process.argv.slice(2);
 const browser = await launch(executablePath);
 const url = pathToFileURL(pagePath).href;
 const here = fileURLToPath(new URL(".", import.meta.url));
@@ -22,7 +21,6 @@ class App extends Page {
     await this.tab.waitForFunction(() => globalThis.flbcApp);
     const session = await this.tab.createCDPSession();
     await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: downloads });
-    await sleep(this.warmUp ?? 0);
   }
 
   shown() {
@@ -69,36 +67,6 @@ class App extends Page {
     const i = await this.grabbable();
     await this.drag(await this.ask("spot", i), dx, dy);
     return i;
-  }
-}
-
-// From opening the page to its start screen, in seconds: the least and the median of five times.
-async function startTimes() {
-  const times = [];
-  for (let k = 0; k < 5; ++k) {
-    const app = await new App().open(browser, url);
-    const paint = await app.tab.waitForFunction(() => performance.getEntriesByName("first-contentful-paint")[0]?.startTime);
-    times.push(await paint.jsonValue() / 1000);
-    await app.tab.close();
-  }
-  times.sort((a, b) => a - b);
-  return [times[0], times[2]];
-}
-
-async function measure() {
-  const [least, median] = await startTimes();
-  console.log(`start screen: ${least.toFixed(2)} s, median ${median.toFixed(2)} s`);
-  for (const file of measured) {
-    const app = new App();
-    app.warmUp = 3000;
-    await app.open(browser, url);
-    const begin = performance.now();
-    await app.drop([file]);
-    await app.shown();
-    console.log(`${basename(file)}: ${((performance.now() - begin) / 1000).toFixed(1)} s from dropping to dragging`);
-    const bytes = await app.tab.evaluate(() => globalThis.flbcApp.flbc.memory());
-    console.log(`  memory of the module: ${Math.round(bytes / 1e6)} MB`);
-    await app.tab.close();
   }
 }
 
@@ -659,19 +627,15 @@ async function testCompressed() {
   await app.close();
 }
 
-if (measured.length > 0) {
-  await measure();
-} else {
-  await testStart();
-  await testEarlyDrop(join(meshes, "3d/limb_model.obj"));
-  await testModel("Figure, in 2D", join(meshes, "2d/figure_model.obj"), 2);
-  await testModel("Limb", join(meshes, "3d/limb_model.obj"), 3);
-  await testElbow();
-  await testProtecting();
-  await testErrors();
-  await testShapes();
-  await testIcons();
-  await testGltf();
-  await testCompressed();
-}
+await testStart();
+await testEarlyDrop(join(meshes, "3d/limb_model.obj"));
+await testModel("Figure, in 2D", join(meshes, "2d/figure_model.obj"), 2);
+await testModel("Limb", join(meshes, "3d/limb_model.obj"), 3);
+await testElbow();
+await testProtecting();
+await testErrors();
+await testShapes();
+await testIcons();
+await testGltf();
+await testCompressed();
 await browser.close();
