@@ -111,7 +111,7 @@ if(TARGET flbc_python)
   math(EXPR next "${Python3_VERSION_MINOR} + 1")
   set(python ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR})
   set(depends "python3 (>= ${python})" "python3 (<< ${Python3_VERSION_MAJOR}.${next})" python3-numpy
-    ${needs_core} ${needs_meshers})
+    ${needs_core} ${needs_meshers} ${needs_openmesh})
   list(JOIN depends ", " depends)
   flbc_package(python python3-flbc "local barycentric coordinates of cages: Python module"
     "${depends}")

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The iteration on a mesh against that of the core on arrays, and its state in the properties of
-// the mesh.
+// The iteration on a mesh against the textbook one, iterate by iterate, and its state in the
+// properties of the mesh.
 #include "flbc/openmesh/gradient_admm.h"
 
 #include "flbc/openmesh/convert.h"
 #include "flbc/solver.h"
-#include "solver/methods/gradient/gradient_admm.h"
+#include "solver/methods/method_run.h"
 #include "support/hollow_sample.h"
+#include "support/published_problem.h"
 #include "support/scratch.h"
+#include "support/textbook_admm.h"
 #include "support/wide_meshes.h"
 
 namespace flbc::testing {
@@ -15,8 +17,8 @@ namespace {
 
 using openmesh::GradientAdmmOptions;
 using openmesh::TetMesh;
-template <class Mesh>
-using Admm = openmesh::GradientAdmm<Mesh>;
+template <class Mesh, class Scalar = double>
+using Admm = openmesh::GradientAdmm<Mesh, Scalar>;
 
 template <class Mesh>
 class MeshAdmm : public ::testing::Test {};
@@ -41,47 +43,120 @@ std::vector<Sample<Dim>> all_samples() {
           moved(make_hollow_sample<Dim>())};
 }
 
-// Lets some balls of the Z-step be active and some not. For sizes of about 3.
+// Lets some balls of the Z-step be active and some not.
 template <int Dim>
-constexpr double kPenalty = Dim == 2 ? 1e-3 : 1e-4;
+constexpr double kPenalty = Dim == 2 ? 100 : 10000;
 
-template <class Mesh>
-void expect_iterates_of_kernel(const Sample<Admm<Mesh>::kDim>& sample, double relaxation) {
-  constexpr int kDim = Admm<Mesh>::kDim;
-  auto mesh = openmesh::to_mesh<Mesh>(sample.mesh);
-  GradientAdmmOptions options;
-  options.penalty = kPenalty<kDim>;
-  options.relaxation = relaxation;
-  Admm<Mesh> admm(mesh, sample.cage, options);
-  const auto problem = make_problem(sample.cage, sample.mesh, options.phi, 0);
-  const double s = problem.scale;
-  gradient::GradientAdmm<double, kDim> kernel(problem, options.penalty * std::pow(s, kDim + 1),
-                                              relaxation, gradient::boundary_periods(problem));
-  kernel.start_from_weights(harmonic_coordinates(problem));
-  double active = 0;
-  for (int iteration = 1; iteration <= 40; ++iteration) {
-    const auto expected = kernel.residuals(kernel.iterate());
-    const auto residuals = admm.iterate();
-    double difference = 0, largest = 0;
-    for (const auto cell : openmesh::Elements<Mesh>::cells(mesh)) {
-      const auto gradient = kernel.gradients().cell(cell.idx());
-      largest = std::max(largest, gradient.cwiseAbs().maxCoeff());
-      difference = std::max(difference, (admm.gradient(cell) / s - gradient).cwiseAbs().maxCoeff());
-      active = std::max(active, admm.cell_dual(cell).cwiseAbs().maxCoeff());
-    }
-    ASSERT_LT(difference, 1e-10 * largest) << "iteration " << iteration;
-    EXPECT_NEAR(residuals.primal / s, expected.primal, 1e-6 * expected.primal + 1e-12);
-    EXPECT_NEAR(residuals.dual * std::pow(s, kDim), expected.dual, 1e-6 * expected.dual);
+template <int Dim>
+TextbookAdmm<Dim> textbook_for(const LbcProblem<Dim>& problem,
+                               const CellFieldView<double, Dim>& gradients) {
+  TextbookInput<Dim> input;
+  input.control_points = problem.cage.points;
+  input.mesh = problem.mesh;
+  input.phi = problem.phi.dense();
+  input.boundary_weights = demanded_boundary_weights(problem.cage, problem.mesh);
+  input.penalty = kPenalty<Dim>;
+  input.smoothness = problem.smoothness;
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    input.initial_gradients.push_back(gradients.cell(s));
   }
-  EXPECT_GT(active, 0);
+  return TextbookAdmm<Dim>(std::move(input));
 }
 
-TYPED_TEST(MeshAdmm, HasTheIteratesOfTheArrayKernel) {
-  for (const auto& sample : all_samples<Admm<TypeParam>::kDim>()) {
-    SCOPED_TRACE(sample.name);
-    expect_iterates_of_kernel<TypeParam>(sample, 1);
-    expect_iterates_of_kernel<TypeParam>(sample, 1.7);
+// The largest difference from gradients of cells, relative to the largest of these.
+template <class Scalar, int Dim, class GradientOf>
+double relative_difference(Index num_cells, const CellFieldView<Scalar, Dim>& gradients,
+                           const GradientOf& gradient_of) {
+  double largest = 0, difference = 0;
+  for (Index s = 0; s < num_cells; ++s) {
+    const PointList<Dim> expected = gradient_of(s);
+    largest = std::max(largest, expected.cwiseAbs().maxCoeff());
+    difference = std::max(difference, (gradients.cell(s) - expected).cwiseAbs().maxCoeff());
   }
+  return difference / largest;
+}
+
+template <class Mesh, int Dim>
+void expect_iterates_of_textbook(const LbcProblem<Dim>& problem, bool as_published) {
+  auto mesh = openmesh::to_mesh<Mesh>(problem.mesh);
+  GradientAdmmOptions options;
+  options.penalty = kPenalty<Dim>;
+  options.as_published = as_published;
+  Admm<Mesh> admm(mesh, problem, options);
+  auto textbook = textbook_for(problem, admm.gradients());
+  const auto of_textbook = [&](Index s) { return textbook.gradient(s); };
+  for (int iteration = 1; iteration <= 50; ++iteration) {
+    textbook.iterate();
+    const auto [primal, dual] = admm.iterate();
+    ASSERT_LT(relative_difference(problem.mesh.num_cells(), admm.gradients(), of_textbook), 1e-10)
+        << "iteration " << iteration;
+    EXPECT_NEAR(primal, textbook.primal_residual_norm(),
+                1e-6 * textbook.primal_residual_norm() + 1e-12);
+    EXPECT_NEAR(dual, textbook.dual_residual_norm(),
+                1e-6 * textbook.dual_residual_norm() + 1e-12 * kPenalty<Dim>);
+  }
+  EXPECT_EQ(admm.num_components(), static_cast<double>(textbook.num_residual_components()));
+}
+
+template <int Dim>
+auto periods_of(const LbcProblem<Dim>& problem) {
+  return openmesh::make_gradient_problem<double, Dim>(
+             std::make_shared<const LbcProblem<Dim>>(problem), problem.topology)
+      .periods;
+}
+
+TYPED_TEST(MeshAdmm, EqualsTheTextbookIterateByIterate) {
+  constexpr int kDim = Admm<TypeParam>::kDim;
+  int compared = 0;
+  for (const auto& sample : samples<kDim>()) {
+    SCOPED_TRACE(sample.name);
+    auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+    if (!periods_of(problem).empty()) continue;  // the textbook has none
+    ++compared;
+    for (const double smoothness : {0.0, 0.02}) {
+      problem.smoothness = smoothness;
+      expect_iterates_of_textbook<TypeParam>(problem, false);
+      expect_iterates_of_textbook<TypeParam>(problem, true);
+    }
+  }
+  EXPECT_GE(compared, 2);
+}
+
+TYPED_TEST(MeshAdmm, SinglePrecisionFollowsDouble) {
+  constexpr int kDim = Admm<TypeParam>::kDim;
+  const auto sample = make_sample<kDim>(Shape::kRing, 2, 0.2);
+  const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kSquare);
+  auto mesh = openmesh::to_mesh<TypeParam>(problem.mesh);
+  GradientAdmmOptions options;
+  options.as_published = true;
+  Admm<TypeParam, float> single(mesh, problem, options);
+  Admm<TypeParam> exact(mesh, problem, options);
+  single.iterate(100);
+  exact.iterate(100);
+  const auto expected = exact.gradients();
+  EXPECT_LT(relative_difference(problem.mesh.num_cells(), single.gradients(),
+                                [&](Index s) { return expected.cell(s); }),
+            1e-4);
+}
+
+TYPED_TEST(MeshAdmm, PeriodsHoldForEveryFunctionWithTheRightBoundaryValues) {
+  constexpr int kDim = Admm<TypeParam>::kDim;
+  const auto sample = make_hollow_sample<kDim>();
+  const auto problem = published_problem(sample.cage, sample.mesh, DistanceScheme::kConstant);
+  auto weights = demanded_boundary_weights(sample.cage, sample.mesh);
+  for (Index v = 0; v < problem.mesh.num_vertices(); ++v) {
+    if (problem.boundary.is_interior(v)) weights.col(v).setRandom();
+  }
+  const auto periods = periods_of(problem);
+  ASSERT_EQ(periods.size(), 1U);
+  EXPECT_NEAR(periods[0].field.norm(), 1, 1e-12);
+  Eigen::VectorXd violation = -periods[0].values.transpose();
+  for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
+    const Eigen::MatrixXd gradients = linear_gradients<kDim>(
+        cell_corners(problem.mesh, s), columns_of(weights, problem.mesh.cells.col(s)));
+    violation += gradients.transpose() * periods[0].field.col(s);
+  }
+  EXPECT_LT(violation.cwiseAbs().maxCoeff(), 1e-12);
 }
 
 // In units of the paper, the thresholds of its section 5 need no conversion, and other units give
@@ -115,56 +190,62 @@ TYPED_TEST(MeshAdmm, ConvergesByTheCriterionOfThePaper) {
   EXPECT_NEAR(iterations[1], iterations[0], 1);
 }
 
-TYPED_TEST(MeshAdmm, ResidualsDoNotDependOnThreads) {
+// Residuals and gradients of an over-relaxed run in single precision.
+TYPED_TEST(MeshAdmm, ThreadsDoNotChangeABit) {
   constexpr int kDim = Admm<TypeParam>::kDim;
-  const auto sample = moved(make_sample<kDim>(Shape::kRing, kDim == 2 ? 8 : 3, 0.2));
-  std::vector<double> alone;
-  for (const int threads : {1, 2, 3, 4}) {
-    SCOPED_TRACE(threads);
-    const ThreadScope scope(threads);
-    auto mesh = openmesh::to_mesh<TypeParam>(sample.mesh);
-    Admm<TypeParam> admm(mesh, sample.cage);
-    ASSERT_GE(sample.mesh.num_cells(), kFewestInParallel);
-    for (std::size_t k = 0; k < 20; ++k) {
-      const auto [primal, dual] = admm.iterate();
-      if (threads == 1) alone.insert(alone.end(), {primal, dual});
-      EXPECT_EQ(primal, alone[2 * k]);
-      EXPECT_EQ(dual, alone[2 * k + 1]);
-    }
+  const auto ring = moved(make_sample<kDim>(Shape::kRing, kDim == 2 ? 8 : 3, 0.2));
+  ASSERT_GE(ring.mesh.num_cells(), kFewestInParallel);
+  for (const auto& sample : {ring, moved(make_hollow_sample<kDim>())}) {
+    expect_same_for_any_threads([&] {
+      auto mesh = openmesh::to_mesh<TypeParam>(sample.mesh);
+      GradientAdmmOptions options;
+      options.relaxation = 1.8;
+      Admm<TypeParam, float> admm(mesh, sample.cage, options);
+      std::vector<double> numbers;
+      for (int k = 0; k < 20; ++k) {
+        const auto [primal, dual] = admm.iterate();
+        numbers.insert(numbers.end(), {primal, dual});
+      }
+      for (const auto cell : openmesh::Elements<TypeParam>::cells(mesh)) {
+        for (const float number : admm.gradient(cell).reshaped()) numbers.push_back(number);
+      }
+      return numbers;
+    });
   }
 }
 
-TYPED_TEST(MeshAdmm, ReachesTheSolutionWithThePenaltyOfTheSolver) {
+// At the optimum gradients are those of weights with the right boundary values, which periods make
+// so where the boundary has several components. A dual is phi A long where the gradient is not 0,
+// and points against it.
+TYPED_TEST(MeshAdmm, EndsAtGradientsOfWeightsWithTheirDuals) {
   constexpr int kDim = Admm<TypeParam>::kDim;
-  const auto sample = moved(make_sample<kDim>(Shape::kRing, 2));
-  SolverOptions options{Method::kGradient};
-  options.smoothness = 0;
-  options.precision = Precision::kDouble;
-  options.tolerance = 1e-12;  // the error is larger, because the optimum is flat
-  options.max_iterations = 100000;
-  options.non_negative = NonNegative::kOff;
-  const auto expected = solve(sample.cage, sample.mesh, options);
-  auto mesh = openmesh::to_mesh<TypeParam>(sample.mesh);
-  GradientAdmmOptions relaxed;
-  relaxed.relaxation = 1.8;
-  Admm<TypeParam> admm(mesh, sample.cage, relaxed);
-  EXPECT_NEAR(admm.penalty() / std::pow(bounding_box_diagonal(sample.cage.points), kDim + 1),
-              expected.report.penalty, 1e-9 * expected.report.penalty);
-  admm.iterate(6000);
-  admm.recover_weights();
-  EXPECT_LT(
-      mean_squared_difference(sample.mesh, openmesh::get_weights(mesh), expected.weights.dense()),
-      1e-8);
-  EXPECT_EQ(openmesh::get_rest_cage(mesh), sample.cage.points);
-  // At the optimum a dual is phi A long where the gradient is not 0, and points against it.
-  const auto phi = make_problem(sample.cage, sample.mesh, relaxed.phi, 0).phi.dense();
-  for (const auto cell : openmesh::Elements<TypeParam>::cells(mesh)) {
-    for (Index i = 0; i < sample.cage.size(); ++i) {
-      const Vector<kDim> dual = admm.cell_dual(cell).col(i), gradient = admm.gradient(cell).col(i);
-      const double radius = phi(i, cell.idx()) * signed_measure(sample.mesh, cell.idx());
-      EXPECT_LE(dual.norm(), radius * (1 + 1e-9));
-      if (gradient.norm() < 0.05) continue;
-      EXPECT_NEAR(dual.dot(gradient), -radius * gradient.norm(), 0.01 * radius * gradient.norm());
+  GradientAdmmOptions options;
+  options.relaxation = 1.8;
+  for (const auto& sample :
+       {moved(make_sample<kDim>(Shape::kRing, 2)), moved(make_hollow_sample<kDim>())}) {
+    SCOPED_TRACE(sample.name);
+    auto mesh = openmesh::to_mesh<TypeParam>(sample.mesh);
+    Admm<TypeParam> admm(mesh, sample.cage, options);
+    admm.iterate(6000);
+    admm.recover_weights();
+    EXPECT_EQ(openmesh::get_rest_cage(mesh), sample.cage.points);
+    const auto weights = openmesh::get_weights(mesh);
+    const auto gradient_of_weights = [&](Index s) {
+      return linear_gradients<kDim>(cell_corners(sample.mesh, s),
+                                    columns_of(weights, sample.mesh.cells.col(s)));
+    };
+    EXPECT_LT(relative_difference(sample.mesh.num_cells(), admm.gradients(), gradient_of_weights),
+              1e-3);
+    const auto phi = make_problem(sample.cage, sample.mesh, options.phi, 0).phi.dense();
+    for (const auto cell : openmesh::Elements<TypeParam>::cells(mesh)) {
+      for (Index i = 0; i < sample.cage.size(); ++i) {
+        const Vector<kDim> dual = admm.cell_dual(cell).col(i);
+        const Vector<kDim> gradient = admm.gradient(cell).col(i);
+        const double radius = phi(i, cell.idx()) * signed_measure(sample.mesh, cell.idx());
+        EXPECT_LE(dual.norm(), radius * (1 + 1e-9));
+        if (gradient.norm() < 0.05) continue;
+        EXPECT_NEAR(dual.dot(gradient), -radius * gradient.norm(), 0.01 * radius * gradient.norm());
+      }
     }
   }
 }
@@ -341,6 +422,20 @@ TEST(MeshAdmmOnTriangles, RefusesImpossibleOptions) {
     options.penalty = penalty;
     options.relaxation = relaxation;
     EXPECT_THROW(Admm<DoubleTri>(mesh, sample.cage, options), OptionError);
+  }
+}
+
+// As in a program that does not link flbc::openmesh.
+TEST_IN_2D_AND_3D(GradientMethods, AreRefusedWithoutTheComponent) {
+  const auto sample = make_sample<Dim>(Shape::kBox, 2);
+  for (const auto method : {Method::kGradient, Method::kPaper}) {
+    SolverOptions options{method};
+    options.max_iterations = 1;
+    const auto make = std::exchange(gradient_iteration<Dim>(), nullptr);
+    expect_error<OptionError>([&] { solve(sample.cage, sample.mesh, options); },
+                              {"flbc::openmesh"});
+    gradient_iteration<Dim>() = make;
+    EXPECT_EQ(solve(sample.cage, sample.mesh, options).report.iterations, 1);
   }
 }
 

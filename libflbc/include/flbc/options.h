@@ -17,8 +17,9 @@ namespace flbc {
 enum class Method {
   kWeights,          //!< ADMM on the weights, in the metric of the continuous problem; fastest
   kAuto = kWeights,  //!< the recommended method
-  kGradient,  //!< gradient ADMM of the paper, started from harmonic coordinates, over-relaxed
-  kPaper,     //!< FLBC 2019: gradient ADMM with the parameters of the paper
+  kGradient,  //!< gradient ADMM of the paper, started from harmonic coordinates, over-relaxed;
+              //!< iterates on a mesh of OpenMesh, in programs that link flbc::openmesh
+  kPaper,     //!< FLBC 2019: the same with the parameters of the paper
               //!< (docs/explanation/method/differences_from_papers.md)
   kLbc2014    //!< LBC 2014: the original solver (Zhang et al. 2014; section 3 of the paper)
 };
@@ -141,5 +142,15 @@ void validate(const SolverOptions& options);
 //! stay automatic: the penalty.
 //! \param options  valid
 SolverOptions resolve(SolverOptions options);
+
+// CMake defines it for targets that link flbc::openmesh. Their solves have kGradient and kPaper.
+#ifdef FLBC_LINKS_OPENMESH
+namespace openmesh {
+bool enable_gradient_methods() noexcept;
+}
+namespace internal {
+inline const bool kHasGradientMethods = openmesh::enable_gradient_methods();
+}
+#endif
 
 }  // namespace flbc

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
+#include "base/instantiate.h"
 #include "base/stopwatch.h"
+#include "flbc/errors.h"
 #include "mesh/cell_geometry.h"
 #include "solver/methods/active_set/active_splitting.h"
-#include "solver/methods/gradient/gradient_iteration.h"
 #include "solver/methods/splitting/compact_splitting.h"
 #include "solver/plan/choices.h"
 #include "solver/plan/constants.h"
@@ -89,27 +91,21 @@ std::unique_ptr<Iteration<Dim>> make_lbc2014(const LbcProblem<Dim>& problem,
 }
 
 template <int Dim>
-double gradient_penalty(const LbcProblem<Dim>& problem, const plan::Settings& settings) {
-  if (settings.penalty) return *settings.penalty;
-  if (settings.method == Method::kPaper) {
-    return plan::published_gradient_penalty(Dim) / published_unit(problem, settings.method);
-  }
-  const double length = std::pow(typical_measure(problem), 1.0 / Dim);
-  return plan::gradient_penalty(Dim) * std::pow(length, Dim - 1);
-}
-
-template <int Dim>
 std::unique_ptr<Iteration<Dim>> make_gradient(const LbcProblem<Dim>& problem,
                                               const plan::Settings& settings) {
-  gradient::Parameters parameters;
-  parameters.penalty = gradient_penalty(problem, settings);
-  parameters.relaxation = settings.relaxation;
-  parameters.as_published = settings.method == Method::kPaper;
-  parameters.linear_solver = plan::linear_solver(plan::sizes_of(problem), settings.method);
-  return make_in<gradient::GradientIteration>(settings.precision, problem, parameters);
+  if (const auto make = gradient_iteration<Dim>()) return make(problem, settings);
+  throw OptionError(
+      std::string("method ") + (settings.method == Method::kPaper ? "paper" : "gradient") +
+      " iterates on a mesh of OpenMesh: link flbc::openmesh, or choose method weights");
 }
 
 }  // namespace
+
+template <int Dim>
+MakeIteration<Dim>& gradient_iteration() {
+  static MakeIteration<Dim> make = nullptr;
+  return make;
+}
 
 template <int Dim>
 StopRule MethodRun<Dim>::make_stop_rule(const plan::Settings& settings) const {
@@ -208,6 +204,7 @@ Duals<Dim> MethodRun<Dim>::duals(double least_weight) const {
   return keep(*problem_, state);
 }
 
+FLBC_INSTANTIATE_FUNCTION(gradient_iteration)
 template class MethodRun<2>;
 template class MethodRun<3>;
 

@@ -21,6 +21,16 @@ struct WarmStart {
   std::function<void()> started{};      //!< called when it is not needed anymore
 };
 
+//! Makes the iteration of a method for a problem, to which it keeps a reference.
+template <int Dim>
+using MakeIteration = std::unique_ptr<Iteration<Dim>> (*)(const LbcProblem<Dim>& problem,
+                                                          const plan::Settings& settings);
+
+//! That of kGradient and kPaper, which iterate on meshes of OpenMesh: the component flbc::openmesh
+//! sets it. Null in programs without the component.
+template <int Dim>
+MakeIteration<Dim>& gradient_iteration();
+
 //! Owns the iteration of a method and the state of its run. Keeps a reference to the problem.
 template <int Dim>
 class MethodRun {

@@ -19,12 +19,6 @@ bool inherits(Method method) {
   return method == Method::kWeights;
 }
 
-LinearSolver linear_solver(const Sizes& sizes, Method method) {
-  if (method == Method::kLbc2014) return LinearSolver::kDirect;  // as published
-  return sizes.vertices > most_factored(sizes.dim) ? LinearSolver::kMultigrid
-                                                   : LinearSolver::kDirect;
-}
-
 bool active_set(const Sizes& sizes, const Settings& settings) {
   if (settings.method != Method::kWeights || sizes.control_points > kMostActiveControlPoints)
     return false;

@@ -5,6 +5,7 @@
 
 #include "flbc/lbc_problem.h"
 #include "linear/linear_solver.h"
+#include "solver/plan/constants.h"
 #include "solver/plan/settings.h"
 
 namespace flbc::plan {
@@ -29,7 +30,11 @@ bool smooths(Method method);
 bool inherits(Method method);
 
 //! The linear solver: a factor of a large mesh takes more time and memory than the iteration.
-LinearSolver linear_solver(const Sizes& sizes, Method method);
+inline LinearSolver linear_solver(const Sizes& sizes, Method method) {
+  if (method == Method::kLbc2014) return LinearSolver::kDirect;  // as published
+  return sizes.vertices > most_factored(sizes.dim) ? LinearSolver::kMultigrid
+                                                   : LinearSolver::kDirect;
+}
 
 //! Indices of control points in an active set are stored in 16 bits.
 constexpr Index kMostActiveControlPoints = 65000;

@@ -65,14 +65,15 @@ InfluenceBlock to_influences(const SparseWeights& weights, std::size_t most);
 //! Finds or adds a wide property with a shape. \return the property, and whether it existed with
 //! this shape; otherwise its values are 0
 template <class Handle, class Mesh>
-std::pair<OpenMesh::PropertyT<Wide<double>>*, bool> attach_rows(Mesh& mesh, const std::string& name,
-                                                                std::size_t components,
-                                                                std::size_t width,
-                                                                bool persistent) {
+std::pair<OpenMesh::PropertyT<typename Handle::Value>*, bool> attach_rows(Mesh& mesh,
+                                                                          const std::string& name,
+                                                                          std::size_t components,
+                                                                          std::size_t width,
+                                                                          bool persistent) {
   Handle handle;
   bool is_there = mesh.get_property_handle(handle, name);
   if (!is_there) mesh.add_property(handle, name);
-  OpenMesh::PropertyT<Wide<double>>* property;
+  OpenMesh::PropertyT<typename Handle::Value>* property;
   if constexpr (std::is_same_v<typename Handle::Handle, OpenMesh::MeshHandle>) {
     property = &mesh.mproperty(handle);
   } else {
