@@ -33,7 +33,8 @@ if(TARGET flbc_app)
   if(FLBC_HELP2MAN AND NOT CMAKE_CROSSCOMPILING)
     set(manual ${CMAKE_CURRENT_BINARY_DIR}/flbc.1)
     install(CODE "execute_process(
-      COMMAND ${FLBC_HELP2MAN} --no-info --output=${manual} $<TARGET_FILE:flbc_app>
+      COMMAND ${FLBC_HELP2MAN} --no-info \"--name=${PROJECT_DESCRIPTION}\" --output=${manual}
+        $<TARGET_FILE:flbc_app>
       COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
     install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
   endif()

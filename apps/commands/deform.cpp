@@ -138,8 +138,8 @@ std::vector<std::string> name_outputs(const std::vector<Pose<Dim>>& poses,
   return names;
 }
 
-// The layout of files that are moved in batches: points, and clouds and models of the same kind
-// that gain nothing from being in memory.
+// The layout of files that are moved in batches: points, and clouds of the same kind that gain
+// nothing from being in memory.
 std::optional<io::PointLayout> find_layout(const DeformArguments& arguments) {
   const auto& [model, output, shows_displacement, is_anew] = arguments.file;
   if (!evaluates(arguments) || arguments.is_relative || needs_jacobians(arguments) ||
@@ -357,8 +357,9 @@ void add_deform_command(CLI::App& app, int&) {
       "Another format receives the polygons, colors, normals, and texture coordinates that it\n"
       "supports. The program reports those that are lost.\n"
       "The results of a sequence have the numbers of --pose pose_%d.obj, or count from 0.\n"
-      "Points (.npy) and binary .ply files without normals may be of any size, with --domain.\n"
-      "They are moved in batches, and everything in the file except coordinates stays the same.\n"
+      "Points (.npy) and binary .ply files without faces and normals may be of any size, with a\n"
+      "binding or --domain. They are moved in batches, and everything in the file except coordinates\n"
+      "stays the same.\n"
       "\n"
       "Examples:\n"
       "  flbc deform model.obj --weights binding.npz --pose pose.obj -o moved.obj\n"

@@ -8,11 +8,11 @@
 
 #include "files/load.h"
 #include "flbc/bounding_box.h"
-#include "flbc/cage_facts.h"
 #include "flbc/io/cut_polygon.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/splat_file.h"
+#include "flbc/placement.h"
 #include "instantiate.h"
 
 namespace flbc::app {
@@ -97,7 +97,12 @@ PointList<3> voxel_corners(const PointList<3>& points) {
 // there are only points
 Index drop_unused(io::PolygonSoup& soup) {
   if (soup.polygons.empty() && soup.polylines.empty()) return 0;
-  const auto is_used = used_vertices(soup);
+  std::vector<bool> is_used(soup.points.size(), false);
+  for (const auto* lists : {&soup.polygons, &soup.polylines}) {
+    for (const auto& list : *lists) {
+      for (const Index v : list) is_used[v] = true;
+    }
+  }
   std::vector<Index> number(soup.points.size(), -1);
   std::size_t used = 0;
   for (std::size_t v = 0; v < number.size(); ++v) {
@@ -116,23 +121,11 @@ Index drop_unused(io::PolygonSoup& soup) {
 
 }  // namespace
 
-std::vector<bool> used_vertices(const io::PolygonSoup& soup) {
-  std::vector<bool> is_used(soup.points.size(), false);
-  for (const auto* lists : {&soup.polygons, &soup.polylines}) {
-    for (const auto& list : *lists) {
-      for (const Index v : list) is_used[v] = true;
-    }
-  }
-  return is_used;
-}
-
 template <int Dim>
 bool only_loose_are_outside(const Cage<Dim>& cage, const PointList<Dim>& points,
                             const io::PolygonSoup& soup) {
-  if (soup.polygons.empty()) return false;
-  const auto is_used = used_vertices(soup);
-  const auto outside = points_outside(cage, points);
-  return std::none_of(outside.begin(), outside.end(), [&](Index p) { return is_used[p]; });
+  const auto edges = edges_of_polygons(points, soup.polygons, soup.polylines);
+  return !soup.polygons.empty() && usual_policy(cage, points, edges) == OutsidePoints::kNearest;
 }
 
 AnyModelFacets load_model_facets(const std::string& path) {

@@ -50,9 +50,6 @@ struct Mask {
 //! \param path  for messages \throws InputError if none of the pixels is to be seen, or all are
 ModelFacets<2> outline_of(const Mask& mask, const std::string& path);
 
-//! By vertex: whether a polygon or polyline has it.
-std::vector<bool> used_vertices(const io::PolygonSoup& soup);
-
 //! Whether all vertices of a model with faces that are outside the cage belong to none of them, so
 //! that nobody sees them.
 template <int Dim>

@@ -209,7 +209,12 @@ void CageSolver<Dim>::find_model(MadeDomain<Dim> made, bool quiet) {
 
 template <int Dim>
 void CageSolver<Dim>::load_masks(bool quiet) {
-  if (settings_.locality.empty()) return;
+  if (settings_.locality.empty()) {
+    if (const auto note = rig_->note(); !note.empty() && !quiet) {
+      std::cerr << "flbc: " << settings_.model << ": " << note << '\n';
+    }
+    return;
+  }
   auto options = rig_->options();
   const auto& points = settings_.model.empty() ? domain().points : model_;
   locality_ =
@@ -217,7 +222,7 @@ void CageSolver<Dim>::load_masks(bool quiet) {
   options.masks = locality_.masks;
   options.solver.reach = locality_.reach;
   naming(settings_.locality, [&] { rig_->set_options(options); });
-  for (const auto& note : {locality_.note(), rig_->masks().note()}) {
+  for (const auto& note : {locality_.note(), rig_->note()}) {
     if (!note.empty() && !quiet) {
       std::cerr << "flbc: " << settings_.locality << ": " << note << '\n';
     }

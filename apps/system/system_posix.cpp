@@ -2,7 +2,6 @@
 #include "system/system.h"
 
 #include <fcntl.h>
-#include <malloc.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -10,6 +9,10 @@
 #include <csignal>
 #include <cstring>
 #include <utility>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "flbc/errors.h"
 #include "system/held_signals.h"

@@ -112,15 +112,18 @@ std::vector<Index> crease_groups(const gltf::Surface& surface) {
 }
 
 // \param numbers  of pictures, by their files \param pictures  gets their addresses
-Json look_of(const io::Material& material, std::map<std::string, Index>& numbers, Json& pictures) {
+Json look_of(const io::Material& material, bool has_coordinates,
+             std::map<std::string, Index>& numbers, Json& pictures) {
   std::vector<std::string> left_out;
-  const auto [number, is_new] = numbers.emplace(material.texture, -1);
-  const auto bytes = is_new ? io::load_picture(material, left_out) : std::string();
+  const auto [number, is_new] = numbers.emplace(has_coordinates ? material.texture : "", -1);
+  const auto bytes =
+      is_new && has_coordinates ? io::load_picture(material, left_out) : std::string();
   if (!bytes.empty()) {
     number->second = static_cast<Index>(pictures.size());
     pictures.push_back("data:" + io::media_type_of(bytes) + ";base64," + draw::to_base64(bytes));
   }
-  const Eigen::Vector3d color = material.color.unaryExpr(&io::to_srgb);
+  const auto& linear = number->second >= 0 ? material.tint : material.color;
+  const Eigen::Vector3d color = linear.unaryExpr(&io::to_srgb);
   return {{"color", std::vector<double>(color.begin(), color.end())},
           {"opacity", material.opacity},
           {"cutoff", material.alpha_cutoff},
@@ -137,10 +140,11 @@ Json pack_surface(const gltf::Surface& surface, Eigen::Index num_points) {
   Json json{{"parts", Json::array()}, {"pictures", Json::array()}};
   std::map<std::string, Index> numbers;
   std::vector<Index> order;
+  const bool has_coordinates = surface.texture_coordinates.cols() > 0;
   for (const auto& [key, own] : parts) {
-    const auto look = key.second < 0
-                          ? Json::object()
-                          : look_of(surface.materials[key.second], numbers, json["pictures"]);
+    const auto look = key.second < 0 ? Json::object()
+                                     : look_of(surface.materials[key.second], has_coordinates,
+                                               numbers, json["pictures"]);
     json["parts"].push_back({{"first", 3 * order.size()}, {"count", 3 * own.size()}});
     json["parts"].back().update(look);
     order.insert(order.end(), own.begin(), own.end());

@@ -36,7 +36,7 @@ class DeformPoints : public CommandLineTest {
     std::string content =
         "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(points.cols()) +
         "\nproperty uchar label\nproperty float x\nproperty float y\nproperty float z\n"
-        "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+        "element camera 1\nproperty list uchar int numbers\nend_header\n";
     for (Index p = 0; p < points.cols(); ++p) {
       content += static_cast<char>(p % 7);
       for (int d = 0; d < 3; ++d) {

@@ -208,6 +208,50 @@ TEST_P(BoxInMesh, FiguresAreThoseOfTheFiles) {
   }
 }
 
+// A mesh is one in any format: its faces may turn over, and edges cross the border.
+TEST_P(BoxInMesh, BinaryMeshesAreReportedAsTextIs) {
+  write_box("pose.obj", moved({1}, {0.2, 4.5, 0}));
+  run_box("keep");
+  const auto points = points_of("mesh.obj");
+  const auto& polygons = io::ModelFile("mesh.obj").model().soup.polygons;
+  std::string content =
+      "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(points.size()) +
+      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+      std::to_string(polygons.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto add = [&](const auto& number) {
+    content.append(reinterpret_cast<const char*>(&number), sizeof number);
+  };
+  for (const auto& point : points) {
+    for (const double x : point) add(static_cast<float>(x));
+  }
+  for (const auto& polygon : polygons) {
+    add(static_cast<std::uint8_t>(polygon.size()));
+    for (const Index v : polygon) add(static_cast<std::int32_t>(v));
+  }
+  file("mesh.ply", content);
+  const std::string domain = is_flat() ? "out/domain.obj" : "out/domain.mesh";
+  std::vector<std::string> warnings;
+  for (const std::string extension : {"obj", "ply"}) {
+    const auto ended = expect("deform mesh." + extension + " --rest box.obj --domain " + domain +
+                              " --weights out/domain_weights.npy --outside keep --pose pose.obj "
+                              "-o moved." +
+                              extension);
+    std::string lines;
+    std::istringstream all(ended.errors);
+    for (std::string line; std::getline(all, line);) {
+      if (line.compare(0, 6, "flbc: ") == 0) lines += line + '\n';
+    }
+    for (auto k = lines.find("." + extension); k != std::string::npos;
+         k = lines.find("." + extension)) {
+      lines.erase(k, 4);
+    }
+    expect_piece(lines, "the deformation jumps there by up to");
+    EXPECT_EQ(lines.find("inverted") != std::string::npos, is_flat()) << lines;
+    warnings.push_back(lines);
+  }
+  EXPECT_EQ(warnings[0], warnings[1]);
+}
+
 TEST_P(BoxInMesh, WhatIsKeptStaysAndTheBorderIsNamed) {
   // Control points 0 and 2 are where the mesh passes through the box, and 1 is between them.
   const Vector<3> shift(0, 0.5, 0);

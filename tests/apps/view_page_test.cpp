@@ -124,17 +124,19 @@ TEST_IN_2D_AND_3D(ViewPage, ShowsMaterialsAndWhatIsTransparentLast) {
   auto content = cube_content<Dim>();
   io::Material glass, paint;
   glass.opacity = 0.25;
-  paint.color = {1, 0, 0};
+  paint.color = {0, 0, 0};  // the picture replaces it
   paint.alpha_cutoff = 0.5;
   paint.texture = "paint.png";
   paint.picture = std::string("\x89PNG\r\n\x1a\n", 8);
   content.surface.materials = {glass, paint};
+  content.surface.texture_coordinates =
+      PointList<2>::Zero(2, static_cast<Eigen::Index>(content.surface.sources.size()));
   content.surface.triangle_materials = {0, 1};
   const auto surface = content_of(make_page(content))["surface"];
   EXPECT_EQ(indices_from(surface["triangles"]), (std::vector<Index>{1, 2, 4, 0, 1, 2}));
   ASSERT_EQ(surface["parts"].size(), 2u);
   const auto &first = surface["parts"][0], &last = surface["parts"][1];
-  EXPECT_NEAR(first["color"][0], 1, 1e-12);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(first["color"][k], 1, 1e-12);
   EXPECT_EQ(first["cutoff"], 0.5);
   EXPECT_EQ(first["picture"], 0);
   EXPECT_EQ(last["opacity"], 0.25);

@@ -139,6 +139,30 @@ TEST_IN_2D_AND_3D(ModelMasksTest, MasksEndAtFacets) {
   EXPECT_LT((binding.deform(cage.points) - grid.points).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+// Vertices on a facet, as files store them, are on it from either side.
+TEST_IN_2D_AND_3D(ModelMasksTest, MasksEndAtFacetsWithinThePrecisionOfFiles) {
+  const auto [cage, mesh, name] = box_in_grid<Dim>();
+  const double rounding = 1e-7 * bounding_box_diagonal(cage.points);
+  PointList<Dim> points = PointList<Dim>::Constant(Dim, 6, 0.3);
+  points.row(Dim - 1) << -rounding, 0, rounding, -rounding, 0, rounding;
+  // The last three are also on an edge of a facet (3D), or at a control point (2D).
+  for (const Index p : {3, 4, 5}) points(0, p) = 0.25 + (p - 4) * 0.1 * rounding;
+  BindOptions options;
+  options.masks = {{{}, {0, 1, 2, 3, 4, 5}}};
+  for (Index i = 0; i < cage.size(); ++i) {
+    if (cage.points(Dim - 1, i) == 0) options.masks[0].control_points.push_back(i);
+  }
+  const auto binding = bind<Dim>(cage, mesh, points, {}, options);
+  expect_piece(binding.report.note, "6 of 6 masked vertices are on facets");
+  EXPECT_LT((binding.deform(cage.points) - points).cwiseAbs().maxCoeff(), 2 * rounding);
+  for (Index p = 0; p < 6; ++p) {
+    const Eigen::VectorXd weights = binding.weights.at(p);
+    Index movers = 0;
+    for (const Index i : options.masks[0].control_points) movers += weights[i] != 0 ? 1 : 0;
+    EXPECT_LE(movers, p < 3 ? Dim : Dim - 1) << p;
+  }
+}
+
 TEST_IN_2D_AND_3D(ModelMasksTest, ConflictsNameTheVertexOfTheModel) {
   const auto [cage, mesh, name] = box_in_grid<Dim>();
   const Grid<Dim> grid(0.07);

@@ -97,6 +97,19 @@ TEST_IN_2D_AND_3D(PlacementTest, AHairOutsideIsOnTheCageForEverybody) {
   }
 }
 
+TEST_IN_2D_AND_3D(PlacementTest, PointsOfNoEdgeFollow) {
+  const auto cage = make_sample<Dim>(Shape::kBox, 2).cage;
+  PointList<Dim> points = PointList<Dim>::Constant(Dim, 4, 0.5);
+  points(0, 0) = 0.25;
+  const EdgeList edges{{{0, 1}}, {}}, others{{{0, 1}, {1, 2}}, {}};
+  EXPECT_EQ(usual_policy(cage, points, edges), OutsidePoints::kFail);  // nothing is outside
+  points(0, 2) = points(1, 3) = 7;
+  EXPECT_EQ(usual_policy(cage, points, edges), OutsidePoints::kNearest);
+  EXPECT_EQ(usual_policy(cage, points, others), OutsidePoints::kFail);
+  EXPECT_EQ(usual_policy(cage, points, EdgeList{}), OutsidePoints::kFail);  // no faces at all
+  expect_error<InputError>([&] { usual_policy(cage, points, EdgeList{{{0, 4}}, {}}); }, {"4"});
+}
+
 TEST_IN_2D_AND_3D(PlacementTest, PointsInsideAreInterpolated) {
   PlacementTest<Dim> t;
   const auto points = t.off_the_facets(-0.01 * t.size);

@@ -282,7 +282,7 @@ TEST_F(GltfDocumentTest, FilesWithoutTheirBuffersAreNamed) {
 TEST_F(GltfDocumentTest, ExtensionsAreRefusedOrNoted) {
   auto file = tetrahedron();
   const std::vector<std::string> names{"EXT_mesh_gpu_instancing", "KHR_texture_transform",
-                                       "EXT_meshopt_compression", "VENDOR_unheard_of"};
+                                       "VENDOR_unheard_of"};
   for (const auto& name : names) {
     file.json["extensionsUsed"] = {name};
     file.json.erase("extensionsRequired");
@@ -292,6 +292,10 @@ TEST_F(GltfDocumentTest, ExtensionsAreRefusedOrNoted) {
     file.json["extensionsRequired"] = {name};
     refuse(file, name);
   }
+  file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"EXT_meshopt_compression"};
+  refuse(file, "EXT_meshopt_compression, which is not supported; export the model uncompressed");
+  file.json.erase("extensionsRequired");
+  EXPECT_TRUE(read(file).model().notes.empty());
   file.json["extensionsUsed"] = file.json["extensionsRequired"] = {
       "KHR_mesh_quantization", "KHR_materials_unlit", "EXT_texture_webp", "EXT_texture_avif",
       "KHR_texture_basisu"};
@@ -544,6 +548,35 @@ TEST_F(GltfDocumentTest, CompressedCopiesOfWhatMovesGo) {
   EXPECT_EQ(after.json.dump().find(name), std::string::npos);
   EXPECT_FALSE(after.json.contains("extensionsUsed"));
   EXPECT_EQ(after.binary.find("compressed"), std::string::npos);
+}
+
+// Their fallback is in another buffer, as gltfpack -cf writes it.
+TEST_F(GltfDocumentTest, CompressedCopiesOfBufferViewsGo) {
+  for (const std::string name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+    auto original = painted();
+    original.add_view("compressed");
+    auto& json = original.json;
+    const auto copy = json["bufferViews"].back();
+    json["bufferViews"].erase(json["bufferViews"].size() - 1);
+    json["extensionsUsed"].push_back(name);
+    for (auto& view : json["bufferViews"]) {
+      view["extensions"][name] = copy;
+      view["extensions"][name]["mode"] = "ATTRIBUTES";
+      view["buffer"] = 1;
+    }
+    make("fallback.bin", original.bytes);
+    json["buffers"].push_back({{"uri", "fallback.bin"},
+                               {"byteLength", original.bytes.size()},
+                               {"extensions", {{name, {{"fallback", true}}}}}});
+    const auto file = read(original);
+    const PointList<3> wanted = 2 * io::to_points<3>(file.model().soup, "");
+    const auto after = moved(file, wanted);
+    EXPECT_EQ(after.json.dump().find("meshopt"), std::string::npos);
+    EXPECT_EQ(after.binary.find("compressed"), std::string::npos);
+    EXPECT_EQ(after.json["buffers"].size(), 1U);
+    const auto again = io::to_points<3>(ModelFile(path("moved.glb")).model().soup, "");
+    EXPECT_LT((again - wanted).cwiseAbs().maxCoeff(), 1e-6);
+  }
 }
 
 // Equal numbers are often stored once.

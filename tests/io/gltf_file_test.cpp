@@ -159,7 +159,7 @@ TEST_F(GltfFileTest, TextWithDataIsRead) {
 
 TEST_F(GltfFileTest, ModelsAreWrittenWithTheirMaterials) {
   make("a.png", Square().picture);
-  make("a.mtl", "newmtl paint\nKd 0.5 0.25 1\nd 0.5\nmap_Kd a.png\nnewmtl other\nKd 0 0 1\n");
+  make("a.mtl", "newmtl paint\nKd 0 0 0\nd 0.5\nmap_Kd a.png\nnewmtl other\nKd 0 0 1\n");
   const auto obj =
       make("a.obj",
            "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0.5\nvt 0 0\nvt 1 0\nvt 1 1\n"
@@ -175,11 +175,70 @@ TEST_F(GltfFileTest, ModelsAreWrittenWithTheirMaterials) {
   EXPECT_EQ(b.materials[0].name, "paint");
   EXPECT_EQ(b.materials[0].opacity, 0.5);
   EXPECT_EQ(b.materials[0].picture, Square().picture);
+  EXPECT_EQ(b.materials[0].tint, Vector<3>(1, 1, 1));  // not black
   EXPECT_LT((b.materials[1].color - a.materials[1].color).norm(), 1e-7);
   EXPECT_EQ(b.polygon_materials, (std::vector<Index>{0, 0, 1}));
   EXPECT_EQ(b.attributes.texture_coordinates.col(b.attributes.corners[2][0].texture_coordinate),
             Vector<2>(0.5, 0.25));
   EXPECT_EQ(io::losses(a, path("b.glb")), a.others);
+}
+
+// By which pictures are multiplied, whichever file they are in.
+TEST_F(GltfFileTest, ColorsOfMaterialsTintTheirPictures) {
+  for (const bool is_apart : {false, true}) {
+    Square square;
+    make("a.png", square.picture);
+    if (is_apart) square.json["images"][0] = {{"uri", "a.png"}};
+    make("a.glb", square.glb());
+    auto model = ModelFile(path("a.glb")).model();
+    model.gltf.reset();  // to be written anew
+    write_model(path("b.glb"), model);
+    const auto again = ModelFile(path("b.glb")).model().materials.at(0);
+    EXPECT_EQ(again.picture, square.picture);
+    EXPECT_LT((again.tint - Vector<3>(0.5, 0.25, 1)).norm(), 1e-7);
+  }
+}
+
+// Each material names the coordinates of its picture.
+TEST_F(GltfFileTest, PicturesHaveTheirOwnCoordinates) {
+  Square square;
+  auto& attributes = square.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["TEXCOORD_1"] = 2;
+  attributes["TEXCOORD_0"] = 4;  // others
+  square.json["accessors"].push_back(square.json["accessors"][2]);
+  square.json["accessors"][4]["bufferView"] = 1;
+  auto& texture = square.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+  texture["texCoord"] = 1;
+  make("a.glb", square.glb());
+  const auto model = ModelFile(path("a.glb")).model();
+  for (std::size_t f = 0; f < 2; ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& corner = model.attributes.corners[f][k];
+      const Vector<2> wanted = square.texture.col(3 * f + k).cast<double>();
+      EXPECT_EQ(model.attributes.texture_coordinates.col(corner.texture_coordinate),
+                Vector<2>(wanted.x(), 1 - wanted.y()));
+    }
+  }
+  const auto& others = model.others;
+  EXPECT_EQ(std::count(others.begin(), others.end(), "TEXCOORD_0"), 1);
+  EXPECT_EQ(std::count(others.begin(), others.end(), "TEXCOORD_1"), 0);
+}
+
+TEST_F(GltfFileTest, PicturesOfOtherKindsAreNamed) {
+  for (const std::string name : {"KHR_texture_basisu", "EXT_texture_webp"}) {
+    for (const bool is_required : {false, true}) {
+      Square square;
+      square.json["extensionsUsed"] = {name};
+      if (is_required) square.json["extensionsRequired"] = {name};
+      square.json["textures"][0] = {{"extensions", {{name, {{"source", 0}}}}}};
+      make("a.glb", square.glb());
+      const auto model = ModelFile(path("a.glb")).model();
+      ASSERT_EQ(model.notes.size(), 1U);
+      EXPECT_NE(model.notes[0].find(name), std::string::npos);
+      const auto& others = model.others;
+      EXPECT_EQ(std::count(others.begin(), others.end(), "pictures of the extension " + name), 1);
+    }
+  }
 }
 
 TEST_F(GltfFileTest, DamageEndsInMessages) {

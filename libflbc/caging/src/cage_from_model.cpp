@@ -184,31 +184,32 @@ class Caging {
     model_.emplace(whole_.points, whole_.facets);
   }
 
-  ModelCage<Dim> make() {
+  // \return empty if no cage encloses the model
+  std::optional<ModelCage<Dim>> make() {
     const bool is_given = options_.control_points > 0;
-    const auto made = make_by_wrap();
+    auto made = make_by_wrap();
     if constexpr (Dim == 3) {
-      if (const auto convex = make_convex(made, is_given)) return *convex;
+      if (!made) return {};
+      if (auto convex = make_convex(*made, is_given)) return convex;
     }
     return made;
   }
 
  private:
-  ModelCage<Dim> make_by_wrap() {
+  std::optional<ModelCage<Dim>> make_by_wrap() {
     if (options_.control_points == 0) {
-      if (const auto made = make_by_shape()) return *made;
+      if (auto made = make_by_shape()) return made;
     }
     // Limits give way to a number of control points that cannot keep them.
     for (const auto& limits : {limits_, CageLimits{}}) {
-      if (const auto made = make_in_limits(limits)) return *made;
+      if (auto made = make_in_limits(limits)) return made;
     }
     const double offset = size_at(options_.control_points).offset;
     for (const auto& cage : simple_cages<Dim>(model_->box(), offset)) {
       if (is_sound(cage)) return describe(cage, offset);
       plane_ = {};
     }
-    throw InputError("no cage with at most " + std::to_string(options_.control_points) +
-                     " control points encloses the model; allow more control points");
+    return {};
   }
 
   void report(CagingStage stage, double done = 0) const {
@@ -437,23 +438,26 @@ void check_input(const PointList<Dim>& points, const FacetList<Dim>& facets,
   }
 }
 
-// A large 3D model is simplified first. If the cage of the simplified model does not enclose the
-// model itself, the model is used as it is.
+// A large 3D model is simplified first. If the simplified model has no cage, or one that does not
+// enclose the model itself, the model is used as it is.
 template <int Dim>
 ModelCage<Dim> make_checked(const PointList<Dim>& points, const FacetList<Dim>& facets,
                             const CagingOptions& options) {
   constexpr Eigen::Index kManyFacets = 200000;
   constexpr double kCellPerOffset = 0.25;
+  const Index number = options.control_points > 0 ? options.control_points : kUsualNumber<Dim>;
   if (Dim == 3 && facets.cols() > kManyFacets) {
     double offset = options.offset;
     if (offset == 0) {
-      const Index number = options.control_points > 0 ? options.control_points : kUsualNumber<Dim>;
       offset = wrap_size<Dim>(number).offset * bounding_box_diagonal<Dim>(points);
     }
     const auto made = Caging<Dim>(points, facets, options, kCellPerOffset * offset).make();
-    if (Enclosure<Dim>(points, facets).is_strictly_inside(made.cage)) return made;
+    if (made && Enclosure<Dim>(points, facets).is_strictly_inside(made->cage)) return *made;
   }
-  return Caging<Dim>(points, facets, options, 0).make();
+  const auto made = Caging<Dim>(points, facets, options, 0).make();
+  if (made) return *made;
+  throw InputError("no cage with at most " + std::to_string(number) +
+                   " control points encloses the model; allow more control points");
 }
 
 }  // namespace

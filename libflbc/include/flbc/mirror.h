@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "flbc/domain_mesh.h"
@@ -34,12 +35,13 @@ struct Mirror {
 //! A model in a cage that is symmetric across a plane (2D: line) x, y, or z = constant. With s(i)
 //! the mirror image of control point i and M the mirror, the weights (w_i(x) + w_s(i)(M x)) / 2 are
 //! non-negative, sum to 1, reproduce x, and do not increase the objective. They are bit-identical
-//! at M x for s(i).
+//! at M x for s(i). Files store few digits, so mirror images are so up to kBoundaryTolerance of the
+//! cage size. The weights of two points then reproduce the symmetric positions between them.
 template <int Dim>
 class MirroredModel {
  public:
   //! \param axis  normal to the plane, which is in the middle of the cage
-  //! \param points  Dim x P. Two of them are mirror images if they are so up to 1e-12 of cage size
+  //! \param points  Dim x P, finite
   //! \throws OptionError if there is no such axis; InputError naming the first control point or
   //! facet without a mirror image
   MirroredModel(const Cage<Dim>& cage, int axis, const PointList<Dim>& points);
@@ -56,8 +58,11 @@ class MirroredModel {
   //! The mirror image of each control point.
   const std::vector<Index>& images() const { return image_; }
 
-  //! Moves points that a placement put onto the cage to where symmetric weights put them: the mean
-  //! of the place and of the mirrored place of the image.
+  //! About the points without a mirror image, with their number; empty if there are none.
+  std::string note() const;
+
+  //! Moves placed points to where symmetric weights put them: the mean of the place and of the
+  //! mirrored place of the image.
   //! \param placement  of the P points \param at  returns where given points are put
   void symmetrize(Placement<Dim>& placement,
                   const std::function<PointList<Dim>(const PointList<Dim>& points)>& at) const;
@@ -70,8 +75,8 @@ class MirroredModel {
   //! The masks of points without a mirror image.
   PlacedMasks of_single_points(PlacedMasks masks) const;
 
-  //! Makes weights symmetric. \param at  returns weights at given points \param weights  of P
-  //! points
+  //! Makes weights symmetric, except where a point or its image has none.
+  //! \param weights  of P points \param at  returns weights at given points
   SparseWeights symmetrized(
       const SparseWeights& weights,
       const std::function<SparseWeights(const PointList<Dim>& points)>& at) const;
@@ -89,11 +94,19 @@ class MirroredModel {
   Eigen::VectorXd mirrored(const Eigen::VectorXd& weights) const { return weights(image_); }
   PointList<Dim> mirrored(const PointList<Dim>& points) const;
 
+  // What a function returns for the images of single points.
+  template <class Result>
+  Result at_images(const std::function<Result(const PointList<Dim>&)>& at) const {
+    return single_.empty() ? Result() : at(mirrored(points_)(Eigen::all, single_));
+  }
+
   int axis_;
   double place_;              // of the plane
+  std::string plane_;         // in words
   std::vector<Index> image_;  // of each control point
   PointList<Dim> points_;
-  std::vector<Index> partner_;  // of each point; -1: none
+  std::vector<Index> single_;   // points without an image
+  std::vector<Index> partner_;  // of each point; ~k: none, the k-th single point
 };
 
 }  // namespace flbc

@@ -72,6 +72,15 @@ template <int Dim>
 Placement<Dim> place_points(const Cage<Dim>& cage, const PointList<Dim>& points,
                             OutsidePoints policy = OutsidePoints::kFail);
 
+//! The policy where the caller wants none. Points without an edge belong to no face, so nobody sees
+//! them: they follow the nearest point of the cage.
+//! \param cage  has passed validate() \param points  Dim x P, finite \param edges  of the model
+//! \return OutsidePoints::kNearest if points are outside by more than kBoundaryTolerance and none of
+//! them has an edge, otherwise kFail, also for a model without edges
+template <int Dim>
+OutsidePoints usual_policy(const Cage<Dim>& cage, const PointList<Dim>& points,
+                           const EdgeList& edges);
+
 //! Finds the nearest points of a cage.
 //! \param cage  has passed validate()
 //! \param points  Dim x P, finite, in the units of the cage

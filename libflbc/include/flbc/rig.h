@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "flbc/binding.h"
@@ -81,6 +82,9 @@ class Rig {
 
   //! BindOptions::masks, at the points and in the mesh.
   const PlacedMasks& masks() const { return placed_.masks; }
+
+  //! What masks and mirror do not reach; empty if they reach all points.
+  std::string note() const;
 
   //! Weights of the points with all influences. They are kept until the solution or the model
   //! changes. Solves first if there is no solution.

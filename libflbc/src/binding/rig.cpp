@@ -415,8 +415,8 @@ Binding<Dim> Rig<Dim>::binding() {
   binding.domain_weights = solution().weights;
   binding.domain_masks = masks.of_mesh;
   auto& report = binding.report = report_;
-  if (const auto note = masks.note(); !note.empty()) {
-    report.note += (report.note.empty() ? "" : "; ") + note;
+  if (const auto more = note(); !more.empty()) {
+    report.note += (report.note.empty() ? "" : "; ") + more;
   }
   report.solve = solution().report;
   report.method =
@@ -425,6 +425,13 @@ Binding<Dim> Rig<Dim>::binding() {
   report.outside = static_cast<Index>(binding.outside.size());
   report.quality = measure_quality<Dim>(cage().points, placement.points, binding.weights);
   return binding;
+}
+
+template <int Dim>
+std::string Rig<Dim>::note() const {
+  auto text = placed_.masks.note();
+  const auto of_mirror = placed_.mirror ? placed_.mirror->note() : std::string();
+  return text + (text.empty() || of_mirror.empty() ? "" : "; ") + of_mirror;
 }
 
 template <int Dim>

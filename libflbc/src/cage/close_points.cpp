@@ -9,32 +9,28 @@
 
 namespace flbc {
 
-namespace {
-
-// No axis and no common diagonal: points of grids and boxes do not project onto each other, so the
-// sweep below does not compare all pairs.
 template <int Dim>
-Vector<Dim> sweep_direction() {
+Eigen::VectorXd sweep_heights(const PointList<Dim>& points) {
   Vector<Dim> direction;
   for (int axis = 0; axis < Dim; ++axis) direction(axis) = std::sqrt(2.0 + 3.1 * axis * axis);
-  return direction.normalized();
+  return points.transpose() * direction.normalized();
 }
 
-}  // namespace
+double sweep_reach(const Eigen::VectorXd& heights, double tolerance) {
+  return tolerance + (heights.size() > 0 ? 1e-15 * heights.lpNorm<Eigen::Infinity>() : 0.0);
+}
 
 template <int Dim>
 std::vector<std::array<Index, 2>> find_close_pairs(const PointList<Dim>& points, double tolerance,
                                                    std::size_t limit) {
-  const Eigen::VectorXd height = points.transpose() * sweep_direction<Dim>();
+  const auto height = sweep_heights<Dim>(points);
   std::vector<Index> order(static_cast<std::size_t>(points.cols()));
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](Index a, Index b) {
     return height(a) != height(b) ? height(a) < height(b) : a < b;
   });
 
-  // Rounding of the projections must not hide a pair.
-  const double reach =
-      tolerance + (points.cols() > 0 ? 1e-15 * height.template lpNorm<Eigen::Infinity>() : 0.0);
+  const double reach = sweep_reach(height, tolerance);
   std::vector<std::array<Index, 2>> pairs;
   for (std::size_t i = 0; i < order.size(); ++i) {
     for (std::size_t j = i; j-- > 0;) {
@@ -50,6 +46,7 @@ std::vector<std::array<Index, 2>> find_close_pairs(const PointList<Dim>& points,
   return pairs;
 }
 
+FLBC_INSTANTIATE_FUNCTION(sweep_heights)
 FLBC_INSTANTIATE_FUNCTION(find_close_pairs)
 
 }  // namespace flbc

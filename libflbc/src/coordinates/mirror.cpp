@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <initializer_list>
 #include <iterator>
-#include <map>
-#include <numeric>
-#include <set>
 #include <string>
 
+#include "base/first_equals.h"
 #include "base/messages.h"
 #include "base/take_points.h"
+#include "cage/close_points.h"
 #include "cage/facet_locator.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
@@ -18,52 +17,45 @@
 namespace flbc {
 namespace {
 
-// For points without a partner that have the same position as one with a partner: its partner.
-template <int Dim>
-void find_partners_of_duplicates(const PointList<Dim>& points, std::vector<Index>& partners) {
-  std::map<std::vector<double>, Index> partner_at;
-  const auto position = [&](Index p) {
-    return std::vector<double>(points.col(p).begin(), points.col(p).end());
-  };
-  for (Index p = 0; p < points.cols(); ++p) {
-    if (partners[p] >= 0) partner_at.emplace(position(p), partners[p]);
-  }
-  for (Index p = 0; p < points.cols(); ++p) {
-    if (partners[p] >= 0) continue;
-    const auto found = partner_at.find(position(p));
-    if (found != partner_at.end()) partners[p] = found->second;
-  }
-}
-
-// Numbers of points whose images are the given ones, up to a tolerance; -1 for none.
+// Numbers of the nearest points to given images, up to a tolerance; -1 for none. Two points are
+// partners of each other, except for surplus duplicates, which share partners.
 template <int Dim>
 std::vector<Index> find_partners(const PointList<Dim>& points, const PointList<Dim>& images,
                                  double tolerance) {
-  std::vector<Index> order(points.cols()), partners(points.cols(), -1);
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Index a, Index b) { return points(Dim - 1, a) < points(Dim - 1, b); });
-  std::vector<bool> taken(points.cols(), false);
+  const auto first = first_equals<Dim>(points);
+  std::vector<std::vector<Index>> same(first.size());
+  std::vector<Index> order, partners(first.size(), -1), copy(first.size());
   for (Index p = 0; p < points.cols(); ++p) {
-    if (partners[p] >= 0) continue;
-    const Vector<Dim> image = images.col(p);
-    if ((points.col(p) - image).norm() <= tolerance) {
-      partners[p] = p;
-      taken[p] = true;
-      continue;
-    }
-    auto k = std::lower_bound(order.begin(), order.end(), image[Dim - 1] - tolerance,
-                              [&](Index a, double height) { return points(Dim - 1, a) < height; });
-    for (; k != order.end() && points(Dim - 1, *k) <= image[Dim - 1] + tolerance; ++k) {
-      if (taken[*k] || (points.col(*k) - image).norm() > tolerance) continue;
-      partners[p] = *k;
-      partners[*k] = p;
-      taken[p] = taken[*k] = true;
-      break;
-    }
+    auto& list = same[first[p]];
+    copy[p] = static_cast<Index>(list.size());
+    list.push_back(p);
+    if (first[p] == p) order.push_back(p);
   }
-  if (std::find(partners.begin(), partners.end(), -1) != partners.end()) {
-    find_partners_of_duplicates<Dim>(points, partners);
+  const auto heights = sweep_heights<Dim>(points), wanted = sweep_heights<Dim>(images);
+  const double reach = sweep_reach(heights, tolerance);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return heights[a] < heights[b]; });
+  for (Index p = 0; p < points.cols(); ++p) {
+    if (first[p] != p || partners[p] >= 0) continue;
+    auto k = std::lower_bound(order.begin(), order.end(), wanted[p] - reach,
+                              [&](Index a, double height) { return heights[a] < height; });
+    Index nearest = -1;
+    double least = tolerance;
+    for (; k != order.end() && heights[*k] <= wanted[p] + reach; ++k) {
+      const double distance = (points.col(*k) - images.col(p)).norm();
+      if (partners[*k] >= 0 || distance > least) continue;
+      nearest = *k;
+      least = distance;
+    }
+    if (nearest < 0) continue;
+    partners[p] = nearest;
+    partners[nearest] = p;
+  }
+  for (Index p = 0; p < points.cols(); ++p) {
+    const Index partner = partners[first[p]];
+    if (partner < 0) continue;
+    const auto& list = same[first[partner]];
+    partners[p] = list[static_cast<std::size_t>(copy[p]) % list.size()];
   }
   return partners;
 }
@@ -99,20 +91,33 @@ MirroredModel<Dim>::MirroredModel(const Cage<Dim>& cage, int axis, const PointLi
     throw OptionError("a cage in " + std::to_string(Dim) + "D has no mirror axis " +
                       std::to_string(axis));
   }
-  constexpr double kSame = 1e-12;
-  const double tolerance = kSame * bounding_box_diagonal(cage.points);
+  const double tolerance = kBoundaryTolerance * bounding_box_diagonal(cage.points);
   place_ = (cage.points.row(axis).minCoeff() + cage.points.row(axis).maxCoeff()) / 2;
-  const auto plane = std::string(1, "xyz"[axis]) + " = " + format_number(place_);
+  plane_ = std::string(1, "xyz"[axis]) + " = " + format_number(place_);
   image_ = find_partners<Dim>(cage.points, mirrored(cage.points), tolerance);
   const auto alone = std::find(image_.begin(), image_.end(), -1);
   if (alone != image_.end()) {
     throw InputError(
         describe_control_point(cage.points, static_cast<Index>(alone - image_.begin())) +
-        " has no mirror image across " + plane +
+        " has no mirror image across " + plane_ +
         "; make a symmetric cage, or leave out the mirror");
   }
-  require_mirrored_facets<Dim>(cage, mirrored(cage.points), plane);
+  require_mirrored_facets<Dim>(cage, mirrored(cage.points), plane_);
   partner_ = find_partners<Dim>(points, mirrored(points), tolerance);
+  for (std::size_t p = 0; p < partner_.size(); ++p) {
+    if (partner_[p] >= 0) continue;
+    partner_[p] = ~static_cast<Index>(single_.size());
+    single_.push_back(static_cast<Index>(p));
+  }
+}
+
+template <int Dim>
+std::string MirroredModel<Dim>::note() const {
+  if (single_.empty()) return "";
+  return std::to_string(single_.size()) + " of " + std::to_string(partner_.size()) +
+         " vertices have no mirror image across " + plane_ + " within " +
+         format_number(kBoundaryTolerance) +
+         " of the cage size; their weights are symmetric to those at their mirrored positions";
 }
 
 template <int Dim>
@@ -177,24 +182,32 @@ template <int Dim>
 void MirroredModel<Dim>::symmetrize(
     Placement<Dim>& placement,
     const std::function<PointList<Dim>(const PointList<Dim>&)>& at) const {
-  std::set<Index> moved;
-  for (const auto* list : {&placement.on_cage, &placement.outside}) {
-    for (const auto& nearest : *list) moved.insert(nearest.point);
+  // Two points are outside together, although rounding may put only one of them onto the cage.
+  std::vector<bool> is_outside(partner_.size(), false);
+  for (const auto& nearest : placement.outside) {
+    if (partner_[nearest.point] >= 0) is_outside[partner_[nearest.point]] = true;
   }
-  for (const Index p : std::set<Index>(moved)) moved.insert(partner_[p] < 0 ? p : partner_[p]);
-  std::vector<Index> alone;
-  std::copy_if(moved.begin(), moved.end(), std::back_inserter(alone),
-               [&](Index p) { return partner_[p] < 0; });
-  PointList<Dim> elsewhere(Dim, alone.size());
-  if (!alone.empty()) elsewhere = at(mirrored(points_)(Eigen::all, alone));
-  const PointList<Dim> images = mirrored(placement.points), others = mirrored(elsewhere);
-  Eigen::Index next = 0;
-  for (const Index p : moved) {
-    const Vector<Dim> image = partner_[p] < 0 ? others.col(next++) : images.col(partner_[p]);
-    placement.points.col(p) = (placement.points.col(p) + image) / 2;
+  auto &on_cage = placement.on_cage, &outside = placement.outside;
+  const auto first = std::stable_partition(
+      on_cage.begin(), on_cage.end(), [&](const auto& near) { return !is_outside[near.point]; });
+  for (auto near = first; near != on_cage.end(); ++near) {
+    if (placement.policy != OutsidePoints::kNearest) {
+      placement.points.col(near->point) = points_.col(near->point);
+    }
+  }
+  outside.insert(outside.end(), first, on_cage.end());
+  on_cage.erase(first, on_cage.end());
+  std::sort(outside.begin(), outside.end(),
+            [](const auto& a, const auto& b) { return a.point < b.point; });
+  const PointList<Dim> images = mirrored(placement.points);
+  const PointList<Dim> others = mirrored(at_images(at));
+  for (Index p = 0; p < placement.points.cols(); ++p) {
+    const Index partner = partner_[p];
+    placement.points.col(p) += partner < 0 ? others.col(~partner) : images.col(partner);
+    placement.points.col(p) /= 2;
   }
   if (placement.policy != OutsidePoints::kNearest) return;
-  for (auto& nearest : placement.outside) {
+  for (auto& nearest : outside) {
     nearest.offset = points_.col(nearest.point) - placement.points.col(nearest.point);
   }
 }
@@ -236,20 +249,16 @@ template <int Dim>
 SparseWeights MirroredModel<Dim>::symmetrized(
     const SparseWeights& weights,
     const std::function<SparseWeights(const PointList<Dim>&)>& at) const {
-  std::vector<Index> alone, number(partner_.size(), -1);
-  for (std::size_t p = 0; p < partner_.size(); ++p) {
-    if (partner_[p] >= 0) continue;
-    number[p] = static_cast<Index>(alone.size());
-    alone.push_back(static_cast<Index>(p));
-  }
-  SparseWeights elsewhere;
-  if (!alone.empty()) elsewhere = at(mirrored(points_)(Eigen::all, alone));
-  return SparseWeights::of(weights.num_control_points(), weights.num_points(),
-                           [&](Index p) -> Eigen::VectorXd {
-                             const Eigen::VectorXd image =
-                                 number[p] < 0 ? weights.at(partner_[p]) : elsewhere.at(number[p]);
-                             return (weights.at(p) + mirrored(image)) / 2;
-                           });
+  const auto others = at_images(at);
+  return SparseWeights::of(
+      weights.num_control_points(), weights.num_points(), [&](Index p) -> Eigen::VectorXd {
+        const Index partner = partner_[p];
+        const Eigen::VectorXd here = weights.at(p),
+                              there = partner < 0 ? others.at(~partner) : weights.at(partner);
+        // The image of a point on the cage may be outside by rounding, and kept in place.
+        if (here.isZero(0) || there.isZero(0)) return here;
+        return (here + mirrored(there)) / 2;
+      });
 }
 
 template <int Dim>

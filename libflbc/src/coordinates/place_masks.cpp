@@ -47,7 +47,7 @@ class MaskEnds {
     auto& list = found->second;
     const auto before = list.size();
     for (int k = 0; k < Dim; ++k) {
-      if (coordinates[k] <= kRounding) continue;
+      if (coordinates[k] <= kBoundaryTolerance) continue;
       list.erase(std::remove(list.begin(), list.end(), cage_.facets(k, facet)), list.end());
     }
     if (list.size() < before) ++count_;
@@ -55,7 +55,8 @@ class MaskEnds {
 
   // Points that are nearly on the cage, in the mesh.
   void end_near_cage(const PointList<Dim>& points) {
-    const FacetLocator<Dim> locator(cage_, kNear * bounding_box_diagonal(cage_.points));
+    const FacetLocator<Dim> locator(cage_,
+                                    kBoundaryTolerance * bounding_box_diagonal(cage_.points));
     for (const auto& [point, control_points] : forbidden_) {
       const auto place = locator.locate(points.col(point));
       if (place.facet >= 0) end_at(point, place.facet, place.coordinates);
@@ -63,7 +64,6 @@ class MaskEnds {
   }
 
  private:
-  static constexpr double kRounding = 1e-12, kNear = 1e-9;
   const Cage<Dim>& cage_;
   Forbidden& forbidden_;
   Index& count_;
@@ -203,7 +203,7 @@ std::vector<Mask> relax_masks(const Cage<Dim>& cage, const PointList<Dim>& point
   const PointMasks inside(end_at_facets(cage, placement.points, masks), cage.size(),
                           static_cast<Index>(points.cols()));
   try {
-    refuse_mask_conflicts(cage.points, placement.points, inside, images);
+    refuse_mask_conflicts(cage.points, placement.points, inside, images, kBoundaryTolerance);
   } catch (const MaskConflict& conflict) {
     freed = conflict.control_points;
   }
@@ -242,7 +242,8 @@ PlacedMasks place_masks(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
   for (const auto& [point, control_points] : inside) forbidden[point] = control_points;
   placed.of_points = list(forbidden);
   refuse_mask_conflicts(cage.points, placement.points,
-                        PointMasks(placed.of_points, cage.size(), num_points), images);
+                        PointMasks(placed.of_points, cage.size(), num_points), images,
+                        kBoundaryTolerance);
   require_affine_weights(cage, placement.points,
                          PointMasks(placed.of_outside, cage.size(), num_points));
   placed.of_mesh = placement.places.empty() ? placed.of_points

@@ -22,6 +22,7 @@
 #include "coordinates/place_on_cage.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
+#include "flbc/cage_facts.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/interpolate.h"
@@ -300,6 +301,19 @@ Placement<Dim> place_points(const Cage<Dim>& cage, const PointList<Dim>& points,
 }
 
 template <int Dim>
+OutsidePoints usual_policy(const Cage<Dim>& cage, const PointList<Dim>& points,
+                           const EdgeList& edges) {
+  validate(edges, points.cols());
+  std::vector<bool> has_edge(static_cast<std::size_t>(points.cols()), false);
+  for (const auto& ends : edges.ends) has_edge[ends[0]] = has_edge[ends[1]] = true;
+  const auto outside = points_outside(cage, points);
+  const bool are_loose =
+      std::none_of(outside.begin(), outside.end(), [&](Index p) { return has_edge[p]; });
+  return are_loose && !outside.empty() && !edges.ends.empty() ? OutsidePoints::kNearest
+                                                              : OutsidePoints::kFail;
+}
+
+template <int Dim>
 PointList<Dim> attached_points(const Cage<Dim>& cage, const PointList<Dim>& points,
                                const SparseWeights& weights) {
   check_size(weights, cage.size(), points.cols());
@@ -362,6 +376,7 @@ FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE
 FLBC_INSTANTIATE_FUNCTION(nearest_on_cage)
+FLBC_INSTANTIATE_FUNCTION(usual_policy)
 FLBC_INSTANTIATE_FUNCTION(attached_points)
 
 }  // namespace flbc

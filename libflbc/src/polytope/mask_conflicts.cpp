@@ -16,17 +16,14 @@
 namespace flbc {
 namespace {
 
-// Points farther from the hull, relative to cage size, are not reproduced up to rounding.
-constexpr double kReproduced = 2e-14;
-
 template <int Dim>
 class Feasibility {
  public:
-  Feasibility(const PointList<Dim>& control_points, const PointList<Dim>& points)
+  Feasibility(const PointList<Dim>& control_points, const PointList<Dim>& points, double tolerance)
       : control_points_(control_points),
         points_(points),
         size_(scale_of<Dim>(control_points)),
-        tolerance_(kReproduced * size_) {}
+        tolerance_(tolerance * size_) {}
 
   bool holds(double distance) const { return distance <= tolerance_; }
 
@@ -119,8 +116,9 @@ std::string list(const std::vector<Index>& numbers) {
 
 template <int Dim>
 std::vector<Index> mask_conflicts(const PointList<Dim>& control_points,
-                                  const PointList<Dim>& points, const PointMasks& masks) {
-  const Feasibility<Dim> feasibility(control_points, points);
+                                  const PointList<Dim>& points, const PointMasks& masks,
+                                  double tolerance) {
+  const Feasibility<Dim> feasibility(control_points, points, tolerance);
   const auto& masked = masks.points();
   std::vector<char> obeys(masked.size());
   struct Last {
@@ -149,10 +147,11 @@ std::vector<Index> mask_conflicts(const PointList<Dim>& control_points,
 
 template <int Dim>
 void refuse_mask_conflicts(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                           const PointMasks& masks, const std::vector<Index>& images) {
-  const auto conflicts = mask_conflicts(control_points, points, masks);
+                           const PointMasks& masks, const std::vector<Index>& images,
+                           double tolerance) {
+  const auto conflicts = mask_conflicts(control_points, points, masks, tolerance);
   if (conflicts.empty()) return;
-  const Feasibility<Dim> feasibility(control_points, points);
+  const Feasibility<Dim> feasibility(control_points, points, tolerance);
   const auto allowed = masks.allowed(conflicts.front());
   const auto cure = find_cure(feasibility, masks, conflicts, images);
   throw MaskConflict(

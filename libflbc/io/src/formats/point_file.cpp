@@ -69,6 +69,11 @@ std::optional<PointLayout> ply_layout(const std::string& path, const std::string
   if (!reader.is_binary_little_endian() || reader.elements().empty()) return {};
   const auto& vertices = reader.elements().front();
   if (vertices.name != "vertex" || vertices.find("nx") >= 0 || vertices.find("x") < 0) return {};
+  const bool is_mesh =
+      std::any_of(reader.elements().begin() + 1, reader.elements().end(), [](const auto& element) {
+        return element.count > 0 && (element.name == "face" || element.name == "tristrips");
+      });
+  if (is_mesh) return {};
   const auto& type = *vertices.properties[vertices.find("x")].type;
   PointLayout layout{reader.position(), 0, vertices.count, {}, type.bytes == 8};
   std::vector<std::size_t> offsets;

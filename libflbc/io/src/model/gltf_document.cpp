@@ -155,6 +155,20 @@ std::size_t drop_unused(GltfJson& json, const char* list, const GltfPaths& paths
   return num_dropped;
 }
 
+bool drop_extension(GltfJson& owner, const char* name) {
+  if (!owner.contains("extensions")) return false;
+  const bool had_it = owner["extensions"].erase(name) > 0;
+  if (owner["extensions"].empty()) owner.erase("extensions");
+  return had_it;
+}
+
+void drop_extension_name(GltfJson& json, const char* name) {
+  if (!json.contains("extensionsUsed")) return;
+  auto& used = json["extensionsUsed"];
+  used.erase(std::remove(used.begin(), used.end(), name), used.end());
+  if (used.empty()) json.erase("extensionsUsed");
+}
+
 GltfDocument::GltfDocument()
     : json{{"asset", {{"version", "2.0"}, {"generator", "flbc " FLBC_VERSION}}}} {
 }
@@ -170,7 +184,23 @@ GltfDocument::GltfDocument(std::string path, const std::string& bytes) : path_(s
     json = GltfJson::parse(bytes);
   }
   if (!json.is_object()) fail("not a glTF file, or damaged");
+  const bool had_copies = drop_compressed_views();
   merge_buffers(std::move(binary));
+  if (had_copies) pack();
+}
+
+bool GltfDocument::drop_compressed_views() {
+  bool had_copies = false;
+  const auto required = json.value("extensionsRequired", std::vector<std::string>());
+  for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+    if (std::count(required.begin(), required.end(), name) > 0) continue;
+    for (const char* list : {"bufferViews", "buffers"}) {
+      if (!json.contains(list)) continue;
+      for (auto& entry : json[list]) had_copies |= drop_extension(entry, name);
+    }
+    drop_extension_name(json, name);
+  }
+  return had_copies;
 }
 
 void GltfDocument::merge_buffers(std::string binary_chunk) {

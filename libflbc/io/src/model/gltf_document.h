@@ -58,13 +58,19 @@ std::set<std::size_t> numbers_at(GltfJson& json, const GltfPaths& paths);
 std::size_t drop_unused(GltfJson& json, const char* list, const GltfPaths& paths,
                         const std::set<std::size_t>& before);
 
+//! Removes the data of an extension from its owner. \return whether there were any
+bool drop_extension(GltfJson& owner, const char* name);
+//! Removes the name of an extension from "extensionsUsed".
+void drop_extension_name(GltfJson& json, const char* name);
+
 //! "image/png", "image/jpeg", "image/webp", "image/avif", or "image/ktx2"; empty for other bytes.
 std::string media_type_of(const std::string& picture);
 
 class GltfDocument {
  public:
   GltfDocument();
-  //! All buffers become one. \param path  for messages, and for files next to it
+  //! All buffers become one, without optional compressed copies of buffer views, which edits would
+  //! make outdated. \param path  for messages, and for files next to it
   //! \throws InputError, IoError
   GltfDocument(std::string path, const std::string& bytes);
 
@@ -162,6 +168,7 @@ class GltfDocument {
   }
   static const char* type_of(Eigen::Index rows);
   static void set_bounds(GltfJson& accessor, const Eigen::MatrixXd& columns);
+  bool drop_compressed_views();
   void merge_buffers(std::string binary_chunk);
   Place place(const GltfJson& description, std::size_t element, std::size_t count,
               const std::string& owner) const;

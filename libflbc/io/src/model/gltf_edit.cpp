@@ -128,9 +128,7 @@ GltfEdit::GltfEdit(const GltfSource& source) : document(source.path, read_file(s
 }
 
 void drop_compressed_copy(GltfJson& primitive) {
-  if (!primitive.contains("extensions")) return;
-  primitive["extensions"].erase(kDraco);
-  if (primitive["extensions"].empty()) primitive.erase("extensions");
+  drop_extension(primitive, kDraco);
 }
 
 std::string GltfEdit::glb() {
@@ -143,13 +141,9 @@ std::string GltfEdit::glb() {
 }
 
 void GltfEdit::drop_unused_compression() {
-  if (!document.json.contains("extensionsUsed") ||
-      !numbers_at(document.json, {kToViews.back()}).empty()) {
-    return;
+  if (numbers_at(document.json, {kToViews.back()}).empty()) {
+    drop_extension_name(document.json, kDraco);
   }
-  auto& used = document.json["extensionsUsed"];
-  used.erase(std::remove(used.begin(), used.end(), kDraco), used.end());
-  if (used.empty()) document.json.erase("extensionsUsed");
 }
 
 // Nodes that show the same mesh get one each, as their vertices move in different ways.

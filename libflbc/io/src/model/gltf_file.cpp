@@ -54,6 +54,11 @@ class GltfScanner {
       fail("the file has " + (unread_.empty() ? "no" : unread_ + ", but no") +
            " triangles; export the model as a mesh");
     }
+    for (const auto& name : other_pictures_) {
+      model_.notes.push_back("pictures of the extension " + name +
+                             " are not shown; only .png and .jpg are");
+      add_other(model_, "pictures of the extension " + name);
+    }
     if (!unread_.empty()) {
       model_.notes.push_back(unread_ + " are not read");
       add_other(model_, unread_);
@@ -96,6 +101,7 @@ class GltfScanner {
   void read_materials() {
     for (const auto& json : json().value("materials", Json::array())) {
       auto& material = model_.materials.emplace_back();
+      coordinate_sets_.emplace_back("TEXCOORD_0");
       material.name = json.value("name", "material" + std::to_string(model_.materials.size() - 1));
       const auto surface = json.value("pbrMetallicRoughness", Json::object());
       const auto extensions = json.value("extensions", Json::object());
@@ -103,6 +109,7 @@ class GltfScanner {
       const std::vector<double> white{1, 1, 1, 1};
       const auto color = surface.value("baseColorFactor", older.value("diffuseFactor", white));
       for (int k = 0; k < 3; ++k) material.color[k] = std::clamp(color.at(k), 0.0, 1.0);
+      material.tint = material.color;
       const auto alpha = json.value("alphaMode", "");
       material.opacity = alpha == "BLEND" ? std::clamp(color.at(3), 0.0, 1.0) : 1;
       if (alpha == "MASK") material.alpha_cutoff = json.value("alphaCutoff", 0.5);
@@ -123,8 +130,13 @@ class GltfScanner {
   }
 
   void read_texture(const Json& texture, Material& material) {
-    const auto source = json().at("textures").at(whole(texture.at("index")));
-    if (!source.contains("source")) return;
+    coordinate_sets_.back() = "TEXCOORD_" + std::to_string(whole(texture, "texCoord", 0));
+    const auto& source = json().at("textures").at(whole(texture.at("index")));
+    if (!source.contains("source")) {
+      const auto extensions = source.value("extensions", Json::object());
+      for (const auto& [name, unused] : extensions.items()) other_pictures_.insert(name);
+      return;
+    }
     const auto number = whole(source["source"]);
     const auto& image = json().at("images").at(number);
     material.texture = path_ + "#" + std::to_string(number);
@@ -279,14 +291,15 @@ class GltfScanner {
   void add_primitive(const Json& primitive, std::size_t number) {
     if (!has_triangles(primitive)) return note_without_triangles(primitive);
     if (primitive.contains("targets")) add_other(model_, "morph targets");
-    auto& part = part_of(primitive);
-    part.primitives.push_back(number);
     const auto& attributes = primitive.at("attributes");
-    const auto triangles = document_.triangles(primitive, part.points.size());
     const bool has_material = primitive.contains("material");
     const auto material = whole(primitive, "material", 0);
     if (has_material && material >= model_.materials.size()) fail("a material is out of range");
-    const std::array<bool, 2> has{attributes.contains("TEXCOORD_0"), attributes.contains("NORMAL")};
+    const std::string coordinates = has_material ? coordinate_sets_[material] : "TEXCOORD_0";
+    auto& part = part_of(primitive, coordinates);
+    part.primitives.push_back(number);
+    const auto triangles = document_.triangles(primitive, part.points.size());
+    const std::array<bool, 2> has{attributes.contains(coordinates), attributes.contains("NORMAL")};
     for (const auto& corners : triangles.colwise()) {
       add_triangle(part, {corners[0], corners[1], corners[2]}, has,
                    has_material ? static_cast<Index>(material) : -1);
@@ -345,10 +358,11 @@ class GltfScanner {
     model_.polygon_materials.push_back(material);
   }
 
-  // Primitives may share their vertices.
-  GltfPart& part_of(const Json& primitive) {
+  // Primitives may share their vertices. \param coordinates  of the texture
+  GltfPart& part_of(const Json& primitive, const std::string& coordinates) {
     const auto& attributes = primitive.at("attributes");
-    const auto key = attributes.dump() + primitive.value("targets", Json::array()).dump();
+    const auto key =
+        attributes.dump() + primitive.value("targets", Json::array()).dump() + coordinates;
     if (const auto found = known_.find(key); found != known_.end()) {
       return source_->parts[found->second];
     }
@@ -368,10 +382,11 @@ class GltfScanner {
       part.points[vertex] = add_point(part.frame(vertex) * place, k);
     }
     add_normals(part, document_.morphed(node, primitive, "NORMAL", 3), attributes);
-    add_texture(attributes, places.cols());
+    add_texture(attributes, coordinates, places.cols());
     add_colors(attributes, part);
-    for (const char* other : {"TEXCOORD_1", "COLOR_1", "TANGENT"}) {
-      if (attributes.contains(other)) add_other(model_, other);
+    for (const auto& [name, unused] : attributes.items()) {
+      const bool is_texture = name.compare(0, 9, "TEXCOORD_") == 0 && name != coordinates;
+      if (is_texture || name == "COLOR_1" || name == "TANGENT") add_other(model_, name);
     }
     return part;
   }
@@ -420,12 +435,12 @@ class GltfScanner {
     has_normals_ = true;
   }
 
-  void add_texture(const Json& attributes, Eigen::Index count) {
-    if (!attributes.contains("TEXCOORD_0")) {
+  void add_texture(const Json& attributes, const std::string& name, Eigen::Index count) {
+    if (!attributes.contains(name)) {
       texture_.insert(texture_.end(), 2 * static_cast<std::size_t>(count), 0.0);
       return;
     }
-    const auto places = attribute(attributes, "TEXCOORD_0", 2, count, "texture coordinates");
+    const auto places = attribute(attributes, name, 2, count, "texture coordinates");
     for (Eigen::Index k = 0; k < count; ++k) {
       texture_.push_back(places(0, k));
       texture_.push_back(1 - places(1, k));
@@ -476,6 +491,8 @@ class GltfScanner {
   std::size_t node_ = 0;                      // with the present mesh
   Eigen::Affine3d frame_;                     // of it
   std::vector<Eigen::Affine3d> joints_;       // of its skin, from where it was bound
+  std::vector<std::string> coordinate_sets_;  // of the textures of materials
+  std::set<std::string> other_pictures_;      // extensions by which textures have pictures
   std::map<std::string, std::size_t> known_;  // parts of it, by their attributes
   std::string unread_;                        // kinds of primitives and meshes
   std::map<std::tuple<double, double, double>, Index> number_of_;

@@ -33,9 +33,7 @@ class MaterialWriter {
   void describe(const Material& material, GltfJson& json, GltfJson& surface) {
     json["name"] = material.name;
     const int texture = surface_.texture_coordinates.cols() > 0 ? texture_of(material) : -1;
-    // The texture of a .mtl file replaces the color, as intended by programs that write both.
-    const bool is_replaced = texture >= 0 && material.picture.empty();
-    const Vector<3> color = is_replaced ? Vector<3>::Ones() : material.color;
+    const auto& color = texture >= 0 ? material.tint : material.color;
     surface = {{"baseColorFactor", {color[0], color[1], color[2], material.opacity}},
                {"metallicFactor", material.metallic},
                {"roughnessFactor", material.roughness}};

@@ -39,6 +39,7 @@ struct SurfaceAttributes {
 struct Material {
   std::string name{};
   Vector<3> color = Vector<3>::Constant(0.8);  //!< red, green, blue in [0, 1], linear
+  Vector<3> tint = Vector<3>::Ones();          //!< the same where the texture is multiplied by it
   double opacity = 1;                          //!< in [0, 1]
   double roughness = 0.8;                      //!< in [0, 1]
   double metallic = 0;                         //!< in [0, 1]

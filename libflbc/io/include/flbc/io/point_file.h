@@ -25,7 +25,7 @@ struct PointLayout {
 
 //! Reads only the header.
 //! \return nothing unless the file is a .npy array in C order, or a binary little-endian .ply file
-//! that starts with vertices without normals
+//! that starts with vertices without normals and has no faces
 //! \throws IoError; InputError if the header is malformed, a .npy array is not points, or the file is
 //! shorter than its header says
 std::optional<PointLayout> find_point_layout(const std::string& path);
