@@ -277,20 +277,36 @@ def joint_weights(path, shape):
 
 def zeros(result):
     """Control points of one end never move the other half, nor those of the other end this one."""
+    if result.operation.startswith("transfer"):
+        return listed_zeros(result)
     ends = np.flatnonzero(result.cage[:, 0] < -1.5)
-    # New points of another model are masked where all vertices around are.
-    margin = 0.5 if not result.operation.startswith("transfer") else 1.1
-    region = (result.model[:, 0] > margin) & (result.model[:, 1] < 0.7)
+    region = (result.model[:, 0] > 0.5) & (result.model[:, 1] < 0.9)
     assert region.any()
-    images = result.partners(result.cage)
+    images, partners = result.partners(result.cage), result.partners(result.model)
     assert not result.weights[np.ix_(region, ends)].any()
-    assert not result.weights[np.ix_(region[result.partners(result.model)], images[ends])].any()
-    assert (result.weights[np.ix_(~region, ends)] > 0).any(), "masks do not cover everything"
+    assert not result.weights[np.ix_(partners[region], images[ends])].any()
+    assert result.weights[:, ends].any(), "masks do not cover everything"
+
+
+def listed_zeros(result):
+    """Of another model, points are masked where all vertices around are."""
+    sizes, data = result.data["mask_sizes"], result.data
+    i, p, count = 0, 0, 0
+    for most, points in sizes:
+        some = data["mask_control_points"][i:i + most]
+        region = data["mask_points"][p:p + points]
+        assert not result.weights[np.ix_(region, some)].any()
+        i, p, count = i + most, p + points, count + most * points
+    deep = (np.abs(result.model[:, 0]) > 1.1) & (result.model[:, 1] < 0.7)
+    assert count > 0.3 * deep.sum() * (result.cage[:, 0] < -1.5).sum()
 
 
 def mirror(result):
     images, partners = result.partners(result.cage), result.partners(result.model)
-    assert np.array_equal(result.weights[partners][:, images], result.weights)
+    # Few influences cannot be symmetric in the plane itself: a point needs pairs of them.
+    most = {"reduce4": 4, "export": 4, "reduce8": 8}.get(result.operation, 99)
+    beside = (np.abs(result.model[:, 0]) > 1e-9) | (most // 2 > result.dim)
+    assert np.array_equal(result.weights[partners][:, images][beside], result.weights[beside])
 
 
 def sums_and_reproduction(result):

@@ -114,15 +114,15 @@ struct Binding {
   //! A binding of other points in the same cage, evaluated on the domain mesh. A weight is masked
   //! where it is masked at all vertices around.
   //! \param to  Dim x Q, in the units of the cage \param edges  between them, may be empty
-  //! \throws InputError if the binding has no domain mesh, is mirrored, or as place_points()
+  //! \throws InputError if the binding has no domain mesh, or as place_points()
   Binding transferred(const PointList<Dim>& to, EdgeList edges, OutsidePoints outside) const;
 
   //! A binding of another version of the model, from the nearest place on this one
   //! (transfer_weights()). A weight is masked where it is masked at all vertices around.
   //! \param corners  3 x E, elements of this model (ModelElements)
   //! \param limit  maximum distance, in units of the cage \param distances  output; may be null
-  //! \throws InputError if the binding is mirrored, points without weights are near, or as
-  //! transfer_weights()
+  //! Points outside the cage follow the policy of the binding, or the nearest point of the cage.
+  //! \throws InputError as transfer_weights()
   Binding transferred(const FacetList<3>& corners, const PointList<Dim>& to, EdgeList edges,
                       double limit, Eigen::VectorXd* distances = nullptr) const;
 

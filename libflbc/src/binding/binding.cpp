@@ -14,6 +14,7 @@
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/names.h"
+#include "flbc/non_negative.h"
 #include "flbc/place_masks.h"
 #include "flbc/rig.h"
 
@@ -209,21 +210,46 @@ Binding<Dim> Binding<Dim>::transferred(const FacetList<3>& corners, const PointL
     const auto indicators = indicator_of(PointMasks(masks, n, count), n, count);
     is_masked = masks_of(nearest_weights<Dim>(from, indicators, to, limit));
   }
-  const auto transfer = [&](const PointList<Dim>& places, Eigen::VectorXd* found,
-                            const PointMasks& masked) {
-    return transfer_weights(cage.points, from, weights, places, limit, found, masked);
+  const auto policy_there = policy == OutsidePoints::kFail ? OutsidePoints::kNearest : policy;
+  const auto placed = [&](const PointList<Dim>& places) {
+    if (cage.facets.cols() > 0) return place_points(cage, places, policy_there);
+    Placement<Dim> all;
+    all.points = places;
+    all.places.resize(places.cols());
+    return all;
   };
-  auto result = bound_by<Dim>(
-      cage, to, transfer(to, distances, PointMasks(is_masked, n, static_cast<Index>(to.cols()))),
-      std::move(to_edges));
+  // Points inside follow the model; those outside their policy.
+  const auto transfer = [&](const PointList<Dim>& places, const Placement<Dim>& placement,
+                            const PointMasks& masked, Eigen::VectorXd* found) {
+    auto nearest = nearest_weights(from, weights, places, limit, found);
+    std::vector<bool> is_inside(placement.places.size(), true);
+    for (const auto* list : {&placement.on_cage, &placement.outside}) {
+      for (const auto& point : *list) is_inside[point.point] = false;
+    }
+    std::vector<Index> inside;
+    for (std::size_t p = 0; p < is_inside.size(); ++p) {
+      if (is_inside[p]) inside.push_back(static_cast<Index>(p));
+    }
+    if (inside.empty()) return weights_at(cage, nearest, placement);
+    nearest = project_non_negative(cage.points, placement.points, nearest, inside, masked);
+    return cage.facets.cols() > 0 ? weights_at(cage, nearest, placement) : nearest;
+  };
+  const auto placement = placed(to);
+  const PointMasks masked(is_masked, n, static_cast<Index>(to.cols()));
+  auto result =
+      bound_by<Dim>(cage, to, transfer(to, placement, masked, distances), std::move(to_edges));
   result.masks = is_masked;
+  result.policy = policy;
+  result.outside.clear();
+  for (const auto& point : placement.outside) result.outside.push_back(point.point);
   result.report = report;
   result.domain = domain;
   result.domain_weights = domain_weights;
   result.domain_masks = domain_masks;
   if (mirror) {
-    mirror_again<Dim>(result, mirror->axis,
-                      [&](const PointList<Dim>& images) { return transfer(images, nullptr, {}); });
+    mirror_again<Dim>(result, mirror->axis, [&](const PointList<Dim>& images) {
+      return transfer(images, placed(images), {}, nullptr);
+    });
   }
   return result;
 }
