@@ -126,7 +126,7 @@ class GradientAdmm {
     // The duals here lead those of the paper by a part that the G-step removes
     // (docs/explanation/method/gradient_admm.md).
     const double primal = alpha_ == 1 ? change.dual - M_ * change.lead : change.dual;
-    residuals_ = {std::sqrt(std::max(primal, 0.0)), mu_ * std::sqrt(M_ * change.gradient)};
+    residuals_ = {std::sqrt((std::max)(primal, 0.0)), mu_ * std::sqrt(M_ * change.gradient)};
     return residuals_;
   }
 
@@ -198,14 +198,14 @@ class GradientAdmm {
   }
 
   Change z_step() {
-    constexpr double kTiny = std::numeric_limits<double>::min();
+    constexpr double kTiny = (std::numeric_limits<double>::min)();
     return for_all(Elements<Mesh>::cells(mesh_), [&](Cell cell, Rows& clipped, Rows& squares) {
       clipped = cell_dual(cell) - mu_ * rows(extrapolated_, cell);
       squares = clipped.cwiseAbs2();
       for (int d = 1; d < kDim; ++d) squares.row(0) += squares.row(d);
       const auto radius = problem_.radius.col(cell.idx()).transpose().array();
       auto shrink = squares.row(0).array();
-      shrink = radius / shrink.max(radius.square() + kTiny).sqrt();
+      shrink = radius / (shrink.max)(radius.square() + kTiny).sqrt();
       const double quadratic = problem_.quadratic[cell.idx()];
       const double theta = quadratic / (mu_ + quadratic);
       shrink = theta + (1 - theta) * shrink;
