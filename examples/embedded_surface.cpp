@@ -33,7 +33,7 @@ int main(int argc, char** argv) try {
   const auto report = flbc::openmesh::solve(mesh, cage);
 
   // The mesher puts control points first, then the embedded ones.
-  const auto weights = flbc::openmesh::get_weights(mesh);
+  const auto weights = flbc::openmesh::get_weights(mesh).dense();
   flbc::openmesh::set_weights(model,
                               weights.middleCols(cage.size(), meshing.embedded_points.cols()));
 

@@ -10,7 +10,7 @@ int main(int argc, char* argv[]) {
   using namespace Foam;
   argList::addNote("Move the points of a mesh with a cage.");
   argList::noFunctionObjects();
-  for (const char* const entry : {"cage", "domain", "weights", "pose"}) {
+  for (const char* const entry : {"binding", "pose"}) {
     argList::addOption(entry, "file");
   }
   argList::addOption("fixedPatches", "(patch ...)", "patches that do not move");
@@ -22,9 +22,7 @@ int main(int argc, char* argv[]) {
   polyMesh mesh(IOobject(polyMesh::defaultRegion, time.timeName(), time, IOobject::MUST_READ));
 
   dictionary dict("arguments");
-  for (const char* const entry : {"cage", "domain", "weights"}) {
-    dict.add(entry, args.get<fileName>(entry));
-  }
+  dict.add("binding", args.get<fileName>("binding"));
   if (args.found("fixedPatches")) {
     dict.add("fixedPatches", args.getList<wordRe>("fixedPatches"));
   }

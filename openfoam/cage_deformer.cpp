@@ -16,12 +16,14 @@
 #include "unitConversion.H"
 
 #include "flbc/border.h"
+#include "flbc/bounding_box.h"
+#include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/evaluator.h"
+#include "flbc/io/binding_file.h"
 #include "flbc/io/cage_io.h"
-#include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
-#include "flbc/io/weights_io.h"
+#include "flbc/io/same_vertices.h"
 
 namespace flbc::foam {
 namespace {
@@ -40,8 +42,46 @@ Vector<Dim> to_vector(const Foam::point& point) {
   return Eigen::Map<const Vector<Dim>>(point.v_);
 }
 
-io::AnyCage read_cage(const std::string& file) {
-  return io::to_cage(io::read_polygons(file), file);
+// The control points and what joins them, to compare poses with.
+template <int Dim>
+io::PolygonSoup polygons_of(const Cage<Dim>& cage) {
+  io::PolygonSoup soup;
+  for (const auto& point : cage.points.colwise()) {
+    soup.points.push_back(Vector<3>::Zero());
+    soup.points.back().template head<Dim>() = point;
+  }
+  for (const auto& facet : cage.facets.colwise()) {
+    (Dim == 2 ? soup.polylines : soup.polygons).emplace_back(facet.begin(), facet.end());
+  }
+  return io::control_polygons<Dim>(soup);
+}
+
+template <int Dim>
+PointList<Dim> read_pose(const std::string& file, const io::PolygonSoup& rest) {
+  auto pose = io::read_polygons(file);
+  // Mere points have no faces to compare.
+  if (!pose.polygons.empty() || !pose.polylines.empty()) pose = io::control_polygons<Dim>(pose);
+  io::check_same_vertices(rest, "the cage of the binding", pose, file);
+  return io::to_points<Dim>(pose, file);
+}
+
+// \param file  for messages
+template <int Dim>
+void require_domain(const Binding<Dim>& binding, const std::string& file) {
+  const auto& domain = binding.domain;
+  if (domain.num_cells() == 0) {
+    throw InputError(file +
+                     ": has no domain mesh, by which points of other meshes are moved; "
+                     "write it by flbc solve");
+  }
+  const auto reproduced = deform<Dim>(binding.domain_weights, binding.cage.points);
+  const double size = bounding_box_diagonal(binding.cage.points);
+  Eigen::Index worst = 0;
+  if (displacements<Dim>(domain.points, reproduced).maxCoeff(&worst) <= kBoundaryTolerance * size) {
+    return;
+  }
+  throw InputError(file + ": the weights do not put vertex " + std::to_string(worst) +
+                   " of the domain mesh where it is; write the file again by flbc solve");
 }
 
 // Measures the slowest rank.
@@ -88,22 +128,15 @@ class CageDeformer::Motion {
 template <int Dim>
 class CageDeformer::MotionIn : public Motion {
  public:
-  MotionIn(const Foam::polyMesh& mesh, const Foam::pointField& points, Cage<Dim> cage,
-           const Foam::dictionary& dict, const std::vector<TimedPose>& poses)
-      : evaluator_(std::move(cage),
-                   io::read_domain<Dim>(in_case(mesh, dict.get<Foam::fileName>("domain"))),
-                   io::read_weights(in_case(mesh, dict.get<Foam::fileName>("weights"))),
-                   OutsidePoints::kKeep, Foam::Pstream::parRun() ? 1 : 0) {
+  MotionIn(const Foam::polyMesh& mesh, const Foam::pointField& points, Binding<Dim> binding,
+           const std::vector<TimedPose>& poses)
+      : evaluator_(std::move(binding.cage), std::move(binding.domain),
+                   std::move(binding.domain_weights), OutsidePoints::kKeep,
+                   Foam::Pstream::parRun() ? 1 : 0) {
+    const auto rest = polygons_of(evaluator_.cage());
     for (const auto& pose : poses) {
-      const auto file = in_case(mesh, pose.file);
-      const auto soup = io::read_polygons(file);
-      displacements_.push_back(io::to_points<Dim>(soup, file));
-      if (displacements_.back().cols() != evaluator_.cage().size()) {
-        throw InputError(file + ": has " + std::to_string(displacements_.back().cols()) +
-                         " control points, but the cage has " +
-                         std::to_string(evaluator_.cage().size()));
-      }
-      displacements_.back() -= evaluator_.cage().points;
+      displacements_.push_back(read_pose<Dim>(in_case(mesh, pose.file), rest) -
+                               evaluator_.cage().points);
     }
     place(points);
     fix_cuts(mesh, points, poses);
@@ -214,15 +247,16 @@ CageDeformer::CageDeformer(const Foam::polyMesh& mesh, const Foam::pointField& p
       if (poses_[k].time > poses_[k - 1].time) continue;
       throw InputError("the times of poses must ascend");
     }
-    auto cage = read_cage(in_case(mesh, dict.get<Foam::fileName>("cage")));
+    const auto file = in_case(mesh, dict.get<Foam::fileName>("binding"));
+    auto binding = io::read_binding(file);
     std::visit(
         [&](auto& of_dimension) {
-          validate(of_dimension);
+          require_domain(of_dimension, file);
+          validate(of_dimension.cage);
           constexpr int kDim = std::decay_t<decltype(of_dimension.points)>::RowsAtCompileTime;
-          motion_ =
-              std::make_unique<MotionIn<kDim>>(mesh, points, std::move(of_dimension), dict, poses_);
+          motion_ = std::make_unique<MotionIn<kDim>>(mesh, points, std::move(of_dimension), poses_);
         },
-        cage);
+        binding);
   } catch (const std::exception& error) {
     FatalIOErrorInFunction(dict) << error.what() << Foam::exit(Foam::FatalIOError);
   }

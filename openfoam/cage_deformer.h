@@ -25,10 +25,10 @@ struct TimedPose {
 class CageDeformer {
  public:
   //! Reads the files and places the points. The entries of the dictionary:
-  //!  - cage, domain, weights: files, relative to the case; weights are those of the domain mesh
+  //!  - binding: a .npz file with a domain mesh, relative to the case
   //!  - fixedPatches (optional): patches that do not move
-  //! Exits with a FatalError if a file is unusable, or if a pose moves control points of facets
-  //! that cut through the mesh.
+  //! Exits with a FatalError if a file is unusable, a pose does not have the vertices of the cage
+  //! in their order, or it moves control points of facets that cut through the mesh.
   //! \param points  of the mesh at rest
   //! \param poses  at least one, ascending times
   CageDeformer(const Foam::polyMesh& mesh, const Foam::pointField& points,

@@ -25,6 +25,7 @@ QUALITIES = {
     'EXACT': _Quality(['--embed'], 'auto'),
 }
 POSE = 'Pose'
+LOCK = 'lock.'  # begins the names of vertex groups that protect; bones have groups as well
 # Modifiers that change the number of vertices.
 GENERATORS = {'ARRAY', 'BEVEL', 'BOOLEAN', 'BUILD', 'DECIMATE', 'EDGE_SPLIT', 'MASK', 'MIRROR',
               'MULTIRES', 'NODES', 'REMESH', 'SCREW', 'SKIN', 'SOLIDIFY', 'SUBSURF', 'WELD',
@@ -46,6 +47,7 @@ class Binding(bpy.types.PropertyGroup):
     model_places: bpy.props.StringProperty()
     cage_faces: bpy.props.StringProperty()
     cage_places: bpy.props.StringProperty()
+    locks: bpy.props.StringProperty()
     # From the space of the cage to that of the model, both at rest; row by row.
     matrix: bpy.props.FloatVectorProperty(size=16)
 
@@ -55,6 +57,7 @@ class _Part(NamedTuple):
     name: str
     shape: mesh.Shape
     matrix: np.ndarray
+    locks: str  # fingerprint of its vertex groups
 
 
 def relative_matrix(model, cage):
@@ -72,20 +75,27 @@ def rest_matrix(model, cage):
     return relative_matrix(model, cage)
 
 
-def shared_groups(models, cage):
-    """Names of vertex groups of the cage that a model has as well.
+def locking_groups(models, cage):
+    """Names of vertex groups of the cage that protect a model, which has them as well.
 
     The vertices of the cage in such a group never move the vertices of the models in it.
     """
-    return [group.name for group in cage.vertex_groups
-            if any(group.name in model.vertex_groups for model in models)]
+    return [group.name for group in cage.vertex_groups if group.name.startswith(LOCK)
+            and any(group.name in model.vertex_groups for model in models)]
+
+
+def _locks(model, cage):
+    """A fingerprint of the vertex groups that protect a model; empty if there are none."""
+    groups = [(mesh.members(cage, name), mesh.members(model, name))
+              for name in locking_groups([model], cage)]
+    return mesh.digest(np.frombuffer(json.dumps(groups).encode(), np.uint8)) if groups else ''
 
 
 def _masks(models, cage):
     """What flbc reads as --locality, for the joined models. Raises Refusal."""
     begins = np.cumsum([0] + [len(model.data.vertices) for model in models])
     masks = []
-    for name in shared_groups(models, cage):
+    for name in locking_groups(models, cage):
         control_points = mesh.members(cage, name)
         vertices = [int(begin) + vertex for begin, model in zip(begins, models)
                     for vertex in mesh.members(model, name)]
@@ -110,6 +120,8 @@ def _require_ready(models, cage):
     if _evaluated_count(cage) != len(cage.data.vertices):
         raise Refusal(f'Modifiers change the number of vertices of the cage {cage.name}. '
                       'Apply or disable them')
+    if mesh.is_flat(mesh.shape_of(cage.data)):
+        raise Refusal(f'The cage {cage.name} is flat. Choose a closed mesh around the model')
 
 
 def bind(models, cage, settings, refine=False):
@@ -134,8 +146,8 @@ class _Task:
         self._folder = folder
         self._cage_name = cage.name
         self._cage = mesh.shape_of(cage.data)
-        self._parts = [_Part(model.name, mesh.shape_of(model.data), rest_matrix(model, cage))
-                       for model in models]
+        self._parts = [_Part(model.name, mesh.shape_of(model.data), rest_matrix(model, cage),
+                             _locks(model, cage)) for model in models]
         try:
             self._model = mesh.joined([mesh.moved(part.shape, np.linalg.inv(part.matrix))
                                        for part in self._parts])
@@ -163,34 +175,25 @@ class _Task:
     def _solve(self, settings):
         """Returns indices and weights of all vertices, and a note for the user by model."""
         folder = self._folder
-        solved, reduced = folder / 'solved.npy', folder / 'reduced.npy'
+        solved, reduced = folder / 'binding.npz', folder / 'reduced.npz'
         quality, k = QUALITIES[settings.quality], settings.influences
         note = yield self._command(
             settings, 'solve', folder / 'cage.ply', '--model', folder / 'model.ply', '-o', solved,
-            '--report', folder / 'report.json', '--smoothness', settings.smoothness,
-            *self._locality, *quality.solve)
-        report = json.loads((folder / 'report.json').read_text())
-        count = report['outside']['outside']['count']
-        if count == len(self._model.points):
+            '--smoothness', settings.smoothness, *self._locality, *quality.solve)
+        outside = files.vertices_outside(solved)
+        if len(outside) == len(self._model.points):
             raise Refusal(f'All vertices are outside the cage {self._cage_name}')
-        notes = [note + outside for outside in self._notes_outside(solved, count)]
+        notes = [note + part for part in self._notes_outside(outside)]
         if not quality.reduction:
             return *files.largest_weights(solved, k), notes
-        yield self._command(settings, 'sparsify', solved, '--cage', folder / 'cage.ply',
-                            '--points', folder / 'model.ply', '--reduction', quality.reduction,
-                            '-k', k, '-o', reduced, *self._locality)
+        yield self._command(settings, 'sparsify', solved, '--reduction', quality.reduction, '-k', k,
+                            '-o', reduced)
         return *files.largest_weights(reduced, k), notes
 
-    def _notes_outside(self, solved, count):
-        """By model, a sentence on its share of the vertices outside, or nothing.
-
-        Weights reproduce vertices inside, and miss those outside, which have the weights of the
-        nearest point of the cage.
-        """
-        missed = np.linalg.norm(
-            files.weighted_sums(solved, self._cage.points) - self._model.points, axis=1)
-        is_outside = np.zeros(len(missed), bool)
-        is_outside[np.argsort(missed)[len(missed) - count:]] = True
+    def _notes_outside(self, outside):
+        """By model, a sentence on its share of the vertices outside, or nothing."""
+        is_outside = np.zeros(len(self._model.points), bool)
+        is_outside[outside] = True
         ends = np.cumsum([len(part.shape.points) for part in self._parts])
         return [f'{part.sum()} vertices are outside the cage and follow its nearest point '
                 'at a constant offset. ' if part.any() else ''
@@ -221,6 +224,7 @@ class _Task:
             binding.note = note
             binding.model_faces, binding.model_places = mesh.fingerprint(part.shape)
             binding.cage_faces, binding.cage_places = mesh.fingerprint(self._cage)
+            binding.locks = part.locks
             binding.matrix = part.matrix.ravel()
         _give_pose(cage)
 
@@ -253,6 +257,8 @@ def problems(model):
             found.append(f'Faces or vertices of {item.name} were added or removed. Rebind')
         elif new_places != places:
             found.append(f'The rest shape of {item.name} has changed. Rebind')
+    if _locks(model, cage) != binding.locks:
+        found.append(f'Vertex groups {LOCK}... were changed. Rebind')
     before = list(model.modifiers)[:model.modifiers.find(nodes.modifier_of(model).name)]
     found += [f'{modifier.name} comes before the cage and changes vertices. Rebind'
               for modifier in before if modifier.type in GENERATORS and modifier.show_viewport]
@@ -290,6 +296,9 @@ def make_cage(models, active, program, control_points):
                          for model in models])
     if not len(shape.starts):
         raise Refusal(f'{active_name} has no faces')
+    if mesh.is_flat(shape):
+        raise Refusal(f'{active_name} is flat, and a cage encloses a volume. Give it thickness, '
+                      'for example by extruding it')
     with tempfile.TemporaryDirectory(prefix='flbc_') as folder:
         model, cage = Path(folder, 'model.ply'), Path(folder, 'cage.obj')
         files.write_ply(model, *shape)

@@ -33,32 +33,25 @@ def read_obj(path):
     return np.array(points), faces
 
 
-_ROWS = 1 << 16  # at a time, so that a large file is never in memory as a whole
-
-
-def _slices(count):
-    return (slice(begin, min(begin + _ROWS, count)) for begin in range(0, count, _ROWS))
-
-
 def largest_weights(path, k):
-    """Reads a weight matrix (.npy) and keeps the k largest weights of each row, with sum 1.
+    """Reads a binding (.npz) and keeps the k largest weights of each vertex, with sum 1.
 
     Returns columns (V, k), int32, and weights (V, k), float32. Unused places have weight 0.
     """
-    matrix = np.load(path, mmap_mode='r')
-    k_there = min(k, matrix.shape[1])
-    columns = np.zeros((len(matrix), k), np.int32)
-    weights = np.zeros((len(matrix), k), np.float32)
-    for rows in _slices(len(matrix)):
-        part = matrix[rows]
-        places = np.argpartition(part, -k_there, axis=1)[:, -k_there:]
-        kept = np.take_along_axis(part, places, axis=1)
-        columns[rows, :k_there] = np.where(kept > 0, places, 0)
-        weights[rows, :k_there] = kept / kept.sum(1, keepdims=True)
-    return columns, weights
+    with np.load(path) as file:
+        starts, columns, values = file['indptr'], file['indices'], file['data']
+    vertices = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    order = np.lexsort((-values, vertices))
+    places = np.arange(len(values)) - starts[vertices]
+    kept = (places < k) & (values[order] > 0)
+    found = vertices[kept], places[kept]
+    indices = np.zeros((len(starts) - 1, k), np.int32)
+    weights = np.zeros((len(starts) - 1, k))
+    indices[found], weights[found] = columns[order][kept], values[order][kept]
+    return indices, (weights / weights.sum(1, keepdims=True)).astype(np.float32)
 
 
-def weighted_sums(path, points):
-    """Returns the sums of points (n, 3) with the rows of a weight matrix (.npy) as weights: (V, 3)."""
-    matrix = np.load(path, mmap_mode='r')
-    return np.concatenate([matrix[rows] @ points for rows in _slices(len(matrix))])
+def vertices_outside(path):
+    """Returns the numbers of the vertices of a binding (.npz) that are outside the cage."""
+    with np.load(path) as file:
+        return file['outside']

@@ -70,14 +70,22 @@ def transform(points, matrix):
     return points @ matrix[:3, :3].T + matrix[:3, 3]
 
 
+def is_flat(shape):
+    """Whether all vertices are in one plane."""
+    shifts = shape.points - shape.points.mean(0)
+    spread = np.linalg.eigvalsh(shifts.T @ shifts)
+    return bool(spread[0] <= 1e-12 * spread[2])
+
+
+def digest(*arrays):
+    sums = hashlib.blake2b(digest_size=16)
+    for array in arrays:
+        sums.update(np.ascontiguousarray(array))
+    return sums.hexdigest()
+
+
 def fingerprint(shape):
     """Hashes of the faces and of the places of a shape. They change when the shape changes."""
-    def digest(*arrays):
-        sums = hashlib.blake2b(digest_size=16)
-        for array in arrays:
-            sums.update(np.ascontiguousarray(array))
-        return sums.hexdigest()
-
     return (digest(np.array(len(shape.points)), shape.corners, shape.starts),
             digest(shape.points))
 

@@ -136,9 +136,12 @@ class FLBC_OT_make_cage(_InBackground, bpy.types.Operator):
 
 
 class FLBC_OT_bind(_InBackground, bpy.types.Operator):
-    """Bind the selected meshes to the cage. They then follow its vertices"""
     bl_idname = 'flbc.bind'
     bl_label = 'Bind to Cage'
+    bl_description = (
+        'Bind the selected meshes to the cage. They then follow its vertices. If the cage and a mesh '
+        f'have a vertex group of the same name that starts with "{binding.LOCK}", the vertices of '
+        'the cage in it never move those of the mesh')
 
     @classmethod
     def poll(cls, context):

@@ -73,9 +73,9 @@ class FLBC_PT_cage(bpy.types.Panel):
         column.prop(scene, 'smoothness')
         column.row(align=True).prop(scene, 'quality', expand=True)
         models = operators.selected_models(context)
-        groups = binding.shared_groups(models, scene.cage) if scene.cage else []
+        groups = binding.locking_groups(models, scene.cage) if scene.cage else []
         if groups:
-            _text(column, 'The cage does not move across shared vertex groups: '
+            _text(column, 'Control points never move vertices of the same group: '
                   + ', '.join(groups), 'LOCKED')
         text = f'Bind {models[0].name}' if len(models) == 1 else f'Bind {len(models)} Meshes'
         column.operator('flbc.bind', text=text if models else 'Bind to Cage', icon='MOD_MESHDEFORM')

@@ -58,13 +58,6 @@ Eigen::Matrix<double, Eigen::Dynamic, Dim> arranged(const RowBlock<double>&,
 
 }  // namespace
 
-void require_vertices(std::size_t vertices, std::size_t rows) {
-  if (vertices == rows) return;
-  throw InputError("the mesh has " + std::to_string(vertices) + " vertices, but weights of " +
-                   std::to_string(rows) +
-                   "; clean() of OpenMesh does not shrink properties: bind the mesh again");
-}
-
 template <class Block, class Scalar, int Dim>
 Index move_points(const Block& weights, const PointList<Dim>& control_points,
                   const RowBlock<double>* offsets, int threads, const PointsView<Scalar>& points) {
@@ -87,6 +80,10 @@ Index move_points(const Block& weights, const PointList<Dim>& control_points,
     Scalar* point = points.data + static_cast<std::size_t>(p) * points.stride;
     for (int d = 0; d < Dim; ++d) point[d] = static_cast<Scalar>(place[d]);
   });
+  if (count > 0 && left == count) {
+    throw InputError("none of the " + std::to_string(count) +
+                     " vertices was bound; bind the mesh again");
+  }
   return left;
 }
 

@@ -33,34 +33,25 @@ gltf::Animation<Dim> animation_of(const std::vector<PointList<Dim>>& poses,
 }  // namespace
 
 template <int Dim>
-void write_skin_file(const std::string& path, SkinInput<Dim> input,
+void write_skin_file(const std::string& path, const Binding<Dim>& binding, io::Model model,
                      const std::vector<PointList<Dim>>& poses, const SkinOptions& options) {
   gltf::SkinOptions skin;
   skin.format = format_of(path);
   skin.max_influences = options.max_influences;
   const auto animation = animation_of(poses, options.frames_per_second);
-  require_control_points(static_cast<std::size_t>(input.weights.rows()), input.cage.cols());
-  PointList<Dim> rest = input.cage * input.weights;
-  for (std::size_t p = 0; input.offsets.width() > 0 && p < input.offsets.size(); ++p) {
-    for (int d = 0; d < Dim; ++d) {
-      rest(d, static_cast<Eigen::Index>(p)) += input.offsets[p][static_cast<std::size_t>(d)];
-    }
-  }
-  for (const auto& point : rest.colwise()) {
+  for (const auto& point : binding.rest().colwise()) {
     Vector<3> place = Vector<3>::Zero();
-    place.head<Dim>() = point;
-    input.model.soup.points.push_back(place);
+    place.template head<Dim>() = point;
+    model.soup.points.push_back(place);
   }
-  skin.edges = edges_of_polygons(rest, input.model.soup.polygons, input.model.soup.polylines);
-  const auto surface = gltf::surface_of_model<Dim>(input.model);
-  const auto made = gltf::export_skin<Dim>(input.cage, rest, SparseWeights(input.weights), surface,
-                                           skin, animation);
+  const auto made =
+      gltf::export_skin<Dim>(binding, gltf::surface_of_model<Dim>(model), skin, animation);
   io::write_file(path, [&](std::ostream& file) { file << made.content; });
 }
 
-template void write_skin_file(const std::string&, SkinInput<2>, const std::vector<PointList<2>>&,
-                              const SkinOptions&);
-template void write_skin_file(const std::string&, SkinInput<3>, const std::vector<PointList<3>>&,
-                              const SkinOptions&);
+template void write_skin_file(const std::string&, const Binding<2>&, io::Model,
+                              const std::vector<PointList<2>>&, const SkinOptions&);
+template void write_skin_file(const std::string&, const Binding<3>&, io::Model,
+                              const std::vector<PointList<3>>&, const SkinOptions&);
 
 }  // namespace flbc::openmesh::internal

@@ -21,22 +21,30 @@ void refuse_without_weights(const std::string& name) {
   throw InputError("the mesh has no weights: there is no vertex property '" + name + "'");
 }
 
-WeightMatrix to_matrix(const RowBlock<double>& rows) {
-  return Eigen::Map<const Eigen::MatrixXd>(rows.data(), static_cast<Eigen::Index>(rows.width()),
-                                           static_cast<Eigen::Index>(rows.size()));
+void require_vertices(std::size_t vertices, std::size_t rows) {
+  if (vertices == rows) return;
+  throw InputError("the mesh has " + std::to_string(vertices) + " vertices, but weights of " +
+                   std::to_string(rows) +
+                   "; clean() of OpenMesh does not shrink properties: bind the mesh again");
 }
 
-WeightMatrix to_matrix(const InfluenceBlock& block) {
-  WeightMatrix weights = WeightMatrix::Zero(static_cast<Eigen::Index>(block.num_control_points()),
-                                            static_cast<Eigen::Index>(block.size()));
-  for (std::size_t v = 0; v < block.size(); ++v) {
-    const auto influences = block[v];
+SparseWeights to_sparse(const RowBlock<double>& rows) {
+  return SparseWeights::of(static_cast<Index>(rows.width()), static_cast<Index>(rows.size()),
+                           [&](Index v) -> Eigen::VectorXd {
+                             return rows[static_cast<std::size_t>(v)].matrix().row(0).transpose();
+                           });
+}
+
+SparseWeights to_sparse(const InfluenceBlock& block) {
+  const auto n = static_cast<Index>(block.num_control_points());
+  return SparseWeights::of(n, static_cast<Index>(block.size()), [&](Index v) {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(n);
+    const auto influences = block[static_cast<std::size_t>(v)];
     for (std::size_t j = 0; j < influences.size(); ++j) {
-      if (influences.weight(j) == 0) continue;
-      weights(influences.control_point(j), static_cast<Eigen::Index>(v)) += influences.weight(j);
+      if (influences.weight(j) != 0) row[influences.control_point(j)] += influences.weight(j);
     }
-  }
-  return weights;
+    return row;
+  });
 }
 
 InfluenceBlock to_influences(const SparseWeights& weights, std::size_t most) {
@@ -72,6 +80,12 @@ std::string name_of_offset(const std::string& weights) {
 }
 std::string name_of_rest(const std::string& weights) {
   return weights + ":rest";
+}
+std::string name_of_masks(const std::string& weights) {
+  return weights + ":masks";
+}
+std::string name_of_mirror(const std::string& weights) {
+  return weights + ":mirror";
 }
 
 }  // namespace flbc::openmesh::internal

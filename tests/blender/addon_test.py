@@ -61,12 +61,37 @@ class AddonTest(unittest.TestCase):
         return found
 
     # ---- locality --------------------------------------------------------------------------------
-    def share_group(self, vertices, control_points, name='hand'):
+    def share_group(self, vertices, control_points, name='lock.hand'):
         for item, numbers in ((self.model, vertices), (self.cage, control_points)):
             group = item.vertex_groups.new(name=name)
             group.add([int(number) for number in numbers], 1, 'REPLACE')
 
-    def test_a_shared_vertex_group_protects_the_model_from_the_cage(self):
+    def test_groups_of_bones_do_not_protect(self):
+        everything = range(len(self.model.data.vertices)), range(len(self.cage.data.vertices))
+        self.share_group(*everything, name='hand')
+        self.bind()
+        self.assertEqual(self.problems(), '')
+
+    def test_edits_of_locking_groups_ask_to_rebind(self):
+        self.bind()
+        along = base(self.cage)[:, 0], base(self.model)[:, 0]
+        self.share_group(np.flatnonzero(along[1] < np.quantile(along[1], 0.2)),
+                         np.flatnonzero(along[0] > np.quantile(along[0], 0.8)))
+        self.assertIn('were changed. Rebind', self.problems())
+        self.bind()
+        self.assertEqual(self.problems(), '')
+        self.model.vertex_groups['lock.hand'].remove([int(np.argmin(along[1]))])
+        self.assertIn('were changed. Rebind', self.problems())
+
+    def test_flat_meshes_are_refused(self):
+        plane = scene.add('plane', [(0, 0, 0), (1, 0, 1), (1, 1, 1), (0, 1, 0)], [(0, 1, 2, 3)])
+        select(plane)
+        self.refused(bpy.ops.flbc.make_cage, 'plane is flat')
+        bpy.context.scene.flbc.cage = plane
+        select(self.model)
+        self.refused(bpy.ops.flbc.bind, 'The cage plane is flat')
+
+    def test_a_locking_vertex_group_protects_the_model_from_the_cage(self):
         along = base(self.cage)[:, 0]
         far = np.flatnonzero(along > np.quantile(along, 0.8))
         near = base(self.model)[:, 0] < np.quantile(base(self.model)[:, 0], 0.3)
@@ -82,7 +107,7 @@ class AddonTest(unittest.TestCase):
         self.share_group(range(len(self.model.data.vertices)), range(len(self.cage.data.vertices)))
         select(self.model)
         self.refused(bpy.ops.flbc.bind, 'control points')
-        self.cage.vertex_groups['hand'].remove(range(len(self.cage.data.vertices)))
+        self.cage.vertex_groups['lock.hand'].remove(range(len(self.cage.data.vertices)))
         self.refused(bpy.ops.flbc.bind, 'empty')
 
     # ---- positions -------------------------------------------------------------------------------

@@ -58,9 +58,7 @@ motionSolverLibs ("%s");
 motionSolver cageMotion;
 cageMotionCoeffs
 {
-    cage "%s";
-    domain "%s";
-    weights "%s";
+    binding "%s";
     poses ((0 "%s") (1 "%s"));
     fixedPatches (%s);
 }
@@ -123,8 +121,7 @@ class Case:
         self.end_at(1)
         self.move_to("pose.obj")
         self.run("blockMesh")
-        self.run(flbc, "mesh", "cage.obj", "--vertices", "1500", "-q", "-o", "domain.mesh")
-        self.run(flbc, "solve", "cage.obj", "--domain", "domain.mesh", "-q", "-o", "weights.npy")
+        self.run(flbc, "solve", "cage.obj", "--vertices", "1500", "-q", "-o", "binding.npz")
 
     def path(self, *parts):
         return os.path.join(self.folder, *parts)
@@ -136,9 +133,9 @@ class Case:
     def end_at(self, time):
         self.dictionary("system/controlDict", CONTROL % time)
 
-    def move_to(self, pose, fixed="", rig=("cage.obj", "domain.mesh", "weights.npy")):
+    def move_to(self, pose, fixed="", rest="cage.obj", binding="binding.npz"):
         self.dictionary("constant/dynamicMeshDict",
-                        MOTION % (self.library, *rig, rig[0], pose, fixed))
+                        MOTION % (self.library, binding, rest, pose, fixed))
 
     def run(self, *command, fails=False):
         """Runs a program in the case. Returns its output."""

@@ -23,9 +23,8 @@ class OpenFoamTest(unittest.TestCase):
         cls.case = case = channel.Case(cls.folder + "/channel", FLBC, LIBRARY)
         cls.rest = case.points("constant")
         np.save(case.path("rest.npy"), cls.rest)
-        case.run(FLBC, "deform", "rest.npy", "--domain", "domain.mesh", "--weights", "weights.npy",
-                 "--rest", "cage.obj", "--pose", "pose.obj", "--outside", "nearest", "-q", "-o",
-                 "moved.npy")
+        case.run(FLBC, "deform", "rest.npy", "--weights", "binding.npz", "--pose", "pose.obj",
+                 "--outside", "nearest", "-q", "-o", "moved.npy")
         cls.inside = ((cls.rest[:, 0] >= 1) & (cls.rest[:, 0] <= 3) & (cls.rest[:, 1] <= 0.6))
         cls.moved = np.where(cls.inside[:, None], np.load(case.path("moved.npy")), cls.rest)
 
@@ -78,7 +77,7 @@ class OpenFoamTest(unittest.TestCase):
         self.assertIn("no patch ceiling", self.case.run("moveDynamicMesh", fails=True))
 
     def test_utility(self):
-        files = ["-cage", "cage.obj", "-domain", "domain.mesh", "-weights", "weights.npy"]
+        files = ["-binding", "binding.npz"]
         self.case.decompose(3)
         self.case.run_ranks(3, UTILITY, *files, "-pose", "pose.obj")
         self.expect_moved(self.case.points_of_ranks(3, "0.25"))
@@ -89,19 +88,16 @@ class OpenFoamTest(unittest.TestCase):
 
     def test_plane_cages_move_both_sides_alike(self):
         case = self.case
-        rig = ("plane.obj", "plane_domain.obj", "plane.npy")
-        channel.write_plane_cage(case.path(rig[0]), channel.control_points())
+        channel.write_plane_cage(case.path("plane.obj"), channel.control_points())
         channel.write_plane_cage(case.path("plane_pose.obj"), channel.control_points(0.2))
-        case.run(FLBC, "mesh", rig[0], "--vertices", "500", "-q", "-o", rig[1])
-        case.run(FLBC, "solve", rig[0], "--domain", rig[1], "-q", "-o", rig[2])
+        case.run(FLBC, "solve", "plane.obj", "--vertices", "500", "-q", "-o", "plane.npz")
         np.save(case.path("plane_rest.npy"), self.rest[:, :2])
-        case.run(FLBC, "deform", "plane_rest.npy", "--domain", rig[1], "--weights", rig[2],
-                 "--rest", rig[0], "--pose", "plane_pose.obj", "--outside", "nearest", "-q", "-o",
-                 "plane_moved.npy")
+        case.run(FLBC, "deform", "plane_rest.npy", "--weights", "plane.npz", "--pose",
+                 "plane_pose.obj", "--outside", "nearest", "-q", "-o", "plane_moved.npy")
         moved = self.rest.copy()
         moved[self.inside, :2] = np.load(case.path("plane_moved.npy"))[self.inside]
         self.assertGreater(np.abs(moved - self.rest).max(), 0.1)
-        case.move_to("plane_pose.obj", rig=rig)
+        case.move_to("plane_pose.obj", rest="plane.obj", binding="plane.npz")
         case.decompose(2)
         case.run_ranks(2, "moveDynamicMesh")
         points = case.points_of_ranks(2, "1")
@@ -125,6 +121,35 @@ class OpenFoamTest(unittest.TestCase):
         self.case.move_to("cut.obj")
         output = self.case.run("moveDynamicMesh", fails=True)
         self.assertIn("control point 0 moves by 0.1", output)
+
+    def refused(self, words, pose="pose.obj", binding="binding.npz"):
+        self.case.move_to(pose, binding=binding)
+        self.assertIn(words, self.case.run("moveDynamicMesh", fails=True))
+
+    def test_poses_with_other_vertices_are_refused(self):
+        points, path = channel.control_points(0.2), self.case.path("other.obj")
+        channel.write_cage(path, points)
+        with open(path, encoding="ascii") as file:
+            lines = file.readlines()
+        # The same surface, with vertices 1 and 2 exchanged, as exporters renumber them.
+        lines[1], lines[2] = lines[2], lines[1]
+        swap = {"2": "3", "3": "2"}
+        with open(path, "w", encoding="ascii") as file:
+            for line in lines:
+                words = line.split()
+                file.write(" ".join([swap.get(word, word) for word in words] if words[0] == "f"
+                                    else words) + "\n")
+        self.refused("no such face", "other.obj")
+        with open(path, "w", encoding="ascii") as file:
+            file.writelines(lines[:10])
+        self.refused("has 10 vertices, but the cage of the binding has 20", "other.obj")
+
+    def test_weights_that_do_not_reproduce_their_mesh_are_refused(self):
+        with np.load(self.case.path("binding.npz")) as file:
+            arrays = dict(file)
+        arrays["domain_data"] = arrays["domain_data"][::-1]
+        np.savez(self.case.path("wrong.npz"), **arrays)
+        self.refused("the weights do not put vertex", binding="wrong.npz")
 
 
 if __name__ == "__main__":

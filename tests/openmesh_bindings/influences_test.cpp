@@ -33,7 +33,7 @@ OpenMesh::VPropHandleT<Influences> add_influences(DoubleTri& mesh) {
 }
 
 void expect_influences(const DoubleTri& mesh) {
-  const auto weights = openmesh::get_weights(mesh);
+  const auto weights = openmesh::get_weights(mesh).dense();
   for (const auto v : mesh.vertices()) {
     ASSERT_EQ(weights.col(v.idx()), row_of(key(mesh, v), kCage, kMost)) << v.idx();
   }
@@ -52,9 +52,8 @@ TEST(InfluencesProperty, HoldsPairsInOrder) {
       EXPECT_LT(pairs.control_point(j - 1), pairs.control_point(j));
     }
   }
-  expect_refused<Error>("has 4 weights, more than 3", [&] {
-    openmesh::set_influences(mesh, SparseWeights(openmesh::get_weights(mesh)), 3);
-  });
+  expect_refused<Error>("has 4 weights, more than 3",
+                        [&] { openmesh::set_influences(mesh, openmesh::get_weights(mesh), 3); });
 }
 
 TEST(InfluencesProperty, FollowsItsVertices) {
@@ -134,7 +133,7 @@ class MeshWeights : public ::testing::Test {
     normalize_and_validate(sample_.mesh);
     mesh_ = openmesh::to_mesh<Mesh>(sample_.mesh);
     openmesh::solve(mesh_, sample_.cage);
-    weights_ = openmesh::get_weights(mesh_);
+    weights_ = openmesh::get_weights(mesh_).dense();
     pose_ = sample_.cage;
     for (Eigen::Index i = 0; i < pose_.points.cols(); ++i) {
       pose_.points(0, i) += 0.125 * static_cast<double>(i % 5);
@@ -190,7 +189,7 @@ TYPED_TEST(MeshWeights, SparsifyKeepsWhatCounts) {
     options.reduction = reduction;
     const auto quality = openmesh::sparsify(this->mesh_, most, options);
     EXPECT_LT(quality.max_reproduction_error, 1e-12);
-    const auto few = openmesh::get_weights(this->mesh_);
+    const auto few = openmesh::get_weights(this->mesh_).dense();
     EXPECT_LE((few.array() != 0).colwise().count().maxCoeff(), most);
     EXPECT_GE(few.minCoeff(), 0);
     EXPECT_LT((few.colwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
@@ -208,8 +207,8 @@ TYPED_TEST(MeshWeights, SparsifyLeavesTheOthersIfAsked) {
   openmesh::ReductionOptions options;
   options.into = "few";
   openmesh::sparsify(this->mesh_, 5, options);
-  EXPECT_EQ(openmesh::get_weights(this->mesh_), this->weights_);
-  EXPECT_EQ(openmesh::get_weights(this->mesh_, "few").rows(), this->weights_.rows());
+  EXPECT_EQ(openmesh::get_weights(this->mesh_).dense(), this->weights_);
+  EXPECT_EQ(openmesh::get_weights(this->mesh_, "few").num_control_points(), this->weights_.rows());
   EXPECT_EQ(openmesh::get_rest_cage(this->mesh_, "few"), this->sample_.cage.points);
   // Again, from what was left.
   options.weights = options.into;

@@ -17,7 +17,7 @@ namespace flbc {
 //! Limits on the number and size of the weights of a point.
 struct SparsifyOptions {
   //! Maximum influences per point, >= Dim + 1: fewer cannot reproduce a point inside the hull.
-  Index max_influences = std::numeric_limits<Index>::max();
+  Index max_influences = (std::numeric_limits<Index>::max)();
   //! Threshold in [0, 1). Smaller weights are dropped first, if the rest can still reproduce the
   //! point. The adjusted remaining weights may end up below the threshold.
   double threshold = 0;

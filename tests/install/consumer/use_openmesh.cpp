@@ -37,9 +37,9 @@ int main() {
     mesh.add_face(mesh.vertex_handle(k), mesh.vertex_handle((k + 1) % 4), mesh.vertex_handle(4));
   }
   flbc::openmesh::solve(mesh, cage);
-  const int fine = judge<2>(cage, points, flbc::openmesh::get_weights(mesh));
+  const int fine = judge<2>(cage, points, flbc::openmesh::get_weights(mesh).dense());
   // With a given mesh, no other component is needed.
   flbc::openmesh::bind(mesh, cage, flbc::openmesh::to_domain(mesh));
   flbc::openmesh::deform(mesh, cage);
-  return fine + judge<2>(cage, points, flbc::openmesh::get_weights(mesh));
+  return fine + judge<2>(cage, points, flbc::openmesh::get_weights(mesh).dense());
 }

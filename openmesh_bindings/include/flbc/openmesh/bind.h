@@ -4,10 +4,10 @@
 //! cage.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -16,6 +16,7 @@
 #include "flbc/binding.h"
 #include "flbc/bounding_box.h"
 #include "flbc/linked_meshers.h"
+#include "flbc/openmesh/binding.h"
 #include "flbc/openmesh/convert.h"
 #include "flbc/openmesh/deform.h"
 #include "flbc/openmesh/sparsify.h"
@@ -36,9 +37,11 @@ struct BindOptions : flbc::BindOptions {
 namespace internal {
 
 //! The weights with at most `most` influences (0: any number) nearest to `weights` that reproduce a
-//! point. \param cage  Dim x n \throws InputError naming the vertex if no weights >= 0 reproduce it
+//! point. \param cage  Dim x n \param masked  control points whose weights are 0
+//! \throws InputError naming the vertex if no weights >= 0 reproduce it
 Eigen::VectorXd reproducing(const Eigen::MatrixXd& cage, const Eigen::VectorXd& point, int vertex,
-                            const Eigen::VectorXd& weights, std::size_t most);
+                            const Eigen::VectorXd& weights, std::size_t most,
+                            const std::vector<Index>& masked);
 
 [[noreturn]] void refuse_without_neighbors(int vertex);
 [[noreturn]] void refuse_moved(int vertex);
@@ -97,32 +100,54 @@ inline void set_row(const Eigen::VectorXd& weights, const RowsView<double>& row)
   row.matrix().row(0) = weights.transpose();
 }
 
+//! Masks of vertices that are bound one after another: where all bound neighbors are masked.
+class NewMasks {
+ public:
+  //! \param rows  with n control points \param count  vertices
+  NewMasks(const BindingRows& rows, Index n, Index count)
+      : masks_(masks_in(rows)), given_(masks_, n, count) {}
+
+  //! \return the masked control points, ascending
+  std::vector<Index> add(Index vertex, const std::vector<Index>& neighbors);
+
+  const std::vector<Mask>& all() const { return masks_; }
+
+ private:
+  const std::vector<Index>& at(Index vertex) const;
+
+  std::vector<Mask> masks_;
+  PointMasks given_;
+  std::map<Index, std::vector<Index>> new_{};
+};
+
 //! \param block  of the weights \param most  pairs per vertex; 0 = all weights
 template <class Mesh, class Block>
 void bind_new(Mesh& mesh, Block& block, const Eigen::MatrixXd& cage, std::size_t most,
-              RowBlock<double>& rest, std::vector<OpenMesh::VertexHandle> open,
+              RowBlock<double>& rest, NewMasks& masks, std::vector<OpenMesh::VertexHandle> open,
               std::vector<bool> are_bound) {
+  const auto positions = positions_of(mesh);
   while (!open.empty()) {
     std::vector<OpenMesh::VertexHandle> done, left;
     for (const auto vertex : open) {
       const auto v = static_cast<std::size_t>(vertex.idx());
       Eigen::VectorXd mean = Eigen::VectorXd::Zero(cage.cols());
-      int neighbors = 0;
+      std::vector<Index> neighbors;
       for (const auto neighbor : mesh.vv_range(vertex)) {
         if (!are_bound[static_cast<std::size_t>(neighbor.idx())]) continue;
         add_row(std::as_const(block)[static_cast<std::size_t>(neighbor.idx())], mean);
-        ++neighbors;
+        neighbors.push_back(neighbor.idx());
       }
-      if (neighbors == 0) {
+      if (neighbors.empty()) {
         left.push_back(vertex);
         continue;
       }
-      Eigen::VectorXd point(cage.rows());
-      for (int d = 0; d < cage.rows(); ++d) point[d] = static_cast<double>(mesh.point(vertex)[d]);
-      set_row(reproducing(cage, point, vertex.idx(), mean / neighbors, most), block[v]);
-      for (int d = 0; d < kPointSize<Mesh>; ++d) {
-        rest[v][static_cast<std::size_t>(d)] = static_cast<double>(mesh.point(vertex)[d]);
-      }
+      mean /= static_cast<double>(neighbors.size());
+      const auto position = std::as_const(positions)[v];
+      const Eigen::VectorXd point = position.matrix().row(0).head(cage.rows());
+      set_row(
+          reproducing(cage, point, vertex.idx(), mean, most, masks.add(vertex.idx(), neighbors)),
+          block[v]);
+      rest[v] = position;
       done.push_back(vertex);
     }
     if (done.empty()) refuse_without_neighbors(left.front().idx());
@@ -157,32 +182,6 @@ auto as_cage(const AnyCage& cage) {
   }
 }
 
-template <class Mesh>
-void keep_rest(Mesh& mesh, const std::string& weights, bool persistent) {
-  auto& rest = get_property<Wide<double>>(mesh, name_of_rest(weights));
-  rest.set_shape(1, static_cast<std::size_t>(kPointSize<Mesh>));
-  for (const auto vertex : mesh.vertices()) {
-    const auto& point = mesh.point(vertex);
-    for (int d = 0; d < kPointSize<Mesh>; ++d) {
-      rest[vertex.idx()][static_cast<std::size_t>(d)] = static_cast<double>(point[d]);
-    }
-  }
-  if (persistent) rest.set_persistent(true);
-}
-
-//! A row per point; of width 0 without points.
-template <int Dim>
-RowBlock<double> rows_of(const PointList<Dim>& points) {
-  RowBlock<double> rows(1, points.cols() == 0 ? 0 : Dim);
-  rows.resize(static_cast<std::size_t>(points.cols()));
-  for (Eigen::Index p = 0; p < points.cols(); ++p) {
-    for (int d = 0; d < Dim; ++d) {
-      rows[static_cast<std::size_t>(p)][static_cast<std::size_t>(d)] = points(d, p);
-    }
-  }
-  return rows;
-}
-
 template <int Dim, class Mesh>
 BindReport bind_to(Mesh& model, const Cage<Dim>& cage, const DomainMesh<Dim>* domain,
                    const Meshers<Dim>& meshers, const BindOptions& options) {
@@ -191,25 +190,9 @@ BindReport bind_to(Mesh& model, const Cage<Dim>& cage, const DomainMesh<Dim>* do
   const auto edges = edge_list_at<Dim>(model, points);
   auto binding = domain != nullptr ? flbc::bind<Dim>(cage, *domain, points, edges, options)
                                    : flbc::bind<Dim>(cage, points, edges, options, meshers);
-  if (options.max_influences > 0) {
-    const Index most = options.outside == OutsidePoints::kExtend
-                           ? 0
-                           : std::min(options.max_influences, cage.size());
-    set_influences(model, binding.weights, static_cast<std::size_t>(most), options.weights,
-                   options.persistent);
-  } else {
-    set_weights(model, binding.weights.dense(), options.weights, options.persistent);
-  }
-  auto offsets = rows_of(binding.offsets);
-  // A vertex at the origin that stays there has an offset as well, unlike one that is added later.
-  for (std::size_t v = 0; v < offsets.size(); ++v) {
-    if (!binding.weights.has_weights(static_cast<Index>(v)) && is_unbound(offsets[v])) {
-      offsets[v][0] = std::numeric_limits<double>::denorm_min();
-    }
-  }
-  set_offsets(model, offsets, options.weights, options.persistent);
-  set_rest_cage(model, cage.points, options.weights, options.persistent);
-  keep_rest(model, options.weights, options.persistent);
+  auto rows = rows_of(binding);
+  rows.rest = positions_of(model);
+  attach(model, binding.weights, rows, options.max_influences, options.weights, options.persistent);
   return std::move(binding.report);
 }
 
@@ -245,36 +228,45 @@ BindReport bind(Model& model, const Cage<Dim>& cage, const DomainMesh<Dim>& doma
 }
 
 //! Binds vertices that were added after bind(), for example by split(). They get the mean of the
-//! weights of their neighbors, changed as little as is needed to reproduce their positions. The
-//! model must be at rest. Other vertices keep their weights.
+//! weights of their neighbors, changed as little as is needed to reproduce their positions. A
+//! control point that is masked at all bound neighbors is masked at a new vertex as well. New
+//! vertices have no mirror image. The model must be at rest. Other vertices keep their weights.
 //! \return number of new vertices
 //! \throws InputError if the model was not bound, or naming a vertex that is not at rest, that no
-//! neighbors connect with bound ones, or that lies outside the convex hull of the cage. Vertices
-//! before it may be bound
+//! neighbors connect with bound ones, or that lies outside the convex hull of the control points
+//! that may move it. The model is then unchanged
 template <class Model>
 Index bind_new_vertices(Model& model, const std::string& weights = kWeights) {
   static_assert(!std::is_same_v<Model, TetMesh>, "the vertices of a TetMesh do not change");
-  const auto cage = get_rest_cage(model, weights);
-  const auto rest_name = internal::name_of_rest(weights);
-  if (!internal::find_property<Wide<double>>(model, rest_name) || cage.size() == 0) {
-    internal::refuse_without_weights(rest_name);
+  auto rows = internal::rows_in(model, weights);
+  if (rows.rest.size() == 0 || rows.cage.size() == 0) {
+    internal::refuse_without_weights(internal::name_of_rest(weights));
   }
-  auto& rest = internal::get_property<Wide<double>>(model, rest_name).data_vector();
   auto are_bound = internal::bound_vertices(model, weights);
-  internal::require_at_rest(model, rest, are_bound);
+  internal::require_at_rest(model, rows.rest, are_bound);
   std::vector<OpenMesh::VertexHandle> open;
   for (const auto vertex : model.vertices()) {
     if (!are_bound[static_cast<std::size_t>(vertex.idx())]) open.push_back(vertex);
   }
   const auto count = static_cast<Index>(open.size());
-  if (internal::find_property<Influences>(model, weights)) {
-    auto& block = internal::get_property<Influences>(model, weights).data_vector();
-    internal::bind_new(model, block, cage, block.most(), rest, std::move(open),
+  if (count == 0) return 0;
+  const auto cage = get_rest_cage(model, weights);
+  const auto n = static_cast<Index>(cage.cols());
+  internal::NewMasks masks(rows, n, static_cast<Index>(model.n_vertices()));
+  const auto bind_with = [&](auto& property, std::size_t most) {
+    auto block = property.data_vector();
+    internal::bind_new(model, block, cage, most, rows.rest, masks, std::move(open),
                        std::move(are_bound));
+    property.data_vector() = std::move(block);
+    internal::set_masks(rows, masks.all(), n, static_cast<Index>(model.n_vertices()));
+    internal::write_rows(model, rows, weights, false);
+  };
+  if (internal::find_property<Influences>(model, weights)) {
+    auto& property = internal::get_property<Influences>(model, weights);
+    bind_with(property, property.most());
   } else {
     weights_property(model, weights);
-    auto& block = internal::get_property<Wide<double>>(model, weights).data_vector();
-    internal::bind_new(model, block, cage, 0, rest, std::move(open), std::move(are_bound));
+    bind_with(internal::get_property<Wide<double>>(model, weights), 0);
   }
   return count;
 }
@@ -287,15 +279,12 @@ void set_persistent(Model& model, const std::string& weights = kWeights, bool ye
     internal::get_property<Influences>(model, weights).set_persistent(yes);
   } else {
     weights_property(model, weights);
+    internal::get_property<Wide<double>>(model, weights).set_persistent(yes);
   }
-  for (const auto& name :
-       {weights, internal::name_of_offset(weights), internal::name_of_rest(weights)}) {
-    if (!internal::find_property<Wide<double>>(model, name)) continue;
-    internal::get_property<Wide<double>>(model, name).set_persistent(yes);
-  }
-  OpenMesh::MPropHandleT<Wide<double>> cage;
-  if (!model.get_property_handle(cage, internal::name_of_cage(weights))) return;
-  model.mproperty(cage).set_persistent(yes);
+  internal::visit_rows(weights, [&](auto handle, const std::string& name, auto) {
+    if (!model.get_property_handle(handle, name)) return;
+    internal::wide_property(model, handle).set_persistent(yes);
+  });
 }
 
 //! Restores the vertex positions at the time of bind(). Vertices that were added since stay where

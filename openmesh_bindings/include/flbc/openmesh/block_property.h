@@ -65,7 +65,11 @@ class BlockProperty : public OpenMesh::BaseProperty, public BlockTypes<V> {
 
   // The synchronized array. New elements are 0; clear() frees the memory and keeps the shape.
   void reserve(std::size_t elements) override { block_.reserve(elements); }
-  void resize(std::size_t elements) override { block_.resize(elements); }
+  // After clean(), which keeps the elements, add_vertex() asks for one element: it is new as well.
+  void resize(std::size_t elements) override {
+    if (elements == 1 && block_.size() > 1) block_.resize(0);
+    block_.resize(elements);
+  }
   void clear() override { block_.clear(); }
   void push_back() override { block_.resize(block_.size() + 1); }
   void swap(std::size_t first, std::size_t second) override { block_.swap(first, second); }

@@ -59,13 +59,10 @@ bool is_unbound(const RowsView<Weight>& row) {
 //! Deforms one point per element of `weights` with the control points (Dim x n).
 //! \param offsets  Dim values per point to add; may be null
 //! \return number of points with neither weights nor an offset
-//! \throws InputError if the numbers of control points differ
+//! \throws InputError if the numbers of control points differ, or no point has weights or an offset
 template <class Block, class Scalar, int Dim>
 Index move_points(const Block& weights, const PointList<Dim>& control_points,
                   const RowBlock<double>* offsets, int threads, const PointsView<Scalar>& points);
-
-//! \throws InputError if the numbers of vertices and of rows of weights differ
-void require_vertices(std::size_t vertices, std::size_t rows);
 
 template <class Mesh>
 void update_normals(Mesh& mesh) {
@@ -90,7 +87,7 @@ void update_normals(Mesh& mesh) {
 //! \param control_points  Dim x n
 //! \return number of vertices that were not bound
 //! \throws InputError if the mesh has no weights of this name, the number of control points differs,
-//! or clean() has removed vertices but not their properties
+//! no vertex was bound, or clean() has removed vertices but not their properties
 template <class Mesh, int Dim>
 Index deform(Mesh& mesh, const PointList<Dim>& control_points, const DeformOptions& options = {}) {
   static_assert(kPointSize<Mesh> >= Dim, "the points of this mesh have two coordinates");

@@ -265,7 +265,7 @@ class GradientAdmm {
   }
 
   void clip_dual(Cell cell, Rows& clipped, Rows& squares) const {
-    constexpr Scalar kTiny = std::numeric_limits<Scalar>::min();
+    constexpr Scalar kTiny = (std::numeric_limits<Scalar>::min)();
     clipped = cell_dual(cell) - mu_ * rows(extrapolated_, cell);
     squares = clipped.cwiseAbs2();
     for (int d = 1; d < kDim; ++d) squares.row(0) += squares.row(d);

@@ -133,7 +133,7 @@ class RowBlock {
 
  private:
   static constexpr std::size_t kMostNumbers =
-      std::numeric_limits<std::ptrdiff_t>::max() / sizeof(Scalar);
+      (std::numeric_limits<std::ptrdiff_t>::max)() / sizeof(Scalar);
 
   std::size_t numbers_of(std::size_t elements) const {
     if (element_size() > 0 && elements > kMostNumbers / element_size()) throw std::bad_alloc();

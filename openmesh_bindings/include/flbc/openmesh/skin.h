@@ -11,8 +11,8 @@
 #include <OpenMesh/Core/Utils/color_cast.hh>
 
 #include "flbc/io/model.h"
+#include "flbc/openmesh/binding.h"
 #include "flbc/openmesh/convert.h"
-#include "flbc/openmesh/sparsify.h"
 #include "flbc/openmesh/weights.h"
 
 namespace flbc::openmesh {
@@ -26,17 +26,9 @@ struct SkinOptions {
 
 namespace internal {
 
-//! A model at rest with its weights (n x P) and cage.
+//! \param model  without points, which follow from the binding
 template <int Dim>
-struct SkinInput {
-  PointList<Dim> cage;
-  WeightMatrix weights;
-  RowBlock<double> offsets;  //!< from bind(); of width 0 if there are none
-  io::Model model;           //!< without points, which follow from weights and offsets
-};
-
-template <int Dim>
-void write_skin_file(const std::string& path, SkinInput<Dim> input,
+void write_skin_file(const std::string& path, const Binding<Dim>& binding, io::Model model,
                      const std::vector<PointList<Dim>>& poses, const SkinOptions& options);
 
 //! Faces, and vertex attributes from the standard properties of OpenMesh.
@@ -72,8 +64,9 @@ io::Model faces_and_attributes(const Mesh& mesh) {
 
 //! Writes the rest mesh as a glTF 2.0 skin (.glb) or a USD skin (.usda), like `flbc export`. The
 //! joints are the control points and only translate, so other programs deform the mesh as deform()
-//! does. The current vertex positions have no effect. Vertex colors and texture coordinates are
-//! written if the mesh has them; normals are those of the rest mesh.
+//! does, also where weights are masked or mirrored. The current vertex positions have no effect,
+//! except for vertices that were not bound, which do not move. Vertex colors and texture
+//! coordinates are written if the mesh has them; normals are those of the rest mesh.
 //! \param mesh  with weights and the rest cage from bind() or solve() (set_rest_cage())
 //! \param poses  an animation: control points, Dim x n each; may be empty
 //! \throws InputError if the mesh has no weights or faces, the rest cage is missing or has another
@@ -84,18 +77,10 @@ void write_skin(const std::string& path, const Mesh& mesh, const std::vector<Poi
                 const SkinOptions& options = {}) {
   static_assert(!std::is_same_v<Mesh, TetMesh>, "a skin is a surface: use a TriMesh or PolyMesh");
   internal::refuse_deleted_elements(mesh);
-  const auto cage = get_rest_cage(mesh, options.weights);
-  internal::require_rest_cage(cage, options.weights);
-  if (cage.rows() != Dim) {
-    throw InputError("the cage of the weights '" + options.weights + "' has " +
-                     std::to_string(cage.rows()) + " dimensions, but the poses have " +
-                     std::to_string(Dim));
-  }
   internal::write_skin_file<Dim>(
       path,
-      {PointList<Dim>(cage), get_weights(mesh, options.weights),
-       internal::offsets_of(mesh, options.weights), internal::faces_and_attributes(mesh)},
-      poses, options);
+      internal::binding_of<Dim>(mesh, internal::rows_in(mesh, options.weights), options.weights),
+      internal::faces_and_attributes(mesh), poses, options);
 }
 
 //! The same without an animation.

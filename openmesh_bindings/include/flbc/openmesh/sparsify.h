@@ -3,12 +3,10 @@
 //! Reduces influences per vertex on a mesh.
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <type_traits>
 
-#include "flbc/deform.h"
-#include "flbc/openmesh/convert.h"
+#include "flbc/openmesh/binding.h"
 #include "flbc/openmesh/weights.h"
 #include "flbc/quality.h"
 #include "flbc/sparsify.h"
@@ -26,35 +24,25 @@ struct ReductionOptions {
   bool persistent = false;  //!< whether .om files store it
 };
 
-namespace internal {
-
-void require_rest_cage(const Eigen::MatrixXd& cage, const std::string& weights);
-
-}  // namespace internal
-
 //! Reduces the weights to at most `most` influences per vertex, as a property of type Influences.
-//! Weights are non-negative, sum to 1, and keep the rest positions. \param cage  rest cage of the
-//! weights
+//! Weights are non-negative, sum to 1, and keep the rest positions. All else of a binding stays:
+//! masked weights are exactly 0, mirrored ones bit-identical, and vertices outside follow the cage
+//! as before; those of OutsidePoints::kExtend keep all their weights.
+//! \param cage  rest cage of the weights
 //! \return quality of the new weights
 //! \throws OptionError for fewer than Dim + 1 influences; InputError if the mesh has no weights of
 //! this name, or weights for another cage
 template <class Mesh, int Dim>
 Quality sparsify(Mesh& mesh, const PointList<Dim>& cage, Index most,
                  const ReductionOptions& options = {}) {
-  const auto weights = get_weights(mesh, options.weights);
-  internal::require_control_points(static_cast<std::size_t>(weights.rows()), cage.cols());
-  const PointList<Dim> rest = cage * weights;
-  // Edge lengths are those of the rest mesh.
-  const auto edges = internal::edge_list_at<Dim>(mesh, rest);
-  const auto reduced = reduce_influences<Dim>(cage, rest, edges, SparseWeights(weights), {},
-                                              {most, options.threshold}, options.reduction);
-  const std::string& into = options.into.empty() ? options.weights : options.into;
-  const auto offset = internal::offsets_of(mesh, options.weights);
-  set_influences(mesh, reduced, static_cast<std::size_t>(std::min<Eigen::Index>(most, cage.cols())),
-                 into, options.persistent);
-  internal::set_offsets(mesh, offset, into, options.persistent);
-  set_rest_cage(mesh, cage, into, options.persistent);
-  return measure_quality<Dim>(cage, rest, reduced);
+  auto rows = internal::rows_in(mesh, options.weights);
+  rows.cage = internal::zeros(1, static_cast<std::size_t>(cage.cols()), Dim);
+  rows.cage[0].matrix() = cage.transpose();
+  const auto few = internal::binding_of<Dim>(mesh, rows, options.weights)
+                       .reduced({most, options.threshold}, {}, options.reduction);
+  internal::attach(mesh, few.weights, rows, most,
+                   options.into.empty() ? options.weights : options.into, options.persistent);
+  return measure_quality<Dim>(cage, few.points, few.weights);
 }
 
 //! The same with the rest cage stored by solve() or bind().
@@ -62,15 +50,13 @@ Quality sparsify(Mesh& mesh, const PointList<Dim>& cage, Index most,
 template <class Mesh>
 Quality sparsify(Mesh& mesh, Index most, const ReductionOptions& options = {}) {
   const auto cage = get_rest_cage(mesh, options.weights);
-  internal::require_rest_cage(cage, options.weights);
   if constexpr (!std::is_same_v<Mesh, TetMesh>) {
     if (cage.rows() == 2) return sparsify(mesh, PointList<2>(cage), most, options);
   }
   if constexpr (kPointSize<Mesh> == 3) {
     if (cage.rows() == 3) return sparsify(mesh, PointList<3>(cage), most, options);
   }
-  throw InputError("the cage of the weights '" + options.weights + "' has " +
-                   std::to_string(cage.rows()) + " dimensions, but the mesh does not");
+  internal::refuse_rest_cage(static_cast<std::size_t>(cage.rows()), options.weights);
 }
 
 }  // namespace flbc::openmesh

@@ -55,9 +55,11 @@ void require_number_of_vertices(Eigen::Index in_weights, std::size_t in_mesh);
 void require_control_points(std::size_t in_weights, Eigen::Index in_cage);
 [[noreturn]] void refuse_without_weights(const std::string& name);
 
-//! The weights, n x V. Values beyond the width of a row are padding.
-WeightMatrix to_matrix(const RowBlock<double>& rows);
-WeightMatrix to_matrix(const InfluenceBlock& block);
+//! \throws InputError if the numbers of vertices and of rows of weights differ
+void require_vertices(std::size_t vertices, std::size_t rows);
+
+SparseWeights to_sparse(const RowBlock<double>& rows);
+SparseWeights to_sparse(const InfluenceBlock& block);
 
 //! \param most  pairs per point; 0 = the maximum over all points
 InfluenceBlock to_influences(const SparseWeights& weights, std::size_t most);
@@ -88,31 +90,58 @@ std::pair<OpenMesh::PropertyT<typename Handle::Value>*, bool> attach_rows(Mesh& 
 std::string name_of_cage(const std::string& weights);
 std::string name_of_offset(const std::string& weights);
 std::string name_of_rest(const std::string& weights);
+std::string name_of_masks(const std::string& weights);
+std::string name_of_mirror(const std::string& weights);
 
-//! Removes the property of this name in the form other than T, with its associated properties.
+//! What a binding has next to its weights, as properties store it; without elements: nothing.
+//! Values of new vertices are 0.
+struct BindingRows {
+  //! Per vertex: Dim values to add to weighted control points. Only vertices outside have some;
+  //! they are negligible where the weights include them.
+  RowBlock<double> offsets{};
+  RowBlock<double> rest{};      //!< per vertex: its position at rest
+  RowBlock<double> cage{};      //!< a row of Dim values per control point
+  RowBlock<double> kinds{};     //!< per vertex: the row of `masks`, from 1; 0: none
+  RowBlock<double> masks{};     //!< a row of n values per set of masked control points: 1 = masked
+  RowBlock<double> partners{};  //!< per vertex: its number, and that of its image; from 1; 0: none
+  RowBlock<double> mirror{};    //!< the axis, and the image of each control point
+};
+
+//! Calls a function for each property of BindingRows: action(handle, name, member).
+template <class Action>
+void visit_rows(const std::string& weights, const Action& action) {
+  const OpenMesh::VPropHandleT<Wide<double>> of_vertices;
+  const OpenMesh::MPropHandleT<Wide<double>> of_mesh;
+  action(of_vertices, name_of_offset(weights), &BindingRows::offsets);
+  action(of_vertices, name_of_rest(weights), &BindingRows::rest);
+  action(of_mesh, name_of_cage(weights), &BindingRows::cage);
+  action(of_vertices, name_of_masks(weights), &BindingRows::kinds);
+  action(of_mesh, name_of_masks(weights), &BindingRows::masks);
+  action(of_vertices, name_of_mirror(weights), &BindingRows::partners);
+  action(of_mesh, name_of_mirror(weights), &BindingRows::mirror);
+}
+
+template <class Mesh>
+auto& wide_property(Mesh& mesh, OpenMesh::VPropHandleT<Wide<double>> handle) {
+  return mesh.property(handle);
+}
+template <class Mesh>
+auto& wide_property(Mesh& mesh, OpenMesh::MPropHandleT<Wide<double>> handle) {
+  return mesh.mproperty(handle);
+}
+
+//! Removes the property of this name in the form other than T, with the properties that other
+//! weights would contradict.
 template <class T, class Mesh>
 void make_way_for(Mesh& mesh, const std::string& name) {
   if constexpr (!std::is_same_v<T, Influences>) remove_property<Influences>(mesh, name);
   if constexpr (!std::is_same_v<T, Wide<double>>) remove_property<Wide<double>>(mesh, name);
-  remove_property<Wide<double>>(mesh, name_of_offset(name));
+  visit_rows(name, [&](auto handle, const std::string& other, auto member) {
+    if (member == &BindingRows::rest || member == &BindingRows::cage) return;
+    if (mesh.get_property_handle(handle, other)) mesh.remove_property(handle);
+  });
   typename Elements<Mesh>::template CellProperty<Wide<double>> gradients;
   if (mesh.get_property_handle(gradients, gradients_name(name))) mesh.remove_property(gradients);
-}
-
-//! Offsets of points outside the cage from the position that their weights reproduce: a row of Dim
-//! values per vertex, of width 0 if there are no such points.
-template <class Mesh>
-RowBlock<double> offsets_of(const Mesh& mesh, const std::string& weights) {
-  const auto* property = find_property<Wide<double>>(mesh, name_of_offset(weights));
-  return property ? property->data_vector() : RowBlock<double>();
-}
-template <class Mesh>
-void set_offsets(Mesh& mesh, const RowBlock<double>& offsets, const std::string& weights,
-                 bool persistent) {
-  if (offsets.width() == 0) return;
-  auto& property = get_property<Wide<double>>(mesh, name_of_offset(weights));
-  property.data_vector() = offsets;
-  if (persistent) property.set_persistent(true);
 }
 
 }  // namespace internal
@@ -161,14 +190,16 @@ const OpenMesh::PropertyT<Wide<double>>& weights_property(const Mesh& mesh,
   return *rows;
 }
 
-//! The weights, from either form. \return n x V
-//! \throws InputError if the mesh has no weights of this name
+//! The weights of the V vertices, from either form.
+//! \throws InputError if the mesh has no weights of this name, or clean() has removed vertices but
+//! not their properties
 template <class Mesh>
-WeightMatrix get_weights(const Mesh& mesh, const std::string& name = kWeights) {
-  if (const auto* influences = internal::find_property<Influences>(mesh, name)) {
-    return internal::to_matrix(influences->data_vector());
-  }
-  return internal::to_matrix(weights_property(mesh, name).data_vector());
+SparseWeights get_weights(const Mesh& mesh, const std::string& name = kWeights) {
+  const auto* influences = internal::find_property<Influences>(mesh, name);
+  auto weights = influences ? internal::to_sparse(influences->data_vector())
+                            : internal::to_sparse(weights_property(mesh, name).data_vector());
+  internal::require_vertices(mesh.n_vertices(), static_cast<std::size_t>(weights.num_points()));
+  return weights;
 }
 
 //! Stores the rest cage with the weights, as MProp<Wide<double>> with one element: a row of Dim

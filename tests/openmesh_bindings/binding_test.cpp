@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A bound mesh keeps what its binding promises: masks, mirror images, and vertices outside.
+#include "flbc/openmesh/binding.h"
+
+#include "flbc/openmesh/bind.h"
+#include "flbc/openmesh/skin.h"
+#include "support/glb_file.h"
+#include "support/io_files.h"
+#include "support/refined_sample.h"
+#include "support/wide_meshes.h"
+
+namespace flbc::testing {
+namespace {
+
+constexpr int kOutside = 45;
+
+// A sheet in a box. Both are symmetric across x = 0.5. Control points on the right do not move the
+// left part of the sheet.
+template <int Dim>
+struct Sheet {
+  Sheet() : sample(with_fine_cage<Dim>(Shape::kBox, 4, 8)), mesh(make_squares<DoubleTri>()) {
+    for (const auto v : mesh.vertices()) {
+      const auto at = mesh.point(v);
+      mesh.set_point(v, {0.5 + 0.12 * (at[0] - 3), 0.14 + 0.12 * at[1], 0.4});
+    }
+    options.max_influences = 8;
+    options.mirror_axis = 0;
+    options.persistent = true;
+    const auto points = openmesh::points_of<Dim>(mesh);
+    const auto& control_points = sample.cage.points;
+    for (Index p = 0; p < points.cols(); ++p) {
+      if (points(0, p) < 0.4) left.push_back(p);
+    }
+    for (Index i = 0; i < sample.cage.size(); ++i) {
+      if (control_points(0, i) > 0.6) right.push_back(i);
+    }
+    options.masks = {{right, left}};
+  }
+  void bind() { openmesh::bind(mesh, sample.cage, sample.mesh, options); }
+
+  Sample<Dim> sample;
+  DoubleTri mesh;
+  openmesh::BindOptions options;
+  std::vector<Index> left, right;  // vertices, control points
+};
+
+template <int Dim>
+Binding<Dim> binding_of(const DoubleTri& mesh, const std::string& weights = openmesh::kWeights) {
+  return openmesh::internal::binding_of<Dim>(mesh, openmesh::internal::rows_in(mesh, weights),
+                                             weights);
+}
+
+DoubleTri stored(const DoubleTri& mesh) {
+  std::stringstream file;
+  EXPECT_TRUE(OpenMesh::IO::write_mesh(mesh, file, ".om"));
+  DoubleTri loaded;
+  OpenMesh::IO::Options options(OpenMesh::IO::Options::Binary);
+  EXPECT_TRUE(OpenMesh::IO::read_mesh(loaded, file, ".om", options));
+  return loaded;
+}
+
+template <int Dim>
+void expect_same_promises(const Binding<Dim>& found, const Binding<Dim>& expected) {
+  EXPECT_EQ(found.cage.points, expected.cage.points);
+  EXPECT_EQ(found.policy, expected.policy);
+  EXPECT_EQ(found.outside, expected.outside);
+  EXPECT_LT((found.rest() - expected.rest()).cwiseAbs().maxCoeff(), 1e-13);
+  const Index n = found.cage.size(), count = found.weights.num_points();
+  const PointMasks masks(found.masks, n, count), given(expected.masks, n, count);
+  EXPECT_EQ(masks.points(), given.points());
+  for (const Index p : given.points()) EXPECT_EQ(masks.forbidden(p), given.forbidden(p));
+  ASSERT_EQ(found.mirror.has_value(), expected.mirror.has_value());
+  EXPECT_EQ(found.mirror->axis, expected.mirror->axis);
+  EXPECT_EQ(found.mirror->images, expected.mirror->images);
+  EXPECT_EQ(found.mirror->partners, expected.mirror->partners);
+}
+
+// \return number of weights that are masked
+template <int Dim>
+int expect_kept(const Binding<Dim>& binding) {
+  const auto weights = binding.weights.dense();
+  int count = 0;
+  for (const auto& mask : binding.masks) {
+    for (const Index p : mask.points) {
+      for (const Index i : mask.control_points) EXPECT_EQ(weights(i, p), 0) << p;
+      count += static_cast<int>(mask.control_points.size());
+    }
+  }
+  const auto& [axis, images, partners] = *binding.mirror;
+  for (std::size_t p = 0; p < partners.size(); ++p) {
+    if (partners[p] < 0) continue;
+    const auto row = weights.col(static_cast<Index>(p));
+    EXPECT_EQ(row(images).eval(), weights.col(partners[p])) << p;
+  }
+  return count;
+}
+
+TEST_IN_2D_AND_3D(MeshBinding, CopiesFilesAndReductionsKeepIt) {
+  for (const auto outside :
+       {OutsidePoints::kNearest, OutsidePoints::kKeep, OutsidePoints::kExtend}) {
+    Sheet<Dim> sheet;
+    sheet.mesh.set_point(OpenMesh::VertexHandle(kOutside), {0.5, 1.2, 0.4});
+    sheet.options.outside = outside;
+    const auto expected =
+        bind<Dim>(sheet.sample.cage, sheet.sample.mesh, openmesh::points_of<Dim>(sheet.mesh),
+                  openmesh::edge_list<Dim>(sheet.mesh), sheet.options);
+    ASSERT_EQ(expected.outside, std::vector<Index>{kOutside});
+    sheet.bind();
+    for (auto mesh : {sheet.mesh, stored(sheet.mesh)}) {
+      const auto found = binding_of<Dim>(mesh);
+      EXPECT_TRUE(found.weights == expected.weights);
+      expect_same_promises(found, expected);
+      EXPECT_GT(expect_kept(found), 0);
+      openmesh::ReductionOptions few;
+      few.into = "few";
+      openmesh::deform(mesh, PointList<Dim>(2 * sheet.sample.cage.points));
+      openmesh::sparsify(mesh, 2 * Dim + 2, few);
+      const auto reduced = binding_of<Dim>(mesh, "few");
+      expect_same_promises(reduced, expected);
+      EXPECT_GT(expect_kept(reduced), 0);
+      for (Index p = 0; p < reduced.weights.num_points(); ++p) {
+        if (p == kOutside) continue;
+        EXPECT_LE(reduced.weights.count(p), 2 * Dim + 2);
+      }
+      openmesh::sparsify(mesh, 2 * Dim + 2);
+      expect_same_promises(binding_of<Dim>(stored(mesh)), expected);
+      openmesh::restore_rest(mesh, "few");
+      for (const auto v : mesh.vertices()) EXPECT_EQ(mesh.point(v), sheet.mesh.point(v));
+    }
+  }
+}
+
+// The reduction adopts influences of neighbors, unless they are masked.
+TEST_IN_2D_AND_3D(MeshBinding, ReductionsObeyMasks) {
+  Sheet<Dim> sheet;
+  sheet.options.mirror_axis = -1;
+  sheet.options.max_influences = 0;
+  sheet.bind();
+  const auto masked_weight = [&] {
+    const auto weights = openmesh::get_weights(sheet.mesh).dense();
+    return weights(sheet.right, sheet.left).cwiseAbs().maxCoeff();
+  };
+  EXPECT_EQ(masked_weight(), 0);
+  openmesh::sparsify(sheet.mesh, Dim + 1);
+  EXPECT_EQ(masked_weight(), 0);
+  // Other weights are not masked.
+  openmesh::set_weights(sheet.mesh, openmesh::get_weights(sheet.mesh));
+  EXPECT_TRUE(binding_of<Dim>(sheet.mesh).masks.empty());
+}
+
+TEST_IN_2D_AND_3D(MeshBinding, MirrorImagesFollowTheirVertices) {
+  Sheet<Dim> sheet;
+  sheet.bind();
+  auto& mesh = sheet.mesh;
+  mesh.request_vertex_status();
+  mesh.request_edge_status();
+  mesh.request_face_status();
+  const auto image = mesh.point(OpenMesh::VertexHandle(6));
+  mesh.delete_vertex(OpenMesh::VertexHandle(0));
+  mesh.garbage_collection();
+  const auto binding = binding_of<Dim>(mesh);
+  EXPECT_GT(expect_kept(binding), 0);
+  for (const auto v : mesh.vertices()) {
+    const auto point = mesh.point(v);
+    const Index partner = binding.mirror->partners[static_cast<std::size_t>(v.idx())];
+    if (point == image) {
+      EXPECT_EQ(partner, -1);
+      continue;
+    }
+    ASSERT_GE(partner, 0);
+    const auto other = mesh.point(OpenMesh::VertexHandle(partner));
+    EXPECT_NEAR(point[0] + other[0], 1, 1e-12);
+    EXPECT_NEAR(point[1], other[1], 1e-12);
+  }
+}
+
+TEST_IN_2D_AND_3D(MeshBinding, NewVerticesObeyTheMasksOfTheirNeighbors) {
+  for (const Index most : {0, 8}) {
+    Sheet<Dim> sheet;
+    sheet.options.max_influences = most;
+    sheet.bind();
+    auto& mesh = sheet.mesh;
+    openmesh::ReductionOptions few;
+    few.into = "few";
+    openmesh::sparsify(mesh, 2 * Dim + 2, few);
+    // Off the mean of the corners, whose weights do not reproduce it.
+    const auto split = [&](int face) {
+      auto point = mesh.calc_face_centroid(mesh.face_handle(face));
+      point[0] += 0.02;
+      const auto vertex = mesh.add_vertex(point);
+      mesh.split(mesh.face_handle(face), vertex);
+      return vertex.idx();
+    };
+    const int masked = split(0), free = split(2 * 3);
+    split(0);
+    for (const std::string weights : {openmesh::kWeights, "few"}) {
+      EXPECT_EQ(openmesh::bind_new_vertices(mesh, weights), 3);
+      const auto binding = binding_of<Dim>(mesh, weights);
+      const PointMasks masks(binding.masks, binding.cage.size(), binding.weights.num_points());
+      EXPECT_EQ(masks.forbidden(masked), sheet.right);
+      EXPECT_FALSE(masks.at(free));
+      EXPECT_EQ(binding.mirror->partners[static_cast<std::size_t>(masked)], -1);
+      expect_kept(binding);
+      EXPECT_LT((binding.deform(binding.cage.points) - openmesh::points_of<Dim>(mesh))
+                    .cwiseAbs()
+                    .maxCoeff(),
+                1e-12);
+      expect_kept(binding.reduced({2 * Dim + 2}));
+      openmesh::restore_rest(mesh, weights);
+    }
+  }
+}
+
+class MeshBindingFile : public FolderTest {};
+
+TEST_F(MeshBindingFile, SkinsObeyMasks) {
+  Sheet<3> sheet;
+  sheet.options.max_influences = 0;
+  sheet.bind();
+  openmesh::SkinOptions options;
+  options.max_influences = 4;
+  auto pose = sheet.sample.cage.points;
+  for (const Index i : sheet.right) pose(2, i) += 1;
+  openmesh::write_skin<3>(path("skin.glb"), sheet.mesh, {pose}, options);
+  const GlbFile file(content("skin.glb"));
+  const Eigen::MatrixXd rest = file.skinned(file.joints()), moved = file.skinned(file.joints(0));
+  const auto sources = file.sources();
+  for (std::size_t v = 0; v < sources.size(); ++v) {
+    const auto p = static_cast<Index>(sources[v]);
+    const double height = rest(2, static_cast<Index>(v));
+    EXPECT_NEAR(height, 0.4, 1e-6);
+    if (std::binary_search(sheet.left.begin(), sheet.left.end(), p)) {
+      EXPECT_NEAR(moved(2, static_cast<Index>(v)), height, 1e-7);
+    }
+  }
+  EXPECT_GT((moved - rest).cwiseAbs().maxCoeff(), 0.5);
+}
+
+}  // namespace
+}  // namespace flbc::testing
