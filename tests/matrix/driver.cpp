@@ -3,6 +3,7 @@
 //   matrix_driver cpp|openmesh OPERATION FOLDER METHOD
 // FOLDER has cage.obj, model.obj, other.obj, pose.obj, and reshaped.obj. Files of the results go
 // there.
+#include <array>
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -105,7 +106,14 @@ void run_cpp(const Task& task) {
   }
   if (task.operation == "transfer_nearest") {
     const Shape<Dim> other(task.path("other.obj"));
-    const auto elements = io::triangles_of(model.soup);
+    std::vector<std::array<Index, 3>> corners;
+    for (const auto& polygon : model.soup.polygons) {
+      for (std::size_t k = 2; k < polygon.size(); ++k) {
+        corners.push_back({polygon[0], polygon[k - 1], polygon[k]});
+      }
+    }
+    const FacetList<3> elements = Eigen::Map<const FacetList<3>>(
+        corners.front().data(), 3, static_cast<Eigen::Index>(corners.size()));
     binding = binding.transferred(elements, other.points, other.edges, 1);
   }
   if (task.operation == "reshape") {
@@ -118,9 +126,6 @@ void run_cpp(const Task& task) {
   }
   finish(task, binding, model);
 }
-
-template <int Dim>
-using Mesh = OpenMesh::PolyMesh_ArrayKernelT<>;
 
 template <int Dim>
 void run_openmesh(const Task& task) {
@@ -147,13 +152,15 @@ void run_openmesh(const Task& task) {
     mesh = copy;
   }
   if (task.operation == "export") {
-    openmesh::write_skin(mesh, task.path("result.glb"), {}, {4});
+    openmesh::SkinOptions skin;
+    skin.max_influences = 4;
+    openmesh::write_skin(task.path("result.glb"), mesh, skin);
   }
   if (task.operation == "transfer" || task.operation == "transfer_nearest" ||
       task.operation == "reshape") {
     throw OptionError("OpenMesh: use flbc::Binding and flbc::Rig");
   }
-  const auto binding = openmesh::binding_of<Dim>(mesh);
+  const auto binding = openmesh::get_binding<Dim>(mesh);
   io::write_binding(task.path("result.npz"), binding);
   if (task.operation != "deform") return;
   const auto pose = Shape<Dim>(task.path("pose.obj")).points;

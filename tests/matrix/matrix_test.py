@@ -352,6 +352,13 @@ def given_coordinates_stay(result):
     data = result.data
     if result.operation == "export":
         return sums_and_reproduction(result)
+    if "domain" not in data:  # of OpenMesh: the weights are those of the door that has one
+        twin = pathlib.Path(str(result.folder).replace("openmesh", "cpp"))
+        other = Result(twin, result.operation, result.dim)
+        poses = [result.cage @ np.diag(1 + k * result.cage[0] / 9) for k in range(3)]
+        for pose in poses:
+            assert np.abs((result.weights - other.weights) @ pose).max() < 1e-4
+        return None
     assert json.loads(data["info"].item())["method"] == "harmonic"
     points, cells = data["domain"], data["cells"]
     weights = np.zeros((len(points), data["shape"][1]))

@@ -229,7 +229,7 @@ TYPED_TEST(MeshAdmm, EndsAtGradientsOfWeightsWithTheirDuals) {
     admm.iterate(6000);
     admm.recover_weights();
     EXPECT_EQ(openmesh::get_rest_cage(mesh), sample.cage.points);
-    const auto weights = openmesh::get_weights(mesh);
+    const auto weights = openmesh::get_weights(mesh).dense();
     const auto gradient_of_weights = [&](Index s) {
       return linear_gradients<kDim>(cell_corners(sample.mesh, s),
                                     columns_of(weights, sample.mesh.cells.col(s)));

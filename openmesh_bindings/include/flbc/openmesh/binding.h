@@ -107,3 +107,14 @@ void attach(Mesh& mesh, const SparseWeights& weights, const BindingRows& rows, I
 }
 
 }  // namespace flbc::openmesh::internal
+
+namespace flbc::openmesh {
+
+//! What bind() has attached, as a value with all functions of a Binding. It has no domain mesh.
+//! \throws InputError if the mesh has no weights of this name, or of another dimension
+template <int Dim, class Mesh>
+Binding<Dim> get_binding(const Mesh& mesh, const std::string& weights = kWeights) {
+  return internal::binding_of<Dim>(mesh, internal::rows_in(mesh, weights), weights);
+}
+
+}  // namespace flbc::openmesh
