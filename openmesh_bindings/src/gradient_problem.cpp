@@ -11,6 +11,7 @@
 #include "base/flush_denormals.h"
 #include "base/instantiate.h"
 #include "base/parallel.h"
+#include "base/union_find.h"
 #include "coordinates/poisson_weights.h"
 #include "flbc/bounding_box.h"
 #include "mesh/cell_geometry.h"
@@ -59,28 +60,20 @@ void set_up_cells(const Eigen::VectorXd& measures, GradientProblem<Scalar, Dim>&
   });
 }
 
-// The boundary component of each control point; component 0 contains the first boundary vertex.
-// \return number of components
+// The boundary component of each control point. \return number of components
 template <int Dim>
 Index number_components(const LbcProblem<Dim>& problem, std::vector<Index>& component) {
-  const auto& facets = problem.cage.facets;
-  component.assign(static_cast<std::size_t>(problem.num_control_points()), -1);
+  const Index n = problem.num_control_points();
+  UnionFind sets(n);
+  for (const auto& facet : problem.cage.facets.colwise()) {
+    for (const Index i : facet) sets.unite(facet[0], i);
+  }
+  component.assign(static_cast<std::size_t>(n), -1);
   Index count = 0;
-  for (Eigen::Index b = 0; b < problem.boundary.control_points.cols(); ++b) {
-    const Index first = problem.boundary.control_points(0, b);
-    if (component[first] >= 0) continue;
-    component[first] = count;
-    for (bool grows = true; grows;) {
-      grows = false;
-      for (const auto& facet : facets.colwise()) {
-        bool touches = false, leaves = false;
-        for (const Index i : facet) (component[i] == count ? touches : leaves) = true;
-        if (!touches || !leaves) continue;
-        for (const Index i : facet) component[i] = count;
-        grows = true;
-      }
-    }
-    ++count;
+  for (Index i = 0; i < n; ++i) {
+    Index& of_root = component[sets.find(i)];
+    if (of_root < 0) of_root = count++;
+    component[i] = of_root;
   }
   return count;
 }

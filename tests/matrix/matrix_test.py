@@ -227,7 +227,8 @@ class Result:
             self.weights = joint_weights(folder / "result.glb", shape)
         self.offsets = data["offsets"] if len(data["offsets"]) else np.zeros_like(self.model)
         self.outside = np.abs(self.model[:, 1]) > self.height(self.model) + 1e-6
-        self.tolerance = 1e-6 if operation == "export" else 1e-9
+        is_single = operation == "export" or (folder / "single").exists()
+        self.tolerance = 1e-6 if is_single else 1e-9
 
     def height(self, points):
         grows = 0.05 * np.abs(points[:, 0]) if self.operation == "reshape" else 0

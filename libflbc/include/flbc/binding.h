@@ -82,9 +82,8 @@ struct Binding {
   std::optional<Mirror> mirror{};
   OutsidePoints policy = OutsidePoints::kFail;  //!< for points outside the cage
   std::vector<Index> outside{};                 //!< points outside the cage, ascending
-  DomainMesh<Dim> domain{};          //!< of the interior of the cage, V vertices; may be empty
-  SparseWeights domain_weights{};    //!< of V points
-  std::vector<Mask> domain_masks{};  //!< of the vertices of the mesh
+  DomainMesh<Dim> domain{};        //!< of the interior of the cage, V vertices; may be empty
+  SparseWeights domain_weights{};  //!< of V points
   BindReport report{};
 
   //! Dim x P: where the points of the model rest.
@@ -112,7 +111,7 @@ struct Binding {
                   Reduction reduction = Reduction::kPoisson) const;
 
   //! A binding of other points in the same cage, evaluated on the domain mesh. A weight is masked
-  //! where it is masked at all vertices around.
+  //! where it is masked at all ends of the nearest edge of this model.
   //! \param to  Dim x Q, in the units of the cage \param edges  between them, may be empty
   //! \throws InputError if the binding has no domain mesh, or as place_points()
   Binding transferred(const PointList<Dim>& to, EdgeList edges, OutsidePoints outside) const;
@@ -138,6 +137,9 @@ struct Binding {
   //! \param given  Dim x P, within 1e-6 of the size of the cage
   //! \throws InputError naming the numbers of points, or the first point that differs
   void require_points(const PointList<Dim>& given) const;
+
+  //! The masks of other points, which are those of the nearest element of this model.
+  std::vector<Mask> masks_near(const ModelElements<Dim>& elements, const PointList<Dim>& to) const;
 
   //! A number for the points of the model, equal for equal points in single precision. For people
   //! and files; require_points() compares.

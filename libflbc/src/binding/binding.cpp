@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "base/instantiate.h"
@@ -36,29 +37,17 @@ std::vector<Mask> masks_where(Index num_control_points, Index num_points,
   return masks;
 }
 
-// Masks as weights: 1 where a weight is masked.
-SparseWeights indicator_of(const PointMasks& masks, Index num_control_points, Index num_points) {
-  return SparseWeights::of(num_control_points, num_points, [&](Index p) -> Eigen::VectorXd {
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(num_control_points);
-    if (masks.at(p)) row(masks.forbidden(p)).setOnes();
-    return row;
-  });
-}
-
-// Interpolated indicators are 1 up to rounding where all vertices around are masked.
-std::vector<Mask> masks_of(const SparseWeights& indicators) {
-  constexpr double kRounding = 1e-12;
-  std::vector<std::vector<Index>> masked(indicators.num_control_points());
-  for (Index p = 0; p < indicators.num_points(); ++p) {
-    indicators.visit(p, [&](Index i, double part) {
-      if (part > 1 - kRounding) masked[i].push_back(p);
-    });
+// Edges as elements; points without edges if there are none.
+FacetList<3> elements_of(const EdgeList& edges, Index num_points) {
+  if (edges.ends.empty()) {
+    return Eigen::RowVectorX<Index>::LinSpaced(num_points, 0, num_points - 1).replicate(3, 1);
   }
-  std::vector<Mask> masks;
-  for (std::size_t i = 0; i < masked.size(); ++i) {
-    if (!masked[i].empty()) masks.push_back({{static_cast<Index>(i)}, std::move(masked[i])});
+  FacetList<3> elements(3, static_cast<Eigen::Index>(edges.ends.size()));
+  for (Eigen::Index e = 0; e < elements.cols(); ++e) {
+    const auto& [a, b] = edges.ends[static_cast<std::size_t>(e)];
+    elements.col(e) << a, b, b;
   }
-  return masks;
+  return elements;
 }
 
 template <int Dim>
@@ -171,31 +160,42 @@ Binding<Dim> Binding<Dim>::transferred(const PointList<Dim>& to, EdgeList to_edg
   validate(to_edges, to.cols());
   BindOptions options;
   options.outside = outside_policy;
-  options.max_influences = 0;
   options.coordinates = value_named<Coordinates>(report.method);
+  options.masks = masks_near({rest(), elements_of(edges, weights.num_points())}, to);
+  if (mirror) options.mirror_axis = mirror->axis;
   Rig<Dim> rig(cage, MadeDomain<Dim>{domain}, to, std::move(to_edges), options);
   rig.set_solution({domain_weights, report.solve});
-  auto result = rig.bind();
-  if (!domain_masks.empty()) {
-    const PointMasks masked(domain_masks, cage.size(), domain.num_vertices());
-    const auto indicators = indicator_of(masked, cage.size(), domain.num_vertices());
-    result.masks = masks_of(weights_at(cage, domain, indicators, rig.placement()));
-    // Where weights of facets are known, masks end.
-    const PointMasks found(result.masks, cage.size(), result.weights.num_points());
-    result.masks = masks_where(cage.size(), result.weights.num_points(), [&](Index p, Index i) {
-      return found.forbids(p, i) && result.weights.at(p)[i] == 0;
-    });
-    result.domain_masks = domain_masks;
-  }
-  if (mirror) {
-    mirror_again<Dim>(result, mirror->axis, [&](const PointList<Dim>& images) {
-      const auto policy_of_images =
-          outside_policy == OutsidePoints::kFail ? OutsidePoints::kNearest : outside_policy;
-      return weights_at(cage, domain, domain_weights,
-                        place_points(cage, domain, images, policy_of_images));
-    });
-  }
+  auto result = rig.binding();
+  result.report.options = report.options;
   return result;
+}
+
+// The masks of other points: where all vertices of the nearest element are masked.
+template <int Dim>
+std::vector<Mask> Binding<Dim>::masks_near(const ModelElements<Dim>& elements,
+                                           const PointList<Dim>& to) const {
+  if (masks.empty()) return {};
+  const Index n = cage.size(), count = weights.num_points();
+  const PointMasks masked(masks, n, count);
+  const auto indicators = SparseWeights::of(n, count, [&](Index p) -> Eigen::VectorXd {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(n);
+    if (masked.at(p)) row(masked.forbidden(p)).setOnes();
+    return row;
+  });
+  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+  const auto near = nearest_weights(elements, indicators, to, kAnywhere);
+  constexpr double kRounding = 1e-12;  // of interpolated ones
+  std::vector<Mask> found(n);
+  for (Index i = 0; i < n; ++i) found[i].control_points = {i};
+  for (Index p = 0; p < near.num_points(); ++p) {
+    near.visit(p, [&](Index i, double part) {
+      if (part > 1 - kRounding) found[i].points.push_back(p);
+    });
+  }
+  found.erase(std::remove_if(found.begin(), found.end(),
+                             [](const Mask& mask) { return mask.points.empty(); }),
+              found.end());
+  return found;
 }
 
 template <int Dim>
@@ -204,12 +204,7 @@ Binding<Dim> Binding<Dim>::transferred(const FacetList<3>& corners, const PointL
                                        Eigen::VectorXd* distances) const {
   validate(to_edges, to.cols());
   const ModelElements<Dim> from{rest(), corners};
-  const Index n = cage.size(), count = weights.num_points();
-  std::vector<Mask> is_masked;
-  if (!masks.empty()) {
-    const auto indicators = indicator_of(PointMasks(masks, n, count), n, count);
-    is_masked = masks_of(nearest_weights<Dim>(from, indicators, to, limit));
-  }
+  const auto is_masked = masks_near(from, to);
   const auto policy_there = policy == OutsidePoints::kFail ? OutsidePoints::kNearest : policy;
   const auto placed = [&](const PointList<Dim>& places) {
     if (cage.facets.cols() > 0) return place_points(cage, places, policy_there);
@@ -235,7 +230,7 @@ Binding<Dim> Binding<Dim>::transferred(const FacetList<3>& corners, const PointL
     return cage.facets.cols() > 0 ? weights_at(cage, nearest, placement) : nearest;
   };
   const auto placement = placed(to);
-  const PointMasks masked(is_masked, n, static_cast<Index>(to.cols()));
+  const PointMasks masked(is_masked, cage.size(), static_cast<Index>(to.cols()));
   auto result =
       bound_by<Dim>(cage, to, transfer(to, placement, masked, distances), std::move(to_edges));
   result.masks = is_masked;
@@ -245,7 +240,6 @@ Binding<Dim> Binding<Dim>::transferred(const FacetList<3>& corners, const PointL
   result.report = report;
   result.domain = domain;
   result.domain_weights = domain_weights;
-  result.domain_masks = domain_masks;
   if (mirror) {
     mirror_again<Dim>(result, mirror->axis, [&](const PointList<Dim>& images) {
       return transfer(images, placed(images), {}, nullptr);
@@ -286,7 +280,6 @@ Binding<Dim> Binding<Dim>::composed(const SparseWeights& map, Cage<Dim> outer) c
   result.cage = std::move(outer);
   result.domain = {};
   result.domain_weights = {};
-  result.domain_masks = {};
   return result;
 }
 
@@ -327,7 +320,7 @@ std::string Binding<Dim>::digest() const {
 template <int Dim>
 void validate(const Binding<Dim>& binding) {
   const auto& [cage, weights, points, offsets, edges, masks, mirror, policy, outside, domain,
-               domain_weights, domain_masks, report] = binding;
+               domain_weights, report] = binding;
   const Index n = cage.size(), count = weights.num_points();
   check_size(weights, n, points.cols());
   check_finite<Dim>(cage.points);
@@ -347,7 +340,6 @@ void validate(const Binding<Dim>& binding) {
   if (domain.num_cells() == 0) return;
   check_elements(domain.points, domain.cells, kMeshNames);
   check_size(domain_weights, n, domain.num_vertices());
-  PointMasks(domain_masks, n, domain.num_vertices());
 }
 
 template <int Dim>

@@ -413,7 +413,6 @@ Binding<Dim> Rig<Dim>::binding() {
   for (const auto& vertex : placement.outside) binding.outside.push_back(vertex.point);
   binding.domain = mesh();
   binding.domain_weights = solution().weights;
-  binding.domain_masks = masks.of_mesh;
   auto& report = binding.report = report_;
   if (const auto more = note(); !more.empty()) {
     report.note += (report.note.empty() ? "" : "; ") + more;

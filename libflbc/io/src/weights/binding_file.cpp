@@ -44,7 +44,7 @@ Index control_points_in(const NpzReader& file) {
   return static_cast<Index>(shape[1]);
 }
 
-void add_masks(NpzWriter& file, const std::string& prefix, const std::vector<Mask>& masks) {
+void add_masks(NpzWriter& file, const std::vector<Mask>& masks) {
   std::vector<std::int32_t> sizes, control_points, points;
   for (const auto& mask : masks) {
     sizes.push_back(static_cast<std::int32_t>(mask.control_points.size()));
@@ -53,15 +53,15 @@ void add_masks(NpzWriter& file, const std::string& prefix, const std::vector<Mas
                           mask.control_points.end());
     points.insert(points.end(), mask.points.begin(), mask.points.end());
   }
-  file.add(prefix + "mask_sizes", sizes.data(), {static_cast<std::int64_t>(masks.size()), 2});
-  file.add_list(prefix + "mask_control_points", control_points);
-  file.add_list(prefix + "mask_points", points);
+  file.add("mask_sizes", sizes.data(), {static_cast<std::int64_t>(masks.size()), 2});
+  file.add_list("mask_control_points", control_points);
+  file.add_list("mask_points", points);
 }
 
-std::vector<Mask> masks_in(const NpzReader& file, const std::string& prefix) {
-  const auto sizes = file.numbers<std::int32_t>(prefix + "mask_sizes", 2);
-  const auto control_points = file.numbers<std::int32_t>(prefix + "mask_control_points");
-  const auto points = file.numbers<std::int32_t>(prefix + "mask_points");
+std::vector<Mask> masks_in(const NpzReader& file) {
+  const auto sizes = file.numbers<std::int32_t>("mask_sizes", 2);
+  const auto control_points = file.numbers<std::int32_t>("mask_control_points");
+  const auto points = file.numbers<std::int32_t>("mask_points");
   std::vector<Mask> masks;
   std::size_t i = 0, p = 0;
   for (std::size_t k = 0; k + 1 < sizes.size(); k += 2) {
@@ -88,7 +88,7 @@ Binding<Dim> read(const NpzReader& file, const nlohmann::json& info) {
   const auto ends = file.columns<FacetList<2>>("edges");
   for (const auto& edge : ends.colwise()) binding.edges.ends.push_back({edge[0], edge[1]});
   binding.edges.weights = file.numbers<double>("edge_weights");
-  binding.masks = masks_in(file, "");
+  binding.masks = masks_in(file);
   binding.outside = file.numbers<std::int32_t>("outside");
   if (file.has("mirror_images")) {
     binding.mirror = {info.at("mirror_axis").get<int>(),
@@ -98,7 +98,6 @@ Binding<Dim> read(const NpzReader& file, const nlohmann::json& info) {
   if (file.has("domain")) {
     binding.domain = {file.columns<PointList<Dim>>("domain"), file.columns<CellList<Dim>>("cells")};
     binding.domain_weights = weights_in(file, "domain_", n);
-    binding.domain_masks = masks_in(file, "domain_");
   }
   if (const auto policy = value_named<OutsidePoints>(info.at("outside").get<std::string>())) {
     binding.policy = *policy;
@@ -153,7 +152,7 @@ void write_binding(const std::string& path, const Binding<Dim>& binding) {
     file.add("edges", ends.empty() ? nullptr : ends.front().data(),
              {static_cast<std::int64_t>(ends.size()), 2});
     file.add_list("edge_weights", binding.edges.weights);
-    add_masks(file, "", binding.masks);
+    add_masks(file, binding.masks);
     file.add_list("outside", binding.outside);
     if (binding.mirror) {
       info["mirror_axis"] = binding.mirror->axis;
@@ -164,7 +163,6 @@ void write_binding(const std::string& path, const Binding<Dim>& binding) {
       file.add_columns("domain", binding.domain.points);
       file.add_columns("cells", binding.domain.cells);
       add_weights(file, "domain_", binding.domain_weights);
-      add_masks(file, "domain_", binding.domain_masks);
     }
     file.add_text("info", info.dump());
     file.finish();

@@ -17,7 +17,7 @@ using AnyBinding = std::variant<Binding<2>, Binding<3>>;
 //! - cage (n x Dim), facets, points (P x Dim), offsets, edges, edge_weights, outside
 //! - mask_sizes (M x 2), mask_control_points, mask_points: the M masks, one after the other
 //! - mirror_images (n), mirror_partners (P)
-//! - domain (V x Dim), cells, domain_indptr, domain_indices, domain_data, domain_mask_...
+//! - domain (V x Dim), cells, domain_indptr, domain_indices, domain_data
 //! - info: JSON of the rest: version, policy for points outside, digest of the points, method
 //! \throws IoError; InputError if a weight is not finite
 template <int Dim>
