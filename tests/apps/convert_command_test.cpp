@@ -113,14 +113,22 @@ TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
   const auto to = [&](const std::string& name) { return " -o " + name; };
   expect_refused("a.npy" + to("b.obj"), 1, "b.obj: weights cannot be written as a mesh");
   expect_refused(model + to("b.npy"), 1, "b.npy: a mesh cannot be written as weights");
+  expect_refused("a.txt" + to("b.npy"), 1, "weights end in .mtx, .npy, .csv or .npz");
   expect_refused("a.npy" + to("b.txt"), 1, "must end in .mtx, .npy, .csv or .npz");
   expect_refused(model + to("b.xls"), 1, "b.xls: unknown file format");
   expect_refused(model + to("b.msh"), 1, "b.msh: " + model + " holds no tetrahedra");
+  expect_refused("a.mesh" + to("b.obj"), 1, "b.obj: a.mesh holds tetrahedra");
   // Wrong extensions, and formats of other programs.
   const auto obj = slurp(model);
   const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   expect_refused(file("obj.stl", "# a model\n" + obj + obj) + to("b.ply"), 2,
                  "obj.stl: not STL; it looks like OBJ; let its name end in .obj");
+  expect_refused(file("off.obj", off) + to("b.ply"), 2,
+                 "off.obj: not OBJ; it looks like OFF; let its name end in .off");
+  expect_refused(file("ply.off", "ply\nformat ascii 1.0\n") + to("b.ply"), 2,
+                 "ply.off: not OFF; it looks like PLY");
+  expect_refused(file("glb.obj", "glTF\x02") + to("b.ply"), 2,
+                 "glb.obj: not OBJ; it looks like GLB; let its name end in .glb");
   expect_refused(file("binary.obj", std::string("\x7f"
                                                 "ELF\0\0\0",
                                                 7)) +
@@ -129,6 +137,8 @@ TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
   expect_refused(file("model.fbx", "Kaydara FBX Binary") + to("b.ply"), 1,
                  "convert it to .obj or .ply first, for example in Blender");
   expect_refused(file("model.obj.gz", "") + to("b.ply"), 1, "unpack it first");
+  expect_refused(file("splats.spz", "") + to("b.ply"), 1, "uncompressed .ply");
+  expect_refused(file("part.dxf", "") + to("b.ply"), 1, "save the drawing as .svg first");
   expect_refused(model + to("b.fbx"), 1, "usually read glTF");
   expect_refused(model + to("b.vtu"), 2, "vertex 2 at (0, 1, 1) is not in the plane z = 0");
   expect_refused(model + to("b.ply") + " --transpose", 1, "a.obj is a mesh");
@@ -137,6 +147,7 @@ TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
   expect_refused("missing.npy" + to("b.npy"), 4, "missing.npy");
   expect_refused("missing.ply" + to("b.obj"), 4, "missing.ply");
   expect_refused(file("a.vtu", "") + to("b.mesh"), 1, "a.vtu: .vtu files are only written");
+  expect_refused(file("a.node", "") + to("b.mesh"), 1, "convert it to .mesh first");
   expect_refused(file("a.dmat", "") + to("b.npy"), 1, "write .csv from libigl");
 }
 

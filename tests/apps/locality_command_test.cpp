@@ -144,13 +144,20 @@ TEST_F(LocalityCommand, DefectiveFilesAreRefused) {
   };
   refused("[{\"control_points\": [0]}]", "bad.json: entry 0: not a list of masks");
   refused("[{\"control_points\": [0], \"region\": [-1]}]", "entry 0: -1 is not an index");
+  refused("[{\"control_points\": [0], \"region\": {\"vertices\": [22.9]}}]",
+          "22.9 is not an index");
+  refused("[{\"control_points\": [4294967298], \"region\": [0]}]", "4294967298 is not an index");
   refused("[{\"control_points\": [0], \"region\": [99999]}]", "mask 0 names vertex 99999");
   refused("[{\"control_points\": [0], \"region\": {\"group\": \"arm\"}}]",
           "group \"arm\" is not in");
+  refused("[{\"control_points\": [0], \"region\": {\"box\": [[0], [1]]}}]",
+          "a box needs corners of 3");
   refused("[{\"control_points\": [], \"region\": [0]}]", "no control points or no vertices");
   refused(
       "[{\"control_points\": [0], \"region\": [0]}, {\"control_points\": [0], \"regoin\": [0]}]",
       "entry 1: unknown key \"regoin\"; choose from control_points, region");
+  refused("[{\"control_points\": [0], \"region\": {\"verts\": [0]}}]",
+          "unknown key \"verts\"; choose from attribute, box, group, vertices");
   refused("[{\"control_points\": [0], \"region\": {\"vertices\": [0], \"group\": \"arm\"}}]",
           "give one choice");
   refused("{\"masks\": [], \"conflicts\": \"no\"}",
@@ -159,6 +166,13 @@ TEST_F(LocalityCommand, DefectiveFilesAreRefused) {
   refused("{\"reach\": [{\"control_points\": [0], \"factor\": 17}]}",
           "bad.json: reach of control point 0 must be in [1/16, 16], not 17");
   refused("{\"reach\": [{\"control_points\": [99], \"factor\": 2}]}", "no control point 99");
+  refused("{\"reach\": [{\"control_points\": [0], \"factor\": 2, \"region\": [0]}]}",
+          "unknown key \"region\"; choose from control_points, factor");
+  refused("{\"reach\": [{\"control_points\": [0], \"factor\": \"2\"}]}",
+          "reach 0: give control_points, and a number as factor");
+  refused("{\"reach\": {\"a\": 1}}", "reach is not a list");
+  refused("{\"reach\": [{\"control_points\": {\"box\": [[8, 8, 8], [9, 9, 9]]}, \"factor\": 2}]}",
+          "reach 0: no control points are chosen");
   refused("[{\"control_points\": [0], \"region\": {\"vertices\": {\"a\": 1}}}]",
           "is not a list of indices");
   expect("solve 3d/limb_cage.obj -o w.npy --method gradient --locality bad.json", 1,

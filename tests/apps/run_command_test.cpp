@@ -271,6 +271,7 @@ TEST_F(RunCommand, RefusesBeforeAnyWorkIsDone) {
   expect_run("out", cage + " --embed", 1, "--embed requires MODEL");
   expect_run("out", "3d/limb_model.obj", 1, "did you mean --auto-cage?");
   expect_run("out", cage + " --pose 2d/letter_cage.obj", 2, "has 24 vertices, but");
+  expect_run("out", cage + " --pose no_%d.obj", 4, "there is neither");
   file("file", "");
   EXPECT_FALSE(fs::exists("out"));
   expect_run("file", cage, 4, "file: cannot make this folder");

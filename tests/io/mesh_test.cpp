@@ -269,6 +269,7 @@ TEST_F(MeshFile, MalformedMedit) {
        {head + "Vertices\n2000000000\n0 0 0 1\n", ":4: ", "2000000000 vertices are declared, but"},
        {head + "Vertices\n3\n0 0 0 100000\n1 0 0 100000\n", ":6: ", "after 2 of 3 vertices"},
        {head + points + "Tetrahedra\n1\n1 2 3 5 1\n", ":11: ", "numbered 1 to 4"},
+       {head + points + points, ":9: ", "a second section Vertices"},
        {head + points + "Hexahedra\n1\n1 2 3 4 1 2 3 4 0\n", ":10: ", "Hexahedra"},
        {head + points + "Tetrahedra\n1\n1 2 3 4 1\n7 7\n", ":12: ", "expected a keyword"}});
 }
@@ -297,6 +298,9 @@ TEST_F(MeshFile, GmshVariants) {
     for (const char c : variant) dos += c == '\n' ? std::string("\r\n") : std::string(1, c);
     expect_reference_tetrahedron(make("dos.msh", dos));
   }
+  // Tags belong to the nodes in their order.
+  EXPECT_EQ(read_domain<3>(make("4.msh", variants.back())).cells,
+            CellList<3>(Eigen::Vector4i(0, 1, 2, 3)));
 }
 
 TEST_F(MeshFile, MalformedGmsh) {
@@ -312,6 +316,12 @@ TEST_F(MeshFile, MalformedGmsh) {
        {"$MeshFormat\n4 0 8\n$EndMeshFormat\n", ":2: ", "version \"4\" is not supported"},
        {std::string("$MeshFormat\n2.2 1 8\n\x01\0\0\n", 24), ":2: ", "binary"},
        {format, ":3: ", "no nodes"},
+       {"$MeshFormat\n", ":1: ", "the file ends before its version"},
+       {format + "Nodes\n", ":4: ", "expected the start of a section, found \"Nodes\""},
+       {format + "$Physical\n1\n", ":5: ", "the file ends before \"$EndPhysical\""},
+       {format + "$Nodes\n", ":4: ", "the file ends inside a section"},
+       {format + "$Nodes\n1\n1 0 0 0\n2 0 0 0\n$EndNodes\n", ":7: ", "expected \"$EndNodes\""},
+       {format + nodes + nodes, ":11: ", "a second section $Nodes"},
        {format + nodes, ":10: ", "no tetrahedra"},
        {format + "$Nodes\n2000000000\n1 0 0 0\n", ":5: ", "too short"},
        {format + "$Nodes\n3\n1 0 0 0000000\n2 0 0 0000000\n", ":7: ", "after 2 of 3 nodes"},

@@ -168,25 +168,29 @@ TEST_F(WeightsFile, MalformedMtx) {
   const std::string head = "%%MatrixMarket matrix coordinate real general\n";
   const std::string array = "%%MatrixMarket matrix array real general\n";
   expect_malformed(
-      "w.mtx", {{"", ":1: ", "%%MatrixMarket"},
-                {std::string("\0\x01\xff\xfe\0\0garbage", 13), ":1: ", "%%MatrixMarket"},
-                {"%%MatrixMarket matrix coordinate pattern general\n", ":1: ", "field \"pattern\""},
-                {head, ":1: ", "the file ends before the size"},
-                {head + "3 2 x\n1 1 1\n", ":2: ", "expected an integer, found \"x\""},
-                {head + "-3 2 1\n1 1 1\n", ":2: ", "-3 rows are declared"},
-                {head + "3 2 1000000000\n1 1 1\n", ":2: ", "too short"},
-                {head + "2000000000 2000000000 1\n1 1 1\n", ":2: ", "only 1 entries"},
-                {array + "0 922347750\n", ":2: ", "not a weight matrix"},
-                {head + "3 2 2\n1 1 1\n% cut off\n", ":4: ", "the file ends after 1 of 2 entries"},
-                {head + "3 2 1\n1 1 1\n2 2 1\n", ":4: ", "expected the end of the file"},
-                {head + "3 2 1\n4 1 1\n", ":3: ", "rows are numbered 1 to 3"},
-                {head + "3 2 2\n1 1 1\n1 1 1\n", ":4: ", "row 1, column 1 occurs twice"},
-                {head + "3 2 1\n1 1 1 1\n", ":3: ", "expected the end of the line, found \"1\""},
-                {head + "3 2 1\n1 1 0x1p3\n", ":3: ", "expected a number, found \"0x1p3\""},
-                {head + "3 2 1\n1 1 1e400\n", ":3: ", "\"1e400\" is too large"},
-                {head + "3 2 1\n1 1 nan\n", ":3: ", "expected a finite number, found \"nan\""},
-                {array + "3 2\n1 2 3 4 5\n", ":3: ", "the file ends after 5 of 6 numbers"},
-                {array + "300000 200000\n1 2 3\n", ":2: ", "too short"}});
+      "w.mtx",
+      {{"", ":1: ", "%%MatrixMarket"},
+       {std::string("\0\x01\xff\xfe\0\0garbage", 13), ":1: ", "%%MatrixMarket"},
+       {"%%MatrixMarket matrix coordinate pattern general\n", ":1: ", "field \"pattern\""},
+       {"%%MatrixMarket matrix coordinate real symmetric\n", ":1: ", "symmetry \"symmetric\""},
+       {head + "16666666 0 0\n", ":2: ", "only 0 entries"},
+       {head + "3 2 1\n1 0 1\n", ":3: ", "columns are numbered 1 to 2"},
+       {head, ":1: ", "the file ends before the size"},
+       {head + "3 2 x\n1 1 1\n", ":2: ", "expected an integer, found \"x\""},
+       {head + "-3 2 1\n1 1 1\n", ":2: ", "-3 rows are declared"},
+       {head + "3 2 1000000000\n1 1 1\n", ":2: ", "too short"},
+       {head + "2000000000 2000000000 1\n1 1 1\n", ":2: ", "only 1 entries"},
+       {array + "0 922347750\n", ":2: ", "not a weight matrix"},
+       {head + "3 2 2\n1 1 1\n% cut off\n", ":4: ", "the file ends after 1 of 2 entries"},
+       {head + "3 2 1\n1 1 1\n2 2 1\n", ":4: ", "expected the end of the file"},
+       {head + "3 2 1\n4 1 1\n", ":3: ", "rows are numbered 1 to 3"},
+       {head + "3 2 2\n1 1 1\n1 1 1\n", ":4: ", "row 1, column 1 occurs twice"},
+       {head + "3 2 1\n1 1 1 1\n", ":3: ", "expected the end of the line, found \"1\""},
+       {head + "3 2 1\n1 1 0x1p3\n", ":3: ", "expected a number, found \"0x1p3\""},
+       {head + "3 2 1\n1 1 1e400\n", ":3: ", "\"1e400\" is too large"},
+       {head + "3 2 1\n1 1 nan\n", ":3: ", "expected a finite number, found \"nan\""},
+       {array + "3 2\n1 2 3 4 5\n", ":3: ", "the file ends after 5 of 6 numbers"},
+       {array + "300000 200000\n1 2 3\n", ":2: ", "too short"}});
 }
 
 TEST_F(WeightsFile, MalformedNpy) {
@@ -197,6 +201,7 @@ TEST_F(WeightsFile, MalformedNpy) {
   expect_malformed(
       "w.npy",
       {{"", ": at byte 0: ", "not a NumPy"},
+       {"\x93NUMPY", ": at byte 6: ", "ends inside its header"},
        {npy(head).substr(0, 30), ": at byte 30: ", "ends inside its header"},
        {npy(head, 9), ": at byte 6: ", "version 9"},
        {with("{'descr': '>f8', 'fortran_order': False, 'shape': (3, 2), }"), ": ", "\">f8\""},
