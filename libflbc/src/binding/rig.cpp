@@ -198,7 +198,7 @@ const Solution& Rig<Dim>::reshape(const PointList<Dim>& control_points, const Bu
     placed = place(cage, mesh, points_, options_);
     return solver_options(options_, placed.masks).masks;
   };
-  solver_->move(control_points, budget, options_.observer, masks_in);
+  solver_->reshape(control_points, budget, options_.observer, masks_in);
   placed_ = std::move(placed);
   weights_ = {};
   return solution();
