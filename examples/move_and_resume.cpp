@@ -25,7 +25,7 @@ int main(int argc, char** argv) try {
 
   flbc::PointList<2> wider = cage.points;
   wider.row(0) *= 1.1;
-  const flbc::Solution& moved = solver.move(wider);  // starts from the state before
+  const flbc::Solution& moved = solver.reshape(wider);  // starts from the state before
   std::cout << moved.report.iterations << '\n'
             << moved.report.quality.max_reproduction_error << '\n';
   return moved.report.status == flbc::SolveStatus::kConverged ? 0 : 3;

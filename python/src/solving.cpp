@@ -236,7 +236,7 @@ class AnySolver {
                  const py::object& callback) {
     return run(callback, [&](auto& solver, const Observer& observer) {
       constexpr int kDim = DimensionOf<std::decay_t<decltype(solver)>>::value;
-      return solver.move(points_of<kDim>(control_points), {iterations, seconds}, observer);
+      return solver.reshape(points_of<kDim>(control_points), {iterations, seconds}, observer);
     });
   }
 

@@ -234,7 +234,7 @@ void solve_and_move(Mutator& mutator) {
                      is_valid ? mesh : some_mesh<Dim>(mutator), options);
   for (int times = 0; times < 3; ++times) {
     try {
-      solver.move(some_pose<Dim>(mutator), {3, 0});
+      solver.reshape(some_pose<Dim>(mutator), {3, 0});
     } catch (const Error&) {
       // A refused pose leaves the object as it was.
       solver.solve({3, 0});

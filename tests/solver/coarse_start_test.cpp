@@ -2,7 +2,7 @@
 // The start from the coarse mesh of a refined one: what carries over exactly, and that the answer
 // stays the same.
 #include "solver/methods/splitting/compact_splitting.h"
-#include "solver/start/transfer.h"
+#include "solver/start/prolongation.h"
 #include "support/refined_sample.h"
 #include "support/solver_options.h"
 #include "support/splitting_cases.h"
@@ -40,16 +40,16 @@ TEST_IN_2D_AND_3D(CoarseStartTest, LinearWeightsAndConstantFluxesCarryOverExactl
   for (const auto shape : {Shape::kBox, Shape::kCorner, Shape::kRing, Shape::kStar}) {
     const TwoMeshes<Dim> meshes(shape, DistanceScheme::kConstant);
     const Index n = meshes.coarse.num_control_points();
-    Duals<Dim> state;
+    WarmStart<Dim> state;
     state.penalty = 2;
     state.weights = SparseWeights(linear_field<Dim>(n, meshes.coarse.mesh.points));
     state.vertex_dual = state.weights;
     const Vectors<Dim> density = Vectors<Dim>::Constant(n, Dim, 0.5);
     state.flux_density = {n, meshes.coarse.mesh.num_cells(), [&](Index) { return density; }};
-    const Transfer<Dim> transfer(meshes.coarse, state, meshes.fine, meshes.ends);
+    const Prolongation<Dim> prolongation(meshes.coarse, state, meshes.fine, meshes.ends);
 
     const auto expected = linear_field<Dim>(n, meshes.fine.mesh.points);
-    const auto start = transfer.start();
+    const auto start = prolongation.start();
     const double largest = expected.cwiseAbs().maxCoeff();
     for (Index v = 0; v < meshes.fine.mesh.num_vertices(); ++v) {
       if (meshes.fine.boundary.boundary_index[v] >= 0) continue;
@@ -68,12 +68,12 @@ TEST_IN_2D_AND_3D(CoarseStartTest, FluxNeverExceedsThePhiOfTheFineMesh) {
   const TwoMeshes<Dim> meshes(Shape::kBox, DistanceScheme::kSquare);
   const auto& [coarse, fine, ends] = meshes;
   const Index n = coarse.num_control_points();
-  Duals<Dim> state;
+  WarmStart<Dim> state;
   state.weights = SparseWeights(WeightMatrix::Zero(n, coarse.mesh.num_vertices()));
   state.flux_density = {n, coarse.mesh.num_cells(),
                         [&](Index) -> Vectors<Dim> { return Vectors<Dim>::Random(n, Dim); }};
-  const Transfer<Dim> transfer(coarse, state, fine, ends);
-  const auto start = transfer.start();
+  const Prolongation<Dim> prolongation(coarse, state, fine, ends);
+  const auto start = prolongation.start();
   Index shortened = 0;
   for (Index s = 0; s < fine.mesh.num_cells(); ++s) {
     const auto density = start.flux_density(s);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs that end because their weights are proved to be near the optimum.
 #include "flbc/names.h"
+#include "solver/plan/constants.h"
 #include "solver/run/run.h"
 #include "support/solver_models.h"
 #include "support/solver_options.h"
@@ -63,7 +64,7 @@ TEST_IN_2D_AND_3D(GapCriterionTest, HoldsForMovedCages) {
   const auto sample = make_sample<Dim>(Shape::kCorner, 3, 0.2);
   Solver<Dim> solver(sample.cage, sample.mesh, never_by_tolerance(0.2));
   EXPECT_EQ(solver.solve().report.criterion, Criterion::kGap);
-  EXPECT_EQ(solver.move(sample.cage.points).report.criterion, Criterion::kGap);
+  EXPECT_EQ(solver.reshape(sample.cage.points).report.criterion, Criterion::kGap);
 }
 
 // An iteration whose certificate is given, and that counts how often it is asked for.
@@ -99,6 +100,33 @@ TEST(GapCriterion, AsksForFewCertificatesAtTimesThatOnlyIterationsDecide) {
     iteration.has_duals = false;
     EXPECT_FALSE(GapCriterion().is_met(target, iteration, 20000));
   }
+}
+
+// An iteration without changes whose set of pairs grows when the run would end.
+struct Growing : Certified {
+  std::vector<int> growths{};
+
+  bool adapt(const Milestone& at) override {
+    if (!at.ends || growths.size() == 3) return false;
+    growths.push_back(at.made);
+    return true;
+  }
+};
+
+// New pairs have no duals yet, so their first changes say little.
+TEST(Run, MakesIterationsOnNewPairsBeforeItEnds) {
+  const auto problem = smooth_problem(make_sample<2>(Shape::kBox, 2));
+  const auto settings = plan::settings_of({});
+  const Observer nobody;
+  SolveReport report;
+  Growing iteration;
+  RunState state{StopRule::estimate(1, 1)};
+  run<2>(iteration, state, {problem, settings, Reporter(nobody)}, report);
+  EXPECT_EQ(report.status, SolveStatus::kConverged);
+  EXPECT_EQ(iteration.growths,
+            (std::vector<int>{plan::kFewestIterations, 2 * plan::kFewestIterations,
+                              3 * plan::kFewestIterations}));
+  EXPECT_EQ(report.iterations, 4 * plan::kFewestIterations);
 }
 
 TEST(GapOption, IsSetWhereTheOptimumDoesNotDetermineTheWeights) {

@@ -127,8 +127,8 @@ TEST_IN_2D_AND_3D(MasksTest, ASolverResumesWithOtherMasks) {
   const PointList<Dim> wider = 1.1 * sample.cage.points;
   expect_obeyed<Dim>(
       {{wider, sample.cage.facets}, {1.1 * sample.mesh.points, sample.mesh.cells}, ""},
-      solver.move(wider), options.masks[0]);
-  solver.move(sample.cage.points);
+      solver.reshape(wider), options.masks[0]);
+  solver.reshape(sample.cage.points);
   solver.set_options({});
   EXPECT_LT(squared_difference(solver.solve(), free), 2e-6);
 }

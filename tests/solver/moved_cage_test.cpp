@@ -61,7 +61,7 @@ TEST_IN_2D_AND_3D(MovedCageTest, FindsTheOptimumOfTheMovedCageInFewerIterations)
          {with_one_moved(sample.cage, 0.002), with_one_moved(sample.cage, 0.03),
           bent(sample.cage, 0.005)}) {
       auto solver = solved(sample);
-      const auto& warm = solver.move(control_points);
+      const auto& warm = solver.reshape(control_points);
       const auto cold = solve(solver.cage(), solver.mesh(), with_tolerance());
       EXPECT_EQ(warm.report.status, SolveStatus::kConverged);
       EXPECT_LT(warm.report.iterations, cold.report.iterations);
@@ -76,7 +76,7 @@ TEST_IN_2D_AND_3D(MovedCageTest, FindsTheOptimumOfTheMovedCageInFewerIterations)
 template <int Dim>
 void expect_follows(Solver<Dim>& solver, const PointList<Dim>& control_points,
                     const WeightMatrix& weights) {
-  solver.move(control_points);
+  solver.reshape(control_points);
   EXPECT_LT((solver.mesh().points - control_points * weights).cwiseAbs().maxCoeff(), 1e-13);
   EXPECT_TRUE(solver.cage().points == control_points);
 }
@@ -97,9 +97,9 @@ TEST(MovedCageTest, WhereCellsWouldBeInvertedTheMeshFollowsByThePresentWeights) 
   const auto sample = sample_of<3>();
   const auto far = with_one_moved(sample.cage, 0.63);
   auto solver = solved(sample);
-  expect_refused("would be inverted", [&] { solver.move(far); });
+  expect_refused("would be inverted", [&] { solver.reshape(far); });
   const auto near = with_one_moved(sample.cage, 0.55);
-  solver.move(near);
+  solver.reshape(near);
   const WeightMatrix present = solver.solution().weights.dense();
   expect_follows<3>(solver, far, present);
   EXPECT_LT(error_of(solver), 3 * kTolerance);
@@ -110,9 +110,9 @@ TEST_IN_2D_AND_3D(MovedCageTest, ThereAndBackIsWhereItStarted) {
   const auto sample = sample_of<Dim>();
   auto solver = solved(sample);
   for (const double part : {0.01, 0.03, 0.02}) {
-    solver.move(with_one_moved(sample.cage, part), {3});
+    solver.reshape(with_one_moved(sample.cage, part), {3});
   }
-  EXPECT_EQ(solver.move(sample.cage.points).report.status, SolveStatus::kConverged);
+  EXPECT_EQ(solver.reshape(sample.cage.points).report.status, SolveStatus::kConverged);
   EXPECT_LT((solver.mesh().points - sample.mesh.points).cwiseAbs().maxCoeff(), 1e-13);
   EXPECT_LT(error_of(solver), 3 * kTolerance);
 }
@@ -121,26 +121,26 @@ TEST_IN_2D_AND_3D(MovedCageTest, ABudgetEndsAStepAndSolvingResumes) {
   const auto sample = sample_of<Dim>();
   const auto control_points = with_one_moved(sample.cage, 0.03);
   auto at_once = solved(sample, many_iterations(60));
-  at_once.move(control_points, {40});
+  at_once.reshape(control_points, {40});
   auto solver = solved(sample, many_iterations(60));
-  const auto& solution = solver.move(control_points, {10});
+  const auto& solution = solver.reshape(control_points, {10});
   EXPECT_EQ(solution.report.status, SolveStatus::kIterationLimit);
   EXPECT_EQ(solution.report.iterations, 10);
   EXPECT_GE(solution.report.quality.min_weight, 0);
   EXPECT_LT(solution.report.quality.max_reproduction_error, 1e-13);
   for (int frame = 0; frame < 3; ++frame) solver.solve({10});
   EXPECT_TRUE(solver.solution().weights == at_once.solution().weights);
-  const auto& shortest = solver.move(control_points, {0, 1e-9});  // seconds
+  const auto& shortest = solver.reshape(control_points, {0, 1e-9});  // seconds
   EXPECT_EQ(shortest.report.iterations, 1);
   EXPECT_LT(shortest.report.quality.max_reproduction_error, 1e-13);
-  EXPECT_EQ(solver.move(control_points, {0, 1e9}).report.iterations, 60);
+  EXPECT_EQ(solver.reshape(control_points, {0, 1e9}).report.iterations, 60);
 }
 
 TEST_IN_2D_AND_3D(MovedCageTest, ACageThatIsRefusedChangesNothing) {
   const auto sample = sample_of<Dim>();
   const auto begin = [&] {
     auto solver = solved(sample);
-    solver.move(with_one_moved(sample.cage, 0.01), {5});
+    solver.reshape(with_one_moved(sample.cage, 0.01), {5});
     return solver;
   };
   auto solver = begin(), other = begin();
@@ -149,7 +149,7 @@ TEST_IN_2D_AND_3D(MovedCageTest, ACageThatIsRefusedChangesNothing) {
   const Vector<Dim> center = folded.rowwise().mean();
   folded.col(0) += 2.5 * (center - folded.col(0));
   try {
-    solver.move(folded);
+    solver.reshape(folded);
     FAIL() << "a cell was inverted";
   } catch (const InputError& error) {
     const std::string text = error.what();
@@ -161,17 +161,17 @@ TEST_IN_2D_AND_3D(MovedCageTest, ACageThatIsRefusedChangesNothing) {
     expect_piece(text, "(");
   }
   const PointList<Dim> fewer = sample.cage.points.leftCols(sample.cage.size() - 1);
-  expect_error<InputError>([&] { solver.move(fewer); },
+  expect_error<InputError>([&] { solver.reshape(fewer); },
                            {std::to_string(fewer.cols()), std::to_string(sample.cage.size())});
   PointList<Dim> infinite = sample.cage.points;
   infinite(1, 2) = std::nan("");
-  EXPECT_THROW(solver.move(infinite), InputError);
-  EXPECT_THROW(solver.move(sample.cage.points, {-1}), OptionError);
+  EXPECT_THROW(solver.reshape(infinite), InputError);
+  EXPECT_THROW(solver.reshape(sample.cage.points, {-1}), OptionError);
   EXPECT_THROW(solver.solve({0, -1}), OptionError);
   EXPECT_THROW(solver.solve({0, std::nan("")}), OptionError);
   Observer fails;
   fails.progress = [](const Progress&) -> bool { throw std::runtime_error("no more"); };
-  EXPECT_THROW(solver.move(bent(sample.cage, 0.02), {}, fails), std::runtime_error);
+  EXPECT_THROW(solver.reshape(bent(sample.cage, 0.02), {}, fails), std::runtime_error);
 
   EXPECT_TRUE(solver.mesh().points == other.mesh().points);
   EXPECT_TRUE(solver.cage().points == other.cage().points);
@@ -183,9 +183,9 @@ TEST_IN_2D_AND_3D(MovedCageTest, ThreadsDoNotChangeABit) {
   const auto sample = sample_of<Dim>();
   expect_same_for_any_threads([&] {
     auto solver = solved(sample);
-    solver.move(bent(sample.cage, 0.01), {6});
+    solver.reshape(bent(sample.cage, 0.01), {6});
     solver.solve({6});
-    return solver.move(with_one_moved(sample.cage, 0.01)).weights.dense();
+    return solver.reshape(with_one_moved(sample.cage, 0.01)).weights.dense();
   });
 }
 
@@ -195,7 +195,7 @@ TEST_IN_2D_AND_3D(MovedCageTest, FollowsOnTheActiveSet) {
   options.active_set = ActiveSet::kOn;
   auto solver = solved(sample, options);
   for (const double part : {0.004, 0.01, 0.02}) {
-    const auto& warm = solver.move(with_one_moved(sample.cage, part));
+    const auto& warm = solver.reshape(with_one_moved(sample.cage, part));
     EXPECT_LT(warm.report.active_set.density, 1);
     EXPECT_EQ(warm.report.status, SolveStatus::kConverged);
     EXPECT_GE(warm.report.quality.min_weight, 0);
@@ -220,13 +220,13 @@ TEST_IN_2D_AND_3D(MovedCageTest, DistancesComeFromACoarseMeshThatMovesAlong) {
         expect_coordinates(solver.cage(), solver.mesh(), solution.weights.dense(), 1e-12);
     EXPECT_GE(judgement.min_weight, 0);
   };
-  expect_near_exact(solver.move(with_one_moved(sample.cage, 0.03)));
-  expect_near_exact(solver.move(bent(sample.cage, 0.02)));
+  expect_near_exact(solver.reshape(with_one_moved(sample.cage, 0.03)));
+  expect_near_exact(solver.reshape(bent(sample.cage, 0.02)));
   PointList<Dim> turned = solver.cage().points;  // and grown: distances are those of the shape
   turned.row(0) = 3 * bent(sample.cage, 0.02).row(1);
   turned.row(1) = -3 * bent(sample.cage, 0.02).row(0);
   if (Dim == 3) turned.row(2) *= 3;
-  expect_near_exact(solver.move(turned));
+  expect_near_exact(solver.reshape(turned));
 }
 
 TEST_IN_2D_AND_3D(MovedCageTest, OtherMethodsStartOver) {
@@ -236,7 +236,7 @@ TEST_IN_2D_AND_3D(MovedCageTest, OtherMethodsStartOver) {
     SolverOptions options{method};
     options.max_iterations = 100;
     auto solver = solved(sample, options);
-    const auto& warm = solver.move(with_one_moved(sample.cage, 0.005));
+    const auto& warm = solver.reshape(with_one_moved(sample.cage, 0.005));
     const auto cold = solve(solver.cage(), solver.mesh(), options);
     EXPECT_EQ(warm.report.iterations, cold.report.iterations);
     EXPECT_LT(mean_squared_difference(sample.mesh, warm.weights.dense(), cold.weights.dense()),

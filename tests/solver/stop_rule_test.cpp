@@ -81,6 +81,18 @@ TEST(ErrorEstimate, SeesThroughWeightsThatCircle) {
   }
 }
 
+// Changes that creep become small for a while, when weights swing.
+TEST(ErrorEstimate, IsNotFooledByADipLateInARun) {
+  constexpr double kMostBelow = 2.5, kDip = 0.2, kRate = 0.99;
+  ErrorEstimate estimate;
+  for (int k = 1; k <= 400; ++k) {
+    const bool dips = k > 320 && k % 40 < plan::kCircle;
+    const double change = std::pow(kRate, k - 1) * (1 - kRate);
+    const double ratio = estimate(change * change * (dips ? kDip : 1)) / std::pow(kRate, 2 * k);
+    if (k > 320) EXPECT_GT(ratio, 1 / kMostBelow) << k;
+  }
+}
+
 TEST(ErrorEstimate, OfWeightsThatStayIsZeroAndOthersArePassedOn) {
   ErrorEstimate estimate;
   for (int k = 0; k < 2 * kHistory; ++k) EXPECT_EQ(estimate(0), 0);

@@ -4,6 +4,7 @@
 //! library's own file code.
 #pragma once
 
+#include <filesystem>
 #include <fstream>
 
 #include "support/test.h"
@@ -14,8 +15,9 @@
 
 namespace flbc::testing {
 
+//! \param name  in the folder of models, or a full path
 inline std::string model_path(const std::string& name) {
-  return std::string(FLBC_MODELS_DIR) + "/" + name;
+  return std::filesystem::path(FLBC_MODELS_DIR) / name;
 }
 
 inline bool has_model(const std::string& name) {

@@ -55,12 +55,12 @@ class Rig {
   //! \throws InputError if it is not for V vertices and n control points
   void set_solution(Solution solution);
 
-  //! Moves the rest cage, and the mesh with it, and solves, see Solver::move(). The mesh follows
+  //! Moves the rest cage, and the mesh with it, and solves, see Solver::reshape(). The mesh follows
   //! the solution, which may be a given one. The model stays, and its masks with it.
   //! \param control_points  Dim x n
   //! \throws InputError if the model would be outside (OutsidePoints::kFail), masks could not be
   //! obeyed, the cage would not be symmetric (mirror_axis), the cage has several parts, or as
-  //! Solver::move(); then nothing has changed
+  //! Solver::reshape(); then nothing has changed
   const Solution& reshape(const PointList<Dim>& control_points, const Budget& budget = {});
 
   //! \throws InputError if the model is outside

@@ -61,6 +61,11 @@ Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {}
 bool tries_active_set(int dim, Index control_points, Index vertices,
                       const SolverOptions& options = {});
 
+namespace internal {
+template <int Dim>
+struct SolverState;
+}
+
 //! Keeps a problem and the state of its iteration, so each solve resumes from the last one. Use it
 //! to change the tolerance, to run a few iterations at a time, or to change the rest cage.
 //!
@@ -98,20 +103,22 @@ class Solver {
   using MasksIn =
       std::function<std::vector<Mask>(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh)>;
 
-  //! Moves the control points and the mesh, and solves. kWeights starts from the duals of the
-  //! previous rest cage, other methods start over. If the current rest cage has no solution, it is
-  //! solved first. An exception leaves the object unchanged.
+  //! Changes the rest cage: moves the control points and the mesh, and solves. kWeights starts from
+  //! the duals of the previous rest cage, other methods start over. If the current rest cage has no
+  //! solution, it is solved first. An exception leaves the object unchanged.
   //! \param control_points  Dim x n, in the units of the cage
   //! \param masks_in  returns SolverOptions::masks of the moved mesh; null: as before
   //! \throws InputError if their number differs, one is not finite, the cage becomes defective,
   //! masks cannot be obeyed, or a cell would be inverted, naming the cell and its location;
   //! OptionError for an invalid budget; SolverError
-  const Solution& move(const PointList<Dim>& control_points, const Budget& budget = {},
-                       const Observer& observer = {}, const MasksIn& masks_in = {});
+  const Solution& reshape(const PointList<Dim>& control_points, const Budget& budget = {},
+                          const Observer& observer = {}, const MasksIn& masks_in = {});
 
   //! Changes the options of the following solves. The next solve resumes from the last state if
-  //! only tolerance, gap, max_iterations, certify, masks, reach, or threads differ and distances
-  //! are accurate enough. Otherwise the problem is set up again, as by a new Solver.
+  //! only tolerance, gap, max_iterations, certify, or threads differ and distances are accurate
+  //! enough. With other masks it starts from the duals of the last state and from the supports of
+  //! the coarse mesh. With another reach it starts over, without a new setup. Otherwise the problem
+  //! is set up again, as by a new Solver.
   //! \throws OptionError, SolverError; InputError for masks without weights; then options are
   //! unchanged
   void set_options(const SolverOptions& options);
@@ -133,8 +140,7 @@ class Solver {
   const Solution& solution() const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<internal::SolverState<Dim>> state_;
 };
 
 }  // namespace flbc

@@ -295,7 +295,7 @@ const Solution& Rig<Dim>::reshape(const PointList<Dim>& control_points, const Bu
     return solver_options(options_, placed.masks);
   };
   if (solver_) {
-    solver_->move(control_points, budget, options_.observer,
+    solver_->reshape(control_points, budget, options_.observer,
                   [&](const auto& cage, const auto& mesh) { return place_in(cage, mesh).masks; });
   } else {
     Cage<Dim> moved{control_points, cage_.facets};

@@ -13,6 +13,7 @@
 #include "flbc/non_negative.h"
 #include "problem/problem_geometry.h"
 #include "solver/api/solve_parts.h"
+#include "solver/run/reporter.h"
 
 namespace flbc {
 namespace {
@@ -53,7 +54,7 @@ Solution compute_coordinates(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                              const Observer& observer) {
   validate(coordinates, options);
   const auto compute_connected = [&](const Cage<Dim>& part, const DomainMesh<Dim>& domain,
-                                     const Reporter& reporter, const std::vector<Index>&, bool) {
+                                     const Observer& own, const std::vector<Index>&, bool) {
     const ThreadScope threads(threads_for(options.threads, part.size(), domain.num_vertices()));
     Stopwatch watch;
     Solution solution;
@@ -67,7 +68,7 @@ Solution compute_coordinates(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
     weights = weights_of(problem, coordinates);
     report.seconds.solve = watch.lap();
     if (options.non_negative == NonNegative::kProject) {
-      const StageScope scope(reporter.stage(Stage::kNonNegative));
+      const StageScope scope(Reporter(own).stage(Stage::kNonNegative));
       weights = project_non_negative<Dim>(problem.cage.points, problem.mesh.points, weights,
                                           problem.boundary.interior_vertices());
     }
@@ -75,7 +76,7 @@ Solution compute_coordinates(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
     report.quality = measure_quality(problem.cage.points, problem.mesh.points, weights);
     return solution;
   };
-  return solve_parts<Dim>(cage, mesh, Reporter(observer), compute_connected);
+  return solve_parts<Dim>(cage, mesh, observer, compute_connected);
 }
 
 FLBC_INSTANTIATE_FUNCTION(compute_coordinates)

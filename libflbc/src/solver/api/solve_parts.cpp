@@ -178,16 +178,34 @@ SparseWeights join(const std::vector<Part<Dim>>& parts, const std::vector<Soluti
   });
 }
 
+// Reports a part of every stage, from `before` to `before + share`, and the parts that follow.
+// Keeps a reference.
+Observer observer_of_part(const Observer& whole, double before, double share, int to_come) {
+  auto part = whole;
+  if (whole.progress) {
+    part.progress = [&whole, to_come](Progress progress) {
+      progress.finer_levels += to_come;
+      return whole.progress(progress);
+    };
+  }
+  if (whole.stage) {
+    part.stage = [&whole, before, share](Stage stage, double done) {
+      whole.stage(stage, before + share * done);
+    };
+  }
+  return part;
+}
+
 }  // namespace
 
 template <int Dim>
-Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Reporter& reporter,
+Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Observer& observer,
                      const SolvePart<Dim>& solve_part) {
   validate(mesh);
   if (count_parts(mesh) == 1) {
     std::vector<Index> all(cage.size());
     std::iota(all.begin(), all.end(), 0);
-    return solve_part(cage, mesh, reporter, all, false);
+    return solve_part(cage, mesh, observer, all, false);
   }
   const auto parts = take_apart(cage, mesh);
   const auto unknowns = [](const Part<Dim>& part) {
@@ -203,7 +221,7 @@ Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const R
     const double share = unknowns(parts[p]) / all;
     const auto to_come = static_cast<int>(parts.size() - p) - 1;
     solved.push_back(solve_part(parts[p].cage, parts[p].domain.mesh,
-                                reporter.with_more_to_come(to_come).of_part(before, share),
+                                observer_of_part(observer, before, share, to_come),
                                 parts[p].control_points, stopped));
     stopped = stopped || solved[p].report.status == SolveStatus::kStopped;
     reports.push_back(std::move(solved[p].report));

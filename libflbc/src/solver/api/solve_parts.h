@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "flbc/solver.h"
-#include "solver/run/reporter.h"
 
 namespace flbc {
 
@@ -15,14 +14,14 @@ namespace flbc {
 //! \param stopped  whether the caller stopped the solve of a part before, so that one iteration
 //! suffices
 template <int Dim>
-using SolvePart = std::function<Solution(const Cage<Dim>&, const DomainMesh<Dim>&, const Reporter&,
+using SolvePart = std::function<Solution(const Cage<Dim>&, const DomainMesh<Dim>&, const Observer&,
                                          const std::vector<Index>& control_points, bool stopped)>;
 
 //! Checks the mesh, and solves every part of it with the control points that are its vertices. If
 //! there is one part, it is the mesh itself.
 //! \throws InputError as validate(), or if the parts of mesh and cage differ
 template <int Dim>
-Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Reporter& reporter,
+Solution solve_parts(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const Observer& observer,
                      const SolvePart<Dim>& solve_part);
 
 }  // namespace flbc

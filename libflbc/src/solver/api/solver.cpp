@@ -30,7 +30,7 @@
 #include "solver/plan/choices.h"
 #include "solver/plan/settings.h"
 #include "solver/run/run.h"
-#include "solver/start/transfer.h"
+#include "solver/start/prolongation.h"
 
 namespace flbc {
 namespace {
@@ -173,44 +173,6 @@ void require_distances(const NestedProblem<Dim>& ready, const plan::Settings& se
       "distances auto");
 }
 
-// Solves connected parts of a mesh. Keeps references to the arguments.
-// \param topology  of the whole mesh; null if not known
-template <int Dim>
-SolvePart<Dim> part_solver(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-                           const SolverOptions& given, const MeshTopology<Dim>* topology) {
-  validate(given);
-  require_factors(given.reach, cage.size());
-  return [&mesh, topology, common = plan::settings_of(given)](
-             const Cage<Dim>& part, const DomainMesh<Dim>& domain, const Reporter& reporter,
-             const std::vector<Index>& control_points, bool stopped) {
-    auto settings = common;
-    settings.reach.clear();
-    if (!common.reach.empty()) {
-      for (const Index i : control_points) settings.reach.push_back(common.reach[i]);
-    }
-    require_valid(settings, part.size());
-    if (stopped) settings.max_iterations = 1;
-    const ThreadScope threads(threads_for(settings.threads, part.size(), domain.num_vertices()));
-    require_connected(domain);
-    Stopwatch watch;
-    auto geometry = topology != nullptr && &domain == &mesh ? make_geometry(part, domain, *topology)
-                                                            : make_geometry(part, domain);
-    geometry.masks = masks_inside(part.points, domain.points, geometry.boundary, settings.masks);
-    auto ready = set_up(std::move(geometry), settings, reporter);
-    require_distances(ready, settings);
-    const double setup_seconds = watch.lap();
-    MethodRun<Dim> run(ready.problem);
-    SolveReport report;
-    auto weights = solve_from_coarse(ready.problem, run, std::move(ready.coarse), settings, {},
-                                     reporter, report);
-    auto solution = finish(ready.problem, run, std::move(weights), settings, reporter, report);
-    solution.report.seconds.setup = setup_seconds;
-    solution.report.distances = ready.distances;
-    if (stopped) solution.report.status = SolveStatus::kStopped;
-    return solution;
-  };
-}
-
 void validate(const Budget& budget) {
   if (budget.iterations < 0) {
     throw OptionError("iterations must be at least 1, or 0 for no separate limit, not " +
@@ -230,8 +192,8 @@ void require_points_for(const Cage<Dim>& cage, const PointList<Dim>& control_poi
 }
 
 // Options that stay the same during a run. All others take effect when it resumes, except for
-// masks and reach, for which another run starts from its duals. Names all options, so that a new
-// one cannot be forgotten.
+// masks and reach, for which another run begins. Names all options, so that a new one cannot be
+// forgotten.
 auto fixed_in_a_run(const SolverOptions& options) {
   const auto& [method, phi, smoothness, distances, precision, non_negative, tolerance, gap,
                active_set, max_iterations, penalty, certify, masks, reach, threads] =
@@ -272,30 +234,15 @@ Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& given,
   const Reporter reporter(observer);
   MethodRun<Dim> run(problem);
   SolveReport report;
-  auto weights = solve_from_coarse(problem, run, coarse_problem(problem, settings), settings, {},
-                                   reporter, report);
+  auto weights = solve_from_coarse<Dim>(problem, run, coarse_problem(problem, settings), nullptr,
+                                        settings, {}, reporter, report);
   return finish(problem, run, std::move(weights), settings, reporter, std::move(report));
 }
 
 template <int Dim>
-Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
-               const Observer& observer) {
-  require_one_part(mesh, options);
-  return solve_parts(cage, mesh, Reporter(observer),
-                     part_solver<Dim>(cage, mesh, options, nullptr));
-}
+struct internal::SolverState {
+  using MasksIn = typename Solver<Dim>::MasksIn;
 
-template <int Dim>
-Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-               const MeshTopology<Dim>& topology, const SolverOptions& options,
-               const Observer& observer) {
-  require_one_part(mesh, options);
-  return solve_parts(cage, mesh, Reporter(observer),
-                     part_solver<Dim>(cage, mesh, options, &topology));
-}
-
-template <int Dim>
-struct Solver<Dim>::State {
   // The state for one rest cage; the run refers to the problem.
   struct Shape : NestedProblem<Dim> {
     Cage<Dim> cage;  // as given by the caller
@@ -316,31 +263,35 @@ struct Solver<Dim>::State {
   };
 
   // Sets up the problem of a rest cage, as a new Solver does.
-  void begin(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& given,
-             const Observer& observer = {}) {
+  // \param topology  of the mesh; null if not known
+  void begin(Cage<Dim> cage, DomainMesh<Dim> mesh, const MeshTopology<Dim>* topology,
+             const SolverOptions& given, const Observer& observer = {}) {
     require_valid(given, cage.size());
     require_connected(mesh);
     const ThreadScope threads(threads_for(given.threads, cage.size(), mesh.num_vertices()));
     const Stopwatch watch;
     const auto settings = plan::settings_of(given);
-    auto geometry = make_geometry(cage, mesh);
+    auto geometry =
+        topology == nullptr ? make_geometry(cage, mesh) : make_geometry(cage, mesh, *topology);
     geometry.masks = masks_inside(cage.points, mesh.points, geometry.boundary, given.masks);
     auto ready = set_up_shape(cage, mesh, std::move(geometry), settings, observer);
     require_distances<Dim>(*ready, settings);
     shape = std::move(ready);
     shape->setup_seconds = watch.seconds();
     options = given;
-    duals.reset();
+    warm_start.reset();
   }
 
-  // The next solve starts from the present duals, with other masks and another reach. Methods
-  // without them start over.
+  // Sets masks and reach. With another reach the next solve starts over, which takes fewer
+  // iterations than a warm start; with other masks it starts from the present state.
   void change_problem(const SolverOptions& given) {
     auto& [problem, coarse, distances] = static_cast<NestedProblem<Dim>&>(*shape);
     auto masks =
         masks_inside(shape->cage.points, shape->mesh.points, problem.boundary, given.masks);
-    if (!duals && plan::inherits(given.method) && shape->run->has_duals()) {
-      duals = shape->run->duals();
+    if (given.reach != options.reach) {
+      warm_start.reset();
+    } else if (!warm_start && shape->run->has_warm_start()) {
+      warm_start = shape->run->warm_start();
     }
     coarse.reset();  // has those before
     problem.masks = std::move(masks);
@@ -394,20 +345,21 @@ struct Solver<Dim>::State {
   }
 
   // Solves from the start, or resumes the run. The solution is unchanged if it throws.
-  // \param spent  seconds of the budget
-  void solve_on(Shape& on, const Transfer<Dim>* start, const Budget& budget, double spent,
-                const Observer& observer) {
+  // \param spent  seconds of the budget \param keeps_supports  whether weights of an active set are
+  // zero where those of the start are
+  void solve_on(Shape& on, const Prolongation<Dim>* start, bool keeps_supports,
+                const Budget& budget, double spent, const Observer& observer) {
     const auto settings = plan::settings_of(options);
     const Reporter reporter(observer);
     const ThreadScope threads(num_threads(on.problem, settings));
     SolveReport report;
     Weights weights;
-    if (start != nullptr || on.run->has_begun()) {
+    if (on.run->has_begun() || (start != nullptr && keeps_supports)) {
       weights = solve_within<Dim>(budget, spent, *on.run, settings, reporter, report, {start});
     } else {
       auto coarse = std::exchange(on.coarse, std::nullopt);
       if (!coarse) coarse = coarse_problem(on.problem, settings);
-      weights = solve_from_coarse(on.problem, *on.run, std::move(coarse), settings, budget,
+      weights = solve_from_coarse(on.problem, *on.run, std::move(coarse), start, settings, budget,
                                   reporter, report);
     }
     solution =
@@ -420,15 +372,54 @@ struct Solver<Dim>::State {
   std::unique_ptr<Shape> shape{};
   Solution solution{};
   std::shared_ptr<const Reference> reference{};  // none before the first move
-  std::optional<Duals<Dim>> duals{};  // of the masks before, from which the next solve starts
+  std::optional<WarmStart<Dim>> warm_start{};    // of the masks before, for the next solve
 };
+
+// One solver per part. \param topology  of the whole mesh; null if not known
+template <int Dim>
+Solution solve_each_part(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                         const MeshTopology<Dim>* topology, const SolverOptions& options,
+                         const Observer& observer) {
+  validate(options);
+  require_factors(options.reach, cage.size());
+  require_one_part(mesh, options);
+  const auto solve_part = [&](const Cage<Dim>& part, const DomainMesh<Dim>& domain,
+                              const Observer& own, const std::vector<Index>& control_points,
+                              bool stopped) {
+    auto settings = options;
+    settings.reach.clear();
+    if (!options.reach.empty()) {
+      for (const Index i : control_points) settings.reach.push_back(options.reach[i]);
+    }
+    if (stopped) settings.max_iterations = 1;
+    internal::SolverState<Dim> state{settings};
+    state.begin(part, domain, &domain == &mesh ? topology : nullptr, settings, own);
+    state.solve_on(*state.shape, nullptr, true, {}, 0, own);
+    if (stopped) state.solution.report.status = SolveStatus::kStopped;
+    return std::move(state.solution);
+  };
+  return solve_parts<Dim>(cage, mesh, observer, solve_part);
+}
+
+template <int Dim>
+Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, const SolverOptions& options,
+               const Observer& observer) {
+  return solve_each_part<Dim>(cage, mesh, nullptr, options, observer);
+}
+
+template <int Dim>
+Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+               const MeshTopology<Dim>& topology, const SolverOptions& options,
+               const Observer& observer) {
+  return solve_each_part<Dim>(cage, mesh, &topology, options, observer);
+}
 
 template <int Dim>
 Solver<Dim>::Solver(Cage<Dim> cage, DomainMesh<Dim> mesh, const SolverOptions& options,
                     const Observer& observer)
-    : state_(std::make_unique<State>(State{options})) {
+    : state_(std::make_unique<internal::SolverState<Dim>>(internal::SolverState<Dim>{options})) {
   normalize_and_validate(mesh);
-  state_->begin(std::move(cage), std::move(mesh), options, observer);
+  state_->begin(std::move(cage), std::move(mesh), nullptr, options, observer);
 }
 
 template <int Dim>
@@ -442,12 +433,14 @@ template <int Dim>
 const Solution& Solver<Dim>::solve(const Budget& budget, const Observer& observer) {
   validate(budget);
   try {
-    auto& [problem, coarse, distances] = static_cast<NestedProblem<Dim>&>(*state_->shape);
-    if (const auto duals = std::exchange(state_->duals, std::nullopt)) {
-      const Transfer<Dim> transfer(problem, *duals, problem);
-      state_->solve_on(*state_->shape, &transfer, budget, 0, observer);
+    auto& shape = *state_->shape;
+    if (const auto warm_start = std::exchange(state_->warm_start, std::nullopt)) {
+      const Prolongation<Dim> prolongation(shape.problem, *warm_start, shape.problem);
+      const bool keeps_supports =
+          !plan::active_set(plan::sizes_of(shape.problem), plan::settings_of(state_->options));
+      state_->solve_on(shape, &prolongation, keeps_supports, budget, 0, observer);
     } else {
-      state_->solve_on(*state_->shape, nullptr, budget, 0, observer);
+      state_->solve_on(shape, nullptr, true, budget, 0, observer);
     }
   } catch (...) {
     restart();
@@ -457,11 +450,11 @@ const Solution& Solver<Dim>::solve(const Budget& budget, const Observer& observe
 }
 
 template <int Dim>
-const Solution& Solver<Dim>::move(const PointList<Dim>& control_points, const Budget& budget,
-                                  const Observer& observer, const MasksIn& masks_in) {
+const Solution& Solver<Dim>::reshape(const PointList<Dim>& control_points, const Budget& budget,
+                                     const Observer& observer, const MasksIn& masks_in) {
   validate(budget);
   auto& state = *state_;
-  if (state.solution.weights.num_points() == 0 || state.duals) solve({}, observer);
+  if (!state.shape->run->has_begun()) solve({}, observer);
   Stopwatch watch;
   const auto& before = *state.shape;
   const auto settings = plan::settings_of(state.options);
@@ -471,12 +464,12 @@ const Solution& Solver<Dim>::move(const PointList<Dim>& control_points, const Bu
   auto shape = state.moved(control_points, settings, reference, masks_in, masks, observer);
   shape->setup_seconds = watch.lap();
   const double spent = shape->setup_seconds;
-  if (plan::inherits(settings.method) && before.run->has_duals()) {
-    const auto duals = before.run->duals();
-    const Transfer<Dim> transfer(before.problem, duals, shape->problem);
-    state.solve_on(*shape, &transfer, budget, spent, observer);
+  if (plan::inherits(settings.method) && before.run->has_warm_start()) {
+    const auto warm_start = before.run->warm_start();
+    const Prolongation<Dim> prolongation(before.problem, warm_start, shape->problem);
+    state.solve_on(*shape, &prolongation, true, budget, spent, observer);
   } else {
-    state.solve_on(*shape, nullptr, budget, spent, observer);
+    state.solve_on(*shape, nullptr, true, budget, spent, observer);
   }
   state.shape = std::move(shape);
   state.reference = std::move(reference);
@@ -488,22 +481,22 @@ template <int Dim>
 void Solver<Dim>::set_options(const SolverOptions& options) {
   auto& state = *state_;
   require_valid(options, state.shape->cage.size());
-  const bool has_begun = state.shape->run->has_begun() || state.duals;
-  if (has_begun && fixed_in_a_run(options) == fixed_in_a_run(state.options) &&
+  const bool has_solved = state.solution.weights.num_points() > 0;
+  if (has_solved && fixed_in_a_run(options) == fixed_in_a_run(state.options) &&
       !state.needs_other_phi(options)) {
     if (options.masks != state.options.masks || options.reach != state.options.reach) {
       state.change_problem(options);
     }
     state.options = options;
   } else {
-    state.begin(state.shape->cage, state.shape->mesh, options);
+    state.begin(state.shape->cage, state.shape->mesh, &state.shape->problem.topology, options);
   }
 }
 
 template <int Dim>
 void Solver<Dim>::restart() {
   state_->shape->run.emplace(state_->shape->problem);
-  state_->duals.reset();
+  state_->warm_start.reset();
 }
 
 template <int Dim>

@@ -131,19 +131,23 @@ StopRule MethodRun<Dim>::make_stop_rule(const plan::Settings& settings) const {
 // \return whether an active set pays
 template <int Dim>
 bool MethodRun<Dim>::begin_on_active_set(const plan::Settings& settings,
-                                         const WarmStart<Dim>& start) {
+                                         const RunStart<Dim>& start) {
   const auto sizes = plan::sizes_of(*problem_);
   if (!plan::active_set(sizes, settings)) return false;
   const bool cold = start.from == nullptr;
-  active_set::ColdStart<Dim> harmonic;
+  active_set::HarmonicStart<Dim> harmonic;
   if (cold) {
-    harmonic = active_set::cold_start(*problem_, plan::linear_solver(sizes, settings.method));
+    harmonic = active_set::harmonic_start(*problem_, plan::linear_solver(sizes, settings.method));
   }
+  const double threshold = active_set::threshold_for(*settings.tolerance);
   auto active = plan::active_set_is_complete(sizes, settings, cold)
                     ? active_set::all_allowed(*problem_)
                 : cold ? std::move(harmonic.active)
-                       : active_set::active_from(*problem_, *start.from,
-                                                 active_set::threshold_for(*settings.tolerance));
+                       : active_set::active_from(*problem_, *start.from, threshold);
+  if (start.supports != nullptr) {
+    active = active_set::joined(*problem_, active,
+                                active_set::active_from(*problem_, *start.supports, threshold));
+  }
   if (!plan::active_set_pays(active_set::density(*problem_, active), sizes, settings)) return false;
   const auto from = cold ? harmonic.start : start.from->start();
   const auto parameters = weights_parameters(
@@ -155,7 +159,7 @@ bool MethodRun<Dim>::begin_on_active_set(const plan::Settings& settings,
 }
 
 template <int Dim>
-void MethodRun<Dim>::begin(const plan::Settings& settings, const WarmStart<Dim>& start) {
+void MethodRun<Dim>::begin(const plan::Settings& settings, const RunStart<Dim>& start) {
   is_active_ = begin_on_active_set(settings, start);
   if (is_active_) return;
   if (settings.method == Method::kWeights) {
@@ -172,7 +176,7 @@ void MethodRun<Dim>::begin(const plan::Settings& settings, const WarmStart<Dim>&
 
 template <int Dim>
 Weights MethodRun<Dim>::solve(const plan::Settings& settings, const Reporter& reporter,
-                              SolveReport& report, WarmStart<Dim> start) {
+                              SolveReport& report, RunStart<Dim> start) {
   Stopwatch watch;
   report = {};
   report.method = settings.method;
@@ -196,7 +200,7 @@ Weights MethodRun<Dim>::solve(const plan::Settings& settings, const Reporter& re
 }
 
 template <int Dim>
-Duals<Dim> MethodRun<Dim>::duals(double least_weight) const {
+WarmStart<Dim> MethodRun<Dim>::warm_start(double least_weight) const {
   auto state = iteration_->state();
   if (least_weight > 0 && !is_active_) {
     state.flux_density = active_set::where_weights_are(*problem_, state, least_weight);

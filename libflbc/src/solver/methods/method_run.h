@@ -9,16 +9,18 @@
 
 #include "solver/methods/active_set/active_lists.h"
 #include "solver/run/run.h"
-#include "solver/start/transfer.h"
+#include "solver/start/prolongation.h"
 
 namespace flbc {
 
 //! The start of a method; cold without `from`.
 template <int Dim>
-struct WarmStart {
-  const Transfer<Dim>* from = nullptr;  //!< duals of another mesh or rest cage, for methods with
-                                        //!< plan::inherits()
-  std::function<void()> started{};      //!< called when it is not needed anymore
+struct RunStart {
+  const Prolongation<Dim>* from = nullptr;  //!< duals of another mesh, rest cage, or problem, for
+                                            //!< methods with plan::inherits()
+  const Prolongation<Dim>* supports =
+      nullptr;                      //!< whose supports an active set has as well; or null
+  std::function<void()> started{};  //!< called when it is not needed anymore
 };
 
 //! Makes the iteration of a method for a problem, to which it keeps a reference.
@@ -43,7 +45,7 @@ class MethodRun {
   //!  \param report  reset
   //! \throws SolverError
   Weights solve(const plan::Settings& settings, const Reporter& reporter, SolveReport& report,
-                WarmStart<Dim> start = {});
+                RunStart<Dim> start = {});
 
   //! Certificate of weights (n x V) from the current duals.
   Certificate certify(const WeightMatrix& weights, Proof* proof) const {
@@ -55,15 +57,15 @@ class MethodRun {
   bool has_begun() const { return bool(iteration_); }
 
   //! Whether another mesh or rest cage can start from here.
-  bool has_duals() const { return iteration_ && !iteration_->state().is_cold(); }
+  bool has_warm_start() const { return iteration_ && !iteration_->state().is_cold(); }
 
   //! A start for another mesh or rest cage. \param least_weight  only where weights exceed this; 0
   //! for everywhere
-  Duals<Dim> duals(double least_weight = 0) const;
+  WarmStart<Dim> warm_start(double least_weight = 0) const;
 
  private:
-  void begin(const plan::Settings& settings, const WarmStart<Dim>& start);
-  bool begin_on_active_set(const plan::Settings& settings, const WarmStart<Dim>& start);
+  void begin(const plan::Settings& settings, const RunStart<Dim>& start);
+  bool begin_on_active_set(const plan::Settings& settings, const RunStart<Dim>& start);
   StopRule make_stop_rule(const plan::Settings& settings) const;
 
   const LbcProblem<Dim>* problem_;

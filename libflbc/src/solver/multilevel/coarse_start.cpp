@@ -10,7 +10,7 @@
 #include "solver/methods/active_set/active_lists.h"
 #include "solver/plan/choices.h"
 #include "solver/plan/constants.h"
-#include "solver/start/transfer.h"
+#include "solver/start/prolongation.h"
 
 namespace flbc {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 // \return whether it was stopped
 template <int Dim>
 bool solve_coarse(const LbcProblem<Dim>& problem, const plan::Settings& given,
-                  const Reporter& reporter, Duals<Dim>& duals, LevelReport& level) {
+                  const Reporter& reporter, WarmStart<Dim>& warm_start, LevelReport& level) {
   Stopwatch watch;
   auto settings = given;
   settings.tolerance = plan::kCoarseTolerance;
@@ -32,7 +32,7 @@ bool solve_coarse(const LbcProblem<Dim>& problem, const plan::Settings& given,
   run.solve(settings, reporter.with_more_to_come(1), report);
   // An active set on the finer mesh reads duals only near nonzero weights.
   const bool on_active_set = plan::active_set(plan::sizes_of(problem), given);
-  duals = run.duals(on_active_set ? active_set::threshold_for(*given.tolerance) : 0);
+  warm_start = run.warm_start(on_active_set ? active_set::threshold_for(*given.tolerance) : 0);
   level = {report.vertices, report.cells, report.iterations, watch.lap()};
   return report.status == SolveStatus::kStopped;
 }
@@ -63,7 +63,7 @@ double mesh_error(const LbcProblem<Dim>& problem, const Weights& weights,
 template <int Dim>
 Weights solve_within(const Budget& budget, double spent, MethodRun<Dim>& run,
                      const plan::Settings& given, const Reporter& reporter, SolveReport& report,
-                     const WarmStart<Dim>& start) {
+                     const RunStart<Dim>& start) {
   auto settings = given;
   if (budget.iterations > 0) {
     settings.max_iterations = std::min(settings.max_iterations, budget.iterations);
@@ -75,26 +75,28 @@ Weights solve_within(const Budget& budget, double spent, MethodRun<Dim>& run,
 
 template <int Dim>
 Weights solve_from_coarse(const LbcProblem<Dim>& problem, MethodRun<Dim>& run,
-                          std::optional<CoarseProblem<Dim>> coarse, const plan::Settings& given,
-                          const Budget& budget, const Reporter& reporter, SolveReport& report) {
-  if (!coarse) return solve_within<Dim>(budget, 0, run, given, reporter, report, {});
+                          std::optional<CoarseProblem<Dim>> coarse, const Prolongation<Dim>* before,
+                          const plan::Settings& given, const Budget& budget,
+                          const Reporter& reporter, SolveReport& report) {
+  if (!coarse) return solve_within<Dim>(budget, 0, run, given, reporter, report, {before});
   Stopwatch watch;
-  Duals<Dim> duals;
+  WarmStart<Dim> warm_start;
   LevelReport level;
-  const bool stopped = solve_coarse(coarse->problem, given, reporter, duals, level);
+  const bool stopped = solve_coarse(coarse->problem, given, reporter, warm_start, level);
   auto settings = given;
   if (stopped) settings.max_iterations = 1;  // one iteration, to get weights on this mesh
   const double spent = watch.seconds();
   const auto ends = std::move(coarse->ends);
-  const Transfer<Dim> transfer(coarse->problem, duals, problem, ends);
+  const Prolongation<Dim> prolongation(coarse->problem, warm_start, problem, ends);
   SparseWeights coarse_weights;
   const auto forget = [&] {
-    coarse_weights = std::move(duals.weights);
-    duals = {};
+    coarse_weights = std::move(warm_start.weights);
+    warm_start = {};
     coarse.reset();
   };
-  auto weights =
-      solve_within<Dim>(budget, spent, run, settings, reporter, report, {&transfer, forget});
+  const RunStart<Dim> start = before != nullptr ? RunStart<Dim>{before, &prolongation, forget}
+                                                : RunStart<Dim>{&prolongation, nullptr, forget};
+  auto weights = solve_within<Dim>(budget, spent, run, settings, reporter, report, start);
   if (stopped) report.status = SolveStatus::kStopped;
   report.seconds.solve += spent;
   report.coarse_levels = {level};

@@ -17,17 +17,10 @@ class Reporter {
  public:
   explicit Reporter(const Observer& observer) : observer_(observer) {}
 
-  //! The same for a mesh that is followed by the given number of finer meshes or other parts.
+  //! The same for a mesh that is followed by the given number of finer meshes.
   Reporter with_more_to_come(int levels) const {
     auto other = *this;
     other.finer_levels_ += levels;
-    return other;
-  }
-  //! The same for a part of every stage: from `before` to `before + share`.
-  Reporter of_part(double before, double share) const {
-    auto other = *this;
-    other.before_ = before;
-    other.share_ = share;
     return other;
   }
 
@@ -60,15 +53,13 @@ class Reporter {
     if (!observer_.stage && !observer_.poll) return {};
     return [stage, reporter = *this](double done) {
       reporter.poll();
-      const double all = reporter.before_ + reporter.share_ * done;
-      if (reporter.observer_.stage) reporter.observer_.stage(stage, all);
+      if (reporter.observer_.stage) reporter.observer_.stage(stage, done);
     };
   }
 
  private:
   const Observer& observer_;
   int finer_levels_ = 0;
-  double before_ = 0, share_ = 1;
   double limit_ = std::numeric_limits<double>::infinity();  // seconds
   Stopwatch watch_;
 };

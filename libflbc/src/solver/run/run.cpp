@@ -32,7 +32,7 @@ bool is_finished(const Iteration<Dim>& iteration, RunState& state, const RunCont
                  SolveReport& report) {
   const bool converged = !context.settings.ends_by_gap && report.relative_primal_residual <= 1 &&
                          report.relative_dual_residual <= 1 &&
-                         state.made >= plan::kFewestIterations;
+                         state.made - state.begun >= plan::kFewestIterations;
   if (converged || state.gap.is_met(*context.settings.gap, iteration, state.made)) {
     report.status = SolveStatus::kConverged;
     report.criterion = converged ? Criterion::kTolerance : Criterion::kGap;
@@ -84,7 +84,10 @@ void run(Iteration<Dim>& iteration, RunState& state, const RunContext<Dim>& cont
     const bool ends = evaluates && is_finished(iteration, state, context, report);
     const bool converged = ends && report.status == SolveStatus::kConverged;
     const bool moves_on = iteration.adapt({state.made, tolerance * primal, tolerance, converged});
-    if (moves_on) state.stop.restart();
+    if (moves_on) {
+      state.stop.restart();
+      state.begun = state.made;
+    }
     if (ends && !(converged && moves_on)) return;
     report.status = SolveStatus::kIterationLimit;
     report.criterion = Criterion::kNone;

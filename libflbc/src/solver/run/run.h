@@ -34,7 +34,8 @@ class GapCriterion {
 struct RunState {
   StopRule stop;
   GapCriterion gap{};
-  int made = 0;  //!< iterations since the start
+  int made = 0;   //!< iterations since the start
+  int begun = 0;  //!< iterations before those on the present pairs
 };
 
 //! Inputs of a run other than the iteration and its state. Keeps references.

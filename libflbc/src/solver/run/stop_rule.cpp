@@ -19,13 +19,15 @@ double ErrorEstimate::operator()(double change) {
   const auto sum = [](auto begin, auto end) { return std::accumulate(begin, end, 0.0); };
   const auto count = std::min<std::ptrdiff_t>(plan::kCircle, changes_.size());
   const double now = sum(changes_.end() - count, changes_.end());
+  if (calls_ == plan::kCircle) first_ = now;
   double rate = plan::kFirstRate;
   if (changes_.size() == kKept && now > 0) {
     const double before = sum(changes_.begin(), changes_.begin() + count);
-    // Changes are squares of lengths. Those of noise or of new duals do not shrink, so the rate is
-    // limited.
-    rate = std::min(std::pow(now / before, 0.5 / plan::kLag),
-                    std::max(plan::kLargestRate, 1 - plan::kLeastPower / calls_));
+    // Changes are squares of lengths. They swing, so that the rate since the first ones counts as
+    // well. Those of noise or of new duals do not shrink, so the rate is limited.
+    rate = std::max(std::pow(now / before, 0.5 / plan::kLag),
+                    std::pow(now / first_, 0.5 / (calls_ - plan::kCircle)));
+    rate = std::min(rate, std::max(plan::kLargestRate, 1 - plan::kLeastPower / calls_));
   }
   rate = std::pow(rate, 1.0 / interval_);
   return plan::kSafety * now / static_cast<double>(count) * std::pow(rate / (1 - rate), 2);

@@ -26,6 +26,7 @@ class ErrorEstimate {
  private:
   int interval_;
   int calls_ = 0;
+  double first_ = 0;              // sum of the first changes of a circle
   std::deque<double> changes_{};  // the latest ones
 };
 

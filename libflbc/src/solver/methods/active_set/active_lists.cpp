@@ -34,7 +34,7 @@ ActiveLists lists_of(Index num_vertices, Index num_control_points, const Set& se
   ActiveLists all{{0}, {}};
   for (const auto& list : lists) {
     all.items.insert(all.items.end(), list.begin(), list.end());
-    all.start.push_back(static_cast<Index>(all.items.size()));
+    all.start.push_back(all.items.size());
   }
   return all;
 }
@@ -127,7 +127,7 @@ double threshold_for(double tolerance) {
 }
 
 template <int Dim>
-ActiveLists active_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& coarse,
+ActiveLists active_from(const LbcProblem<Dim>& problem, const Prolongation<Dim>& coarse,
                         double threshold) {
   const auto& weights = coarse.weights();
   const auto near = near_lists(coarse.mesh(), problem.num_control_points(),
@@ -144,6 +144,15 @@ ActiveLists active_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& weight
   const auto near = near_lists(problem.mesh, problem.num_control_points(),
                                [&](Index v) { return (of_vertex(v).array() > threshold).eval(); });
   return completed(problem, weights, [&](Index v, Flags& flags) { add(near.of(v), flags); });
+}
+
+template <int Dim>
+ActiveLists joined(const LbcProblem<Dim>& problem, const ActiveLists& a, const ActiveLists& b) {
+  return lists_of(problem.mesh.num_vertices(), problem.num_control_points(),
+                  [&](Index v, Flags& flags) {
+                    add(a.of(v), flags);
+                    add(b.of(v), flags);
+                  });
 }
 
 template <int Dim>
@@ -168,12 +177,12 @@ VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>& problem, const Start<Dim
 }
 
 template <int Dim>
-ColdStart<Dim> cold_start(const LbcProblem<Dim>& problem, LinearSolver linear_solver) {
+HarmonicStart<Dim> harmonic_start(const LbcProblem<Dim>& problem, LinearSolver linear_solver) {
   const DirichletProblem<Dim> laplace(problem.mesh, problem.boundary, linear_solver);
   // Accurate enough for a start.
   const auto harmonic = std::make_shared<const Eigen::MatrixXf>(
       harmonic_coordinates(problem, laplace).template cast<float>());
-  ColdStart<Dim> cold;
+  HarmonicStart<Dim> cold;
   cold.start.weights = [harmonic](Index v) -> Eigen::VectorXd {
     return harmonic->col(v).template cast<double>();
   };
@@ -242,16 +251,19 @@ template <int Dim>
 double density(const LbcProblem<Dim>& problem, const ActiveLists& active) {
   const auto interior = problem.boundary.interior_vertices();
   double pairs = 0;
-  for (const Index v : interior) pairs += active.start[v + 1] - active.start[v];
+  for (const Index v : interior) {
+    pairs += static_cast<double>(active.start[v + 1] - active.start[v]);
+  }
   const auto all = static_cast<double>(interior.size()) * problem.num_control_points();
   return interior.empty() ? 1 : pairs / all;
 }
 
 FLBC_INSTANTIATE_FUNCTION(active_from)
 FLBC_INSTANTIATE_FUNCTION(active_of)
+FLBC_INSTANTIATE_FUNCTION(joined)
 FLBC_INSTANTIATE_FUNCTION(all_allowed)
 FLBC_INSTANTIATE_FUNCTION(where_weights_are)
-FLBC_INSTANTIATE_FUNCTION(cold_start)
+FLBC_INSTANTIATE_FUNCTION(harmonic_start)
 FLBC_INSTANTIATE_FUNCTION(grown)
 FLBC_INSTANTIATE_FUNCTION(squared_at_ends)
 FLBC_INSTANTIATE_FUNCTION(density)

@@ -9,16 +9,16 @@
 #include "flbc/lbc_problem.h"
 #include "linear/linear_solver.h"
 #include "mesh/vertex_cells.h"
+#include "solver/start/prolongation.h"
 #include "solver/start/start.h"
-#include "solver/start/transfer.h"
 
 namespace flbc::active_set {
 
 //! Index of a control point; plan::active_set() limits their number.
 using ControlPoint = std::uint16_t;
 
-//! The active control points of every vertex, ascending.
-using ActiveLists = VertexItems<ControlPoint>;
+//! The active control points of every vertex, ascending. There may be more than 2^31 in all.
+using ActiveLists = VertexItems<ControlPoint, std::size_t>;
 
 //! Smaller weights count as zero for a given mean squared error.
 double threshold_for(double tolerance);
@@ -28,7 +28,7 @@ double threshold_for(double tolerance);
 //! of adjacent boundary vertices. Feasible non-negative weights exist at every vertex. Boundary
 //! vertices get the control points of their nonzero weights.
 template <int Dim>
-ActiveLists active_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& coarse,
+ActiveLists active_from(const LbcProblem<Dim>& problem, const Prolongation<Dim>& coarse,
                         double threshold);
 
 //! The same from weights on the mesh itself, at the vertex or at a neighbor.
@@ -36,6 +36,10 @@ ActiveLists active_from(const LbcProblem<Dim>& problem, const Transfer<Dim>& coa
 template <int Dim>
 ActiveLists active_of(const LbcProblem<Dim>& problem, const VectorsAt<1>& weights,
                       double threshold);
+
+//! The pairs of two active sets of a problem.
+template <int Dim>
+ActiveLists joined(const LbcProblem<Dim>& problem, const ActiveLists& a, const ActiveLists& b);
 
 //! All control points that masks allow.
 template <int Dim>
@@ -49,7 +53,7 @@ VectorsAt<Dim> where_weights_are(const LbcProblem<Dim>& problem, const Start<Dim
 //! Start of an iteration on the active set without a coarser mesh: harmonic coordinates without
 //! duals, and their active set.
 template <int Dim>
-struct ColdStart {
+struct HarmonicStart {
   Start<Dim> start;  //!< refers to data of this object
   ActiveLists active;
 };
@@ -57,7 +61,7 @@ struct ColdStart {
 //! \param problem  phi is not needed \param linear_solver  for the Laplace equation
 //! \throws SolverError if the Laplace equation cannot be solved
 template <int Dim>
-ColdStart<Dim> cold_start(const LbcProblem<Dim>& problem, LinearSolver linear_solver);
+HarmonicStart<Dim> harmonic_start(const LbcProblem<Dim>& problem, LinearSolver linear_solver);
 
 //! w at one entry in the list of an interior vertex.
 using WeightInList = std::function<double(Index vertex, Index place)>;

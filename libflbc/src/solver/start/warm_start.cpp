@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/start/duals.h"
+#include "solver/start/warm_start.h"
 
 #include <algorithm>
 
@@ -49,19 +49,20 @@ Vectors<Dim> FluxDensities<Dim>::cell(Index cell) const {
 }
 
 template <int Dim>
-Duals<Dim> keep(const LbcProblem<Dim>& problem, const Start<Dim>& start) {
+WarmStart<Dim> keep(const LbcProblem<Dim>& problem, const Start<Dim>& start) {
   const Index n = problem.num_control_points();
   const Index num_vertices = problem.mesh.num_vertices();
-  Duals<Dim> duals;
-  duals.flux_density = {n, problem.mesh.num_cells(), start.flux_density};
-  duals.penalty = start.penalty;
-  duals.weights = SparseWeights::of(n, num_vertices, with_known_values(problem, start.weights));
-  if (!start.vertex_dual) return duals;
+  WarmStart<Dim> warm_start;
+  warm_start.flux_density = {n, problem.mesh.num_cells(), start.flux_density};
+  warm_start.penalty = start.penalty;
+  warm_start.weights =
+      SparseWeights::of(n, num_vertices, with_known_values(problem, start.weights));
+  if (!start.vertex_dual) return warm_start;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(n);
-  duals.vertex_dual = SparseWeights::of(n, num_vertices, [&](Index v) {
+  warm_start.vertex_dual = SparseWeights::of(n, num_vertices, [&](Index v) {
     return problem.boundary.is_interior(v) ? start.vertex_dual(v) : none;
   });
-  return duals;
+  return warm_start;
 }
 
 template class FluxDensities<2>;

@@ -41,7 +41,7 @@ class FluxDensities {
 //! The state of an iteration as quantities with a limit under mesh refinement: densities instead of
 //! values per cell. Lengths are in problem units. n control points, V vertices, F cells.
 template <int Dim>
-struct Duals {
+struct WarmStart {
   double penalty = 0;                 //!< last penalty
   SparseWeights weights{};            //!< of V points
   FluxDensities<Dim> flux_density{};  //!< p_s / A_s, admissible
@@ -52,6 +52,6 @@ struct Duals {
 
 //! Copies the data of a start.
 template <int Dim>
-Duals<Dim> keep(const LbcProblem<Dim>& problem, const Start<Dim>& start);
+WarmStart<Dim> keep(const LbcProblem<Dim>& problem, const Start<Dim>& start);
 
 }  // namespace flbc

@@ -7,23 +7,24 @@
 #include <vector>
 
 #include "flbc/lbc_problem.h"
-#include "solver/start/duals.h"
+#include "solver/start/warm_start.h"
 
 namespace flbc {
 
 //! Evaluates the duals of one mesh on another. Keeps references to its arguments.
 template <int Dim>
-class Transfer {
+class Prolongation {
  public:
   //! To another rest cage of the same mesh. Flux densities are unchanged, because deforming them
   //! with their cells saves no iterations.
-  Transfer(const LbcProblem<Dim>& from, const Duals<Dim>& duals, const LbcProblem<Dim>& to)
-      : from_(from), duals_(duals), to_(to) {}
+  Prolongation(const LbcProblem<Dim>& from, const WarmStart<Dim>& warm_start,
+               const LbcProblem<Dim>& to)
+      : from_(from), warm_start_(warm_start), to_(to) {}
 
   //! From a coarse mesh to its refinement. \param ends  CoarseMesh::ends, not empty
-  Transfer(const LbcProblem<Dim>& from, const Duals<Dim>& duals, const LbcProblem<Dim>& to,
-           const std::vector<std::array<Index, 2>>& ends)
-      : from_(from), duals_(duals), to_(to), ends_(&ends) {}
+  Prolongation(const LbcProblem<Dim>& from, const WarmStart<Dim>& warm_start,
+               const LbcProblem<Dim>& to, const std::vector<std::array<Index, 2>>& ends)
+      : from_(from), warm_start_(warm_start), to_(to), ends_(&ends) {}
 
   //! The start on the other mesh; it refers to this object. Weights are interpolated. The flux
   //! density is that of the cell of which a cell is a part, made admissible.
@@ -35,11 +36,11 @@ class Transfer {
   }
 
   const DomainMesh<Dim>& mesh() const { return from_.mesh; }
-  const SparseWeights& weights() const { return duals_.weights; }
+  const SparseWeights& weights() const { return warm_start_.weights; }
 
  private:
   const LbcProblem<Dim>& from_;
-  const Duals<Dim>& duals_;
+  const WarmStart<Dim>& warm_start_;
   const LbcProblem<Dim>& to_;
   const std::vector<std::array<Index, 2>>* ends_ = nullptr;
 };
