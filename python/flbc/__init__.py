@@ -12,8 +12,8 @@ layout and real or integer type; results are float64 in C order.
 Shapes              `Cage`, `DomainMesh`, `mesh`, `make_cage`, `repair`, `check`, `border`
 Models              `bind`, `Rig`, `Binding`: `load_binding`
 Coordinates         `solve`, `Solver`, `Solution`, `mean_value`
-Weights             `deform`, `sparsify`, `compose`, `transfer`, `measure`; a `Binding`
-                    does the same, and keeps masks, mirrors, and offsets
+Weights             `deform`, `sparsify`, `transfer`, `measure`; a `Binding` keeps masks,
+                    mirrors, and offsets
 Files               `read_cage`, `read_model`, `read_mesh`, `read_weights`, and
                     `write_...` for each; `export` (glTF, USD), `view` (a page)
 Exceptions          `Error` and its subclasses; the warning `NotConverged`
@@ -46,13 +46,13 @@ from ._files import (
 from ._models import Defect, Repaired, border, check, make_cage, repair
 from ._shapes import Cage, DomainMesh, Model
 from ._solve import Certificate, Solution, Solver, SolverOptions, mesh, solve
-from ._weights import compose, deform, mean_value, measure, sparsify, transfer
+from ._weights import deform, mean_value, measure, sparsify, transfer
 
 __version__: str = _core.version
 __all__ = [
     "Binding", "Cage", "Certificate", "Defect", "DomainMesh", "Error", "InputError", "IoError",
     "MaskConflict", "Model", "NotConverged", "OptionError", "Page", "Progress", "Repaired", "Rig", "Solution", "Solver",
-    "SolverError", "SolverOptions", "bind", "border", "check", "compose", "deform",
+    "SolverError", "SolverOptions", "bind", "border", "check", "deform",
     "export", "load_binding", "make_cage", "mean_value", "measure", "mesh", "read_cage", "read_mesh", "read_model",
     "read_weights", "repair", "solve", "sparsify", "transfer", "view", "write_cage", "write_mesh", "write_model", "write_weights",
 ]

@@ -128,7 +128,7 @@ class Binding:
     """
 
     __slots__ = (
-        "weights", "offsets", "cage", "points", "outside", "masks", "report", "solution", "_core"
+        "weights", "offsets", "cage", "points", "outside", "masks", "report", "solution", "_any"
     )
     weights: csr_matrix
     offsets: Optional[Floats]
@@ -138,6 +138,7 @@ class Binding:
     masks: List[Tuple[Ints, Ints]]
     report: Dict[str, Any]
     solution: Optional[Solution]
+    _any: _core.Binding
 
     def __init__(
         self,
@@ -166,7 +167,7 @@ class Binding:
                 frozen(array)
         for name, value in arrays.items():
             object.__setattr__(self, name, value)
-        object.__setattr__(self, "_core", core)
+        object.__setattr__(self, "_any", core)
         return self
 
     def __setattr__(self, name: str, value: Any) -> None:
@@ -184,7 +185,7 @@ class Binding:
         """The vertices of the model, shape (P, d), for moved control points: a Cage, or an array of
         shape (n, d). For a stack of poses, shape (T, n, d), the result has shape (T, P, d)."""
         return each_pose(
-            control_points, lambda pose: self._core.deform(self._pose(pose)), len(self.points)
+            control_points, lambda pose: self._any.deform(self._pose(pose)), len(self.points)
         )
 
     def jacobians(self, control_points: CageLike) -> Floats:
@@ -193,7 +194,7 @@ class Binding:
         coordinate k in direction j. Vertices that do not move have the identity."""
         d = self.cage.dim
         pose = control_points.points if isinstance(control_points, Cage) else control_points
-        columns = self._core.jacobians(self._pose(pose)).reshape(-1, d, d)
+        columns = self._any.jacobians(self._pose(pose)).reshape(-1, d, d)
         return np.ascontiguousarray(columns.transpose(0, 2, 1))
 
     def reduced(
@@ -203,7 +204,7 @@ class Binding:
         minimized for `poses`, arrays of shape (n, d), if given. Vertices outside with
         ``outside="extend"`` keep all their weights."""
         most, moved = limit_of(k, threshold), as_poses(poses, self.cage)
-        return _binding(self._core.reduced(most, threshold, moved))
+        return _binding(self._any.reduced(most, threshold, moved))
 
     def transferred(
         self,
@@ -227,7 +228,7 @@ class Binding:
         polygons = as_polygons(faces, "faces", len(to))
         corners = None if from_faces is None else corners_of(self.points, from_faces)
         longest = np.inf if limit is None else limit
-        return _binding(self._core.transferred(to, polygons, outside, corners, longest))
+        return _binding(self._any.transferred(to, polygons, outside, corners, longest))
 
     def composed(self, map: Weights, cage: Any) -> Binding:
         """The binding to m other control points, which move those of this binding.
@@ -243,7 +244,7 @@ class Binding:
             raise InputError(f"cage has points of shape {outer.points.shape}, but needs "
                              f"(m, {self.cage.dim})")
         shares = as_weights(as_matrix(map, "map"), "map", len(self.cage), len(outer))
-        return _binding(self._core.composed(shares, outer.points, outer.facets))
+        return _binding(self._any.composed(shares, outer.points, outer.facets))
 
     def export(
         self,
@@ -281,7 +282,7 @@ class Binding:
         moved = as_poses(poses, self.cage)
         seconds = [k / 24 for k in range(len(moved))] if times is None else list(times)
         polygons = as_polygons(faces, "faces", len(self.points))
-        _core.export_skin(self._core, str(path), polygons, seconds, moved, max_influences, name)
+        _core.export_skin(self._any, str(path), polygons, seconds, moved, max_influences, name)
 
     def view(
         self,
@@ -295,7 +296,7 @@ class Binding:
         (n, d), can be chosen. A notebook shows the page; its ``save("model.html")`` writes a file
         for any browser."""
         polygons = as_polygons(faces, "faces", len(self.points))
-        return Page(_core.make_page(self._core, polygons, as_poses(poses, self.cage), title))
+        return Page(_core.make_page(self._any, polygons, as_poses(poses, self.cage), title))
 
     def save(self, path: "str | os.PathLike[str]") -> None:
         """Writes the binding to a file for `load_binding` and all commands of the program.
@@ -313,7 +314,7 @@ class Binding:
         """
         if not str(path).endswith(".npz"):
             raise OptionError(f"{path}: a binding is a file that ends in .npz")
-        self._core.save(str(path))
+        self._any.save(str(path))
 
     def __repr__(self) -> str:
         points, controls = self.weights.shape
@@ -321,7 +322,7 @@ class Binding:
 
     def __reduce__(self) -> Any:
         proof = self.solution._proof if self.solution else None
-        return _restored, (self._core.content(), self.report, proof)
+        return _restored, (self._any.content(), self.report, proof)
 
 
 def _binding(core: _core.Binding, **other: Any) -> Binding:

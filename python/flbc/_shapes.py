@@ -32,7 +32,7 @@ def check_scalars(**values: Any) -> None:
 
 
 def as_array(value: Any, name: str) -> NDArray[Any]:
-    if np.ma.is_masked(value):
+    if isinstance(value, np.ma.MaskedArray) and np.any(value.mask):
         raise InputError(f"{name} is an array with masked entries; fill them, or leave them out")
     try:
         return np.asarray(value)

@@ -215,7 +215,9 @@ def parsed(
         )
     if given.get("mask") is not None:
         given["mask"] = as_masks(given["mask"], count, cage)
-    choices = {"symmetric": [None, "x", "y", "z"][: cage.dim + 1], "conflicts": ["fail", "relax"]}
+    choices: Dict[str, Any] = {
+        "symmetric": [None, "x", "y", "z"][: cage.dim + 1], "conflicts": ["fail", "relax"]
+    }
     for name, known in choices.items():
         value = given.pop(name, known[0])
         if value not in known:
@@ -538,7 +540,7 @@ class Solver:
         given = parsed(self._options, cage, domain, self._model_size or len(domain))
         shape = domain and (domain.points, domain.cells)
         self._core = _core.Rig(
-            cage.points, cage.facets, shape, vertices, *model, given, callback
+            cage.points, cage.facets, shape, vertices, model[0], model[1], given, callback
         )
 
     def _run(

@@ -183,31 +183,6 @@ def deform(weights: Weights, control_points: CageLike) -> Floats:
     return each_pose(control_points, move, matrix.shape[0])
 
 
-def compose(weights: Weights, map: Weights) -> Weights:
-    """Multiplies weights by a map, if the n control points themselves follow m others.
-
-    Only `Binding.composed` keeps masks.
-
-    Parameters
-    ----------
-    weights : array_like or sparse matrix, shape (P, n)
-    map : array_like or sparse matrix, shape (n, m)
-        Weights of the n control points, at least 0; rows sum to 1.
-
-    Returns
-    -------
-    scipy.sparse.csr_matrix, shape (P, m)
-        Limit its influences by `sparsify`.
-
-    Raises
-    ------
-    InputError
-        If shapes do not match, or the map is no such matrix.
-    """
-    matrices = (as_matrix(weights, "weights"), "weights"), (as_matrix(map, "map"), "map")
-    return from_core(_core.compose(*(as_weights(m, name, *m.shape) for m, name in matrices)))
-
-
 def transfer(
     weights: Weights,
     cage: CageLike,

@@ -9,7 +9,6 @@
 #include "flbc/border.h"
 #include "flbc/cage_facts.h"
 #include "flbc/check.h"
-#include "flbc/compose.h"
 #include "flbc/errors.h"
 #include "flbc/gradients.h"
 #include "flbc/io/cut_polygon.h"
@@ -250,11 +249,6 @@ py::object sparsify(const Doubles& control_points, const Doubles& points, const 
   });
 }
 
-py::object compose(const py::object& weights, const py::object& map) {
-  const auto given = weights_of(weights), shares = weights_of(map);
-  return as_python(without_gil([&] { return flbc::compose(given, shares); }));
-}
-
 py::array mean_value(const Doubles& points, const Indices& facets, const Doubles& places) {
   return by_dimension(points, [&](auto dim) {
     constexpr int kDim = decltype(dim)::value;
@@ -329,7 +323,6 @@ PYBIND11_MODULE(_core, module) {
   module.def("weights_at", &weights_at);
   module.def("gradients", &gradients);
   module.def("sparsify", &sparsify);
-  module.def("compose", &compose);
   module.def("mean_value", &mean_value);
   module.def("measure", &measure);
   bind_bindings(module);
