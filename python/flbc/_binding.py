@@ -356,7 +356,7 @@ class Rig(Solver):
     vertices : array_like, shape (P, d)
     faces : array_like of int, optional
         Influences are reduced without seams along their edges.
-    mesh_vertices, domain, callback
+    mesh_vertices, domain
         As for `bind`.
     {model options}
 
@@ -382,7 +382,6 @@ class Rig(Solver):
         *,
         mesh_vertices: Optional[int] = None,
         domain: Optional[MeshLike] = None,
-        callback: Callback = None,
         **options: Unpack[RigOptions],
     ) -> None:
         check_scalars(mesh_vertices=(mesh_vertices, "an integer"))
@@ -394,7 +393,7 @@ class Rig(Solver):
         cage = as_cage(cage)
         fill = None if domain is None else as_mesh(domain, cage)
         model = self._model(cage, vertices, faces)
-        self._start(cage, fill, mesh_vertices, model, options, callback)
+        self._start(cage, fill, mesh_vertices, model, options)
 
     @staticmethod
     def _model(cage: Cage, vertices: Any, faces: Any) -> Tuple[Floats, Any]:
@@ -413,16 +412,14 @@ class Rig(Solver):
     def bind(self, k: Optional[int] = None, *, callback: Callback = None) -> Binding:
         """The binding of the model with at most k influences per vertex, 0 for all, by default
         `max_influences`. Solves first if there is no solution."""
-        if k is not None:
-            self.set_options(max_influences=k)
-        return self._bound(callback, 3)
+        return self._bound(k, callback, 3)
 
-    def _bound(self, callback: Callback, level: int) -> Binding:
-        binding = _binding(self._core.bind(True, callback))
+    def _bound(self, k: Optional[int], callback: Callback, level: int) -> Binding:
+        binding = _binding(self._core.bind(k is None, callback))
         if binding.report["note"]:
             warnings.warn(binding.report["note"], stacklevel=level)
         warn_unless_converged(binding.report, level + 1)
-        return binding
+        return binding.reduced(k) if k else binding
 
     def binding(self) -> Binding:
         """The binding of the model with all influences, of the present solution."""
@@ -477,11 +474,8 @@ def bind(
     """
     checked(options, "bind", RigOptions)
     cage = as_cage(control_points) if cage_faces is None else Cage(control_points, cage_faces)
-    rig = Rig(
-        cage, vertices, faces, mesh_vertices=mesh_vertices, domain=domain, callback=callback,
-        **options,
-    )
-    return rig._bound(callback, 3)
+    rig = Rig(cage, vertices, faces, mesh_vertices=mesh_vertices, domain=domain, **options)
+    return rig._bound(None, callback, 3)
 
 
 def _given(vertices: Any, faces: Any, weights: Any, cage: CageLike) -> Binding:

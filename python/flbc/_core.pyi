@@ -30,7 +30,7 @@ class Progress:
 class Rig:
     def __init__(
         self, points: _Floats, facets: _Ints, domain: Optional[_Shape], vertices: Optional[int],
-        model: _Floats, polygons: _Polygons, options: Dict[str, Any], callback: _Callback,
+        model: _Floats, polygons: _Polygons, options: Dict[str, Any],
     ) -> None: ...
     def solve(
         self, points: Optional[_Floats], iterations: int, seconds: float, callback: _Callback

@@ -528,11 +528,9 @@ class Solver:
         cage = as_cage(cage)
         domain = mesh_of(cage) if mesh is None else as_mesh(mesh, cage)
         nothing = np.zeros((0, cage.dim)), as_polygons(None, "", 0)
-        self._start(cage, domain, None, nothing, options, None)
+        self._start(cage, domain, None, nothing, options)
 
-    def _start(
-        self, cage: Cage, domain: Any, vertices: Any, model: Any, options: Any, callback: Any
-    ) -> None:
+    def _start(self, cage: Cage, domain: Any, vertices: Any, model: Any, options: Any) -> None:
         self._options = checked(options, type(self).__name__, self._kind)
         self._model_size = len(model[0])
         if domain is None and has_own_phi(self._options):
@@ -540,7 +538,7 @@ class Solver:
         given = parsed(self._options, cage, domain, self._model_size or len(domain))
         shape = domain and (domain.points, domain.cells)
         self._core = _core.Rig(
-            cage.points, cage.facets, shape, vertices, model[0], model[1], given, callback
+            cage.points, cage.facets, shape, vertices, model[0], model[1], given
         )
 
     def _run(

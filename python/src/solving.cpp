@@ -121,8 +121,7 @@ class AnyRig {
   AnyRig(const Doubles& points, const Indices& facets,
          const std::optional<std::pair<Doubles, Indices>>& domain,
          const std::optional<Index>& vertices, const Doubles& model, const Polygons& polygons,
-         const py::dict& keywords, const py::object& callback)
-      : callback_(callback) {
+         const py::dict& keywords) {
     by_dimension(points, [&](auto dim) {
       constexpr int kDim = decltype(dim)::value;
       const auto cage = cage_of<kDim>(points, facets);
@@ -143,20 +142,18 @@ class AnyRig {
         return std::make_unique<Rig<kDim>>(cage, all, edges, options, linked_meshers<kDim>());
       });
     });
-    callback_ = py::none();
   }
 
   // \param control_points  moved ones, or none
   py::tuple solve(const std::optional<Doubles>& control_points, int iterations, double seconds,
                   const py::object& callback) {
-    auto found = run(callback, [&](auto& rig) {
+    auto solution = run(callback, [&](auto& rig) {
       constexpr int kDim = kDimOf<std::decay_t<decltype(rig)>>;
       const Budget budget{iterations, seconds};
-      if (!control_points) return std::pair(Solution(rig.solve(budget)), rig.options());
-      return std::pair(Solution(rig.reshape(points_of<kDim>(*control_points), budget)),
-                       rig.options());
+      return Solution(control_points ? rig.reshape(points_of<kDim>(*control_points), budget)
+                                     : rig.solve(budget));
     });
-    return as_tuple(std::move(found.first), found.second);
+    return use([&](auto& rig) { return as_tuple(std::move(solution), rig.options()); });
   }
 
   void restart() {
@@ -220,7 +217,7 @@ class AnyRig {
  private:
   std::variant<std::unique_ptr<Rig<2>>, std::unique_ptr<Rig<3>>> rig_;
   std::atomic<bool> is_used_{false};
-  py::object callback_;
+  py::object callback_ = py::none();
   std::vector<Index> freed_{};
 };
 
@@ -271,7 +268,7 @@ void bind_solving(py::module_& module) {
   py::class_<AnyRig>(module, "Rig")
       .def(py::init<const Doubles&, const Indices&,
                     const std::optional<std::pair<Doubles, Indices>>&, const std::optional<Index>&,
-                    const Doubles&, const Polygons&, const py::dict&, const py::object&>())
+                    const Doubles&, const Polygons&, const py::dict&>())
       .def("solve", &AnyRig::solve)
       .def("restart", &AnyRig::restart)
       .def("set_model", &AnyRig::set_model)

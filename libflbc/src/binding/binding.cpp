@@ -380,6 +380,7 @@ Binding<Dim> bind(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
 
 #define FLBC_INSTANTIATE(Dim)                                                                 \
   template struct Binding<Dim>;                                                               \
+  template void validate(const Binding<Dim>&);                                                \
   template Binding<Dim> bound_by(Cage<Dim>, const PointList<Dim>&, SparseWeights, EdgeList,   \
                                  const std::vector<Mask>&);                                   \
   template Binding<Dim> bind(const Cage<Dim>&, const PointList<Dim>&, const EdgeList&,        \
