@@ -142,7 +142,8 @@ BindOptions options_of(const py::dict& keywords) {
       options.outside = value_of<OutsidePoints>(name, value);
     } else if (name == "mirror_axis") {
       options.mirror_axis = value.cast<int>();
-    } else if (options.coordinates && (name == "method" || value.is_none())) {
+    } else if (field == fields().end() ||
+               (options.coordinates && (name == "method" || value.is_none()))) {
       continue;
     } else if (options.coordinates && name != "threads" && name != "non_negative") {
       throw OptionError(name + ": the method " + method +
@@ -150,7 +151,7 @@ BindOptions options_of(const py::dict& keywords) {
     } else if (name == "phi" && py::isinstance<py::array>(value)) {
       const auto phi = value.cast<Doubles>();
       options.phi = WeightMatrix::Map(phi.data(), phi.shape(1), phi.shape(0));
-    } else if (field != fields().end()) {
+    } else {
       field->set(options.solver, value);
     }
   }
