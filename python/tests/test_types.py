@@ -21,7 +21,7 @@ vertices, faces = flbc.read_model("model.obj")
 binding = flbc.bind(vertices, faces, cage, threads=2)
 html: str = flbc.view(vertices, faces, binding.weights, cage).html
 control_points, points = binding.masks[0]
-first: int = points.argmin() + binding.outside.shape[0]
+first: int = int(points[0]) + binding.outside.shape[0]
 if binding.solution and binding.domain:
     corners: int = binding.domain.cells.shape[1] + binding.solution.weights.shape[0]
 few: flbc.Binding = binding.reduced(4).transferred(vertices[:2])
