@@ -13,9 +13,7 @@ from dask.distributed import Client, as_completed
 def bind(path):
     vertices, faces = flbc.read_model(path)
     cage = flbc.make_cage(vertices, faces)
-    flbc.write_cage(path.with_name(path.stem + "_cage.ply"), cage)
-    binding = flbc.bind(vertices, faces, cage, threads=1)
-    flbc.write_weights(path.with_suffix(".mtx"), binding.weights)
+    flbc.bind(vertices, faces, cage, threads=1).save(path.with_suffix(".npz"))
     return f"{len(cage)} control points"
 
 

@@ -38,8 +38,8 @@ def with_handles(cage):
 if __name__ == "__main__":
     cage, model = flbc.read_cage(sys.argv[1]), flbc.read_model(sys.argv[2])
     controls, fine, of_fine = with_handles(cage)
-    weights = flbc.compose(flbc.bind(*model, fine).weights, of_fine)
+    binding = flbc.bind(*model, fine).composed(of_fine, controls)
     along = np.diff(cage.points[cage.facets], axis=1)[:, 0]
     bulge = 0.2 * np.column_stack([along[:, 1], -along[:, 0]])  # outward for a counterclockwise cage
     posed = controls + np.vstack([np.zeros_like(cage.points), np.repeat(bulge, 2, axis=0)])
-    flbc.write_model(sys.argv[3], weights @ posed, source=sys.argv[2])
+    flbc.write_model(sys.argv[3], binding.deform(posed), source=sys.argv[2])

@@ -5,14 +5,15 @@ Points are rows: control points (n, d), model vertices (P, d), weights (P, n). A
 layout and real or integer type; results are float64 in C order.
 
 >>> cage = flbc.read_cage("cage.obj")
->>> solution = flbc.solve(cage, flbc.mesh(cage, vertices=6000))
->>> weights = solution.at(vertices)
->>> moved = flbc.deform(weights, moved_control_points)
+>>> binding = flbc.bind(vertices, faces, cage)
+>>> moved = binding.deform(moved_control_points)
 
 =================== ======================================================================
 Shapes              `Cage`, `DomainMesh`, `mesh`, `make_cage`, `repair`, `check`, `border`
-Coordinates         `solve`, `Solver`, `Solution`, `mean_value`, `bind`
-Weights             `deform`, `sparsify`, `compose`, `transfer`, `measure`
+Models              `bind`, `Rig`, `Binding`: `load_binding`
+Coordinates         `solve`, `Solver`, `Solution`, `mean_value`
+Weights             `deform`, `sparsify`, `transfer`, `measure`; a `Binding` keeps masks,
+                    mirrors, and offsets
 Files               `read_cage`, `read_model`, `read_mesh`, `read_weights`, and
                     `write_...` for each; `export` (glTF, USD), `view` (a page)
 Exceptions          `Error` and its subclasses; the warning `NotConverged`
@@ -22,10 +23,12 @@ import os as _os
 
 from . import _core
 from ._core import Progress
+from ._binding import Binding, Page, Rig, bind, export, load_binding, view
 from ._errors import (
     Error,
     InputError,
     IoError,
+    MaskConflict,
     NotConverged,
     OptionError,
     SolverError,
@@ -40,29 +43,17 @@ from ._files import (
     write_model,
     write_weights,
 )
-from ._models import (
-    Binding,
-    Defect,
-    Page,
-    Repaired,
-    bind,
-    border,
-    check,
-    export,
-    make_cage,
-    repair,
-    view,
-)
+from ._models import Defect, Repaired, border, check, make_cage, repair
 from ._shapes import Cage, DomainMesh, Model
 from ._solve import Certificate, Solution, Solver, SolverOptions, mesh, solve
-from ._weights import compose, deform, mean_value, measure, sparsify, transfer
+from ._weights import deform, mean_value, measure, sparsify, transfer
 
 __version__: str = _core.version
 __all__ = [
     "Binding", "Cage", "Certificate", "Defect", "DomainMesh", "Error", "InputError", "IoError",
-    "Model", "NotConverged", "OptionError", "Page", "Progress", "Repaired", "Solution", "Solver",
-    "SolverError", "SolverOptions", "bind", "border", "check", "compose", "deform",
-    "export", "make_cage", "mean_value", "measure", "mesh", "read_cage", "read_mesh", "read_model",
+    "MaskConflict", "Model", "NotConverged", "OptionError", "Page", "Progress", "Repaired", "Rig", "Solution", "Solver",
+    "SolverError", "SolverOptions", "bind", "border", "check", "deform",
+    "export", "load_binding", "make_cage", "mean_value", "measure", "mesh", "read_cage", "read_mesh", "read_model",
     "read_weights", "repair", "solve", "sparsify", "transfer", "view", "write_cage", "write_mesh", "write_model", "write_weights",
 ]
 

@@ -20,7 +20,7 @@ from ._shapes import (
     as_polygons,
     mesh_from,
 )
-from ._weights import as_weights, from_core, is_sparse
+from ._weights import as_matrix, as_weights, from_core
 
 if TYPE_CHECKING:
     import os
@@ -225,7 +225,5 @@ def write_weights(path: Path, weights: Weights) -> None:
     ------
     IoError, InputError
     """
-    array = weights if is_sparse(weights) else as_array(weights, "weights")
-    if len(array.shape) != 2:
-        raise InputError(f"weights has shape {array.shape}, but needs (P, n)")
+    array = as_matrix(weights, "weights")
     _core.write_weights(str(path), as_weights(array, "weights", *array.shape))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from numbers import Integral, Real
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -32,10 +32,12 @@ def check_scalars(**values: Any) -> None:
 
 
 def as_array(value: Any, name: str) -> NDArray[Any]:
+    if isinstance(value, np.ma.MaskedArray) and np.any(value.mask):
+        raise InputError(f"{name} is an array with masked entries; fill them, or leave them out")
     try:
         return np.asarray(value)
     except ValueError as error:
-        raise InputError(f"{name}: {error}") from None
+        raise InputError(f"{name} is no array; its rows may differ in length: {error}") from None
 
 
 def as_points(
@@ -80,7 +82,8 @@ def as_polygons(value: Any, name: str, count: int) -> Polygons:
     """All corners of polygons in one array, and the offsets at which each begins."""
     if value is None:
         value = []
-    is_regular = getattr(value, "ndim", 0) == 2 or len({len(row) for row in value}) <= 1
+    lengths = () if getattr(value, "ndim", 0) == 2 else {getattr(row, "__len__", int)() for row in value}
+    is_regular = len(lengths) <= 1
     if is_regular:
         array = as_array(value, name)
         if array.size == 0:
@@ -153,8 +156,8 @@ class Cage(_Points):
     ----------
     points : array_like, shape (n, 2) or (n, 3), or an object with vertices and faces
         Control points in any unit of length. One argument may also be a pair
-        ``(points, facets)`` or an object with ``vertices`` and ``faces``, such as a mesh of
-        trimesh.
+        ``(points, facets)``, an object with ``vertices`` and ``faces``, such as a mesh of
+        trimesh, or a mesh of meshio.
     facets : array_like of int, optional
         3D: faces, an (m, k) array or rows of different lengths. Polygons with more than three
         corners are triangulated. 2D: edges, shape (m, 2), or closed loops of three or more
@@ -179,7 +182,7 @@ class Cage(_Points):
 
     def __init__(self, points: Any, facets: Any = None) -> None:
         if facets is None:
-            points, facets = _parts_of(points)
+            points, facets = parts_of(points)
         self.points = frozen(as_points(points, "points", finite=False).copy())
         self.facets = frozen(self._facets_of(facets))
 
@@ -209,12 +212,15 @@ class Cage(_Points):
         return Cage, (self.points, self.facets)
 
 
-def _parts_of(value: Any) -> Any:
+def parts_of(value: Any) -> Any:
     if isinstance(value, Cage):
         return value.points, value.facets
     if hasattr(value, "vertices") and hasattr(value, "faces"):
         return value.vertices, value.faces
-    if isinstance(value, tuple) and len(value) == 2 and np.ndim(value[0]) == 2:
+    if hasattr(value, "cells_dict"):  # of meshio
+        kinds = ["line"] if value.points.shape[1] == 2 else ["triangle", "quad"]
+        return value.points, [row for kind in kinds for row in value.cells_dict.get(kind, [])]
+    if isinstance(value, tuple) and len(value) == 2 and as_array(value[0], "points").ndim == 2:
         return value
     return value, None
 
@@ -307,6 +313,11 @@ class Model(NamedTuple):
     faces: Faces
 
 
-def posed_points(value: Any) -> NDArray[Any]:
-    """Moved control points: of a cage, or an array; a stack of poses has three axes."""
-    return value.points if isinstance(value, Cage) else as_array(value, "control_points")
+def each_pose(control_points: Any, move: Callable[[Any], Floats], count: int) -> Floats:
+    """Moves count points by a cage, an array, or each pose of a stack, which has three axes."""
+    if isinstance(control_points, Cage):
+        return move(control_points.points)
+    posed = as_array(control_points, "control_points")
+    if posed.ndim != 3:
+        return move(posed)
+    return np.array([move(pose) for pose in posed]).reshape(len(posed), count, posed.shape[2])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Meshing, solving, and solving on."""
+"""Meshing, solving, and solves that resume."""
 from __future__ import annotations
 
 import os
@@ -25,13 +25,15 @@ from ._shapes import (
     as_array,
     as_cage,
     as_floats,
+    as_indices,
     as_mesh,
     as_points,
+    as_polygons,
     check_scalars,
     frozen,
     mesh_from,
 )
-from ._weights import dense_of, from_core
+from ._weights import dense_of, from_core, is_sparse
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -47,7 +49,7 @@ Documented = TypeVar("Documented", bound=Callable[..., Any])
 
 
 class SolverOptions(TypedDict, total=False):
-    """Options of `solve`, `Solver`, and `bind`; see `help(flbc.solve)`."""
+    """Options of `solve`, `Solver`, `Rig`, and `bind`; see `help(flbc.solve)`."""
 
     method: str
     tolerance: Optional[float]
@@ -62,13 +64,22 @@ class SolverOptions(TypedDict, total=False):
     precision: str
     active_set: str
     penalty: Optional[float]
-    mask: Optional[ArrayLike]
+    mask: Any
     reach: Optional[ArrayLike]
+
+
+class RigOptions(SolverOptions, total=False):
+    """Options of `bind` and `Rig`; see `help(flbc.bind)`."""
+
+    max_influences: int
+    outside: str
+    symmetric: Optional[str]
+    conflicts: str
 
 
 OPTIONS = """\
     method : str, default "weights"
-        "weights", "gradient", "paper", "lbc2014". For comparison, but not with `Solver`:
+        "weights", "gradient", "paper", "lbc2014". For comparison:
         "harmonic", "meanvalue", "maxentropy", "maxlikelihood", "blended" (2D), or "bbw", which
         use only `threads` and `non_negative`. Weights by "bbw" do not reproduce points: add
         weighted displacements to them.
@@ -89,7 +100,7 @@ OPTIONS = """\
     phi : str or array_like, shape (F, n), default "square"
         Growth of the variation weighting with distance: "square", "linear", "sqrt",
         "constant". Or the weighting itself: a number >= 0 for each cell of the mesh and control
-        point. `Solver` takes only names.
+        point.
     smoothness : float, optional
         Removes kinks at the cost of more influences, as a fraction of the cage size. Useful
         values are 0.001 to 0.03, for "weights" and "gradient". 0 is the problem of the papers,
@@ -103,68 +114,118 @@ OPTIONS = """\
         Whether to update only weights that may be positive: "on", "off".
     penalty : float, optional
         Penalty parameter, in units of the cage size.
-    mask : array_like of bool, shape (V, n), optional
-        True where a control point must not move a vertex of the mesh, (P, n) for `bind` those of
-        the model: its weight is exactly 0, except on the facets of the control point. For
-        "weights" and a cage in one part.
+    mask : array_like or sparse matrix of bool, shape (V, n), or list of pairs, optional
+        True where a control point must not move a vertex of the mesh, (P, n) for `Rig` and
+        `bind` those of the model: its weight is exactly 0, except on the facets of the control
+        point. Or pairs of index lists, ``(control_points, vertices)``. For "weights" and a cage
+        in one part. Masks that cannot be obeyed raise `MaskConflict`.
     reach : array_like, shape (n,), optional
         Factors from 1/16 to 16 by which phi of each control point is divided. Weights extend
         farther with a larger one. Not a guarantee, which a mask is.
 """
 
 
+MODEL_OPTIONS = """\
+    max_influences : int, default 8
+        Per vertex; 0 to keep all weights.
+    outside : str, default "fail"
+        For vertices outside the cage: "fail"; "nearest", to follow the nearest point of the
+        cage at a constant offset; "keep", to stay where they are, without weights; or "extend",
+        to follow an affine map of the control points around them. These vertices keep all their
+        weights, of which some are negative, for any `max_influences`.
+    symmetric : str, optional
+        "x", "y", or "z": weights of mirrored vertices are exactly alike, in a cage that is
+        symmetric across this axis.
+    conflicts : str, default "fail"
+        For masks that cannot be obeyed: "fail" raises `MaskConflict`; "relax" removes a few
+        control points from all masks, and lists them in ``report["note"]`` and a warning.
+"""
+
+
 def with_options(function: Documented) -> Documented:
     """Completes a docstring with all options, which all solves share."""
     if function.__doc__ is not None:  # None under python -OO
-        function.__doc__ = function.__doc__.replace("    {options}\n", OPTIONS)
+        doc = function.__doc__.replace("    {model options}\n", MODEL_OPTIONS)
+        function.__doc__ = doc.replace("    {options}\n", OPTIONS)
     return function
 
 
-def checked(options: Any, function: str) -> Dict[str, Any]:
+def checked(options: Any, function: str, kind: Any = SolverOptions) -> Dict[str, Any]:
     for name in options:
-        if name not in SolverOptions.__annotations__:
+        if name not in kind.__annotations__:
             raise TypeError(
                 f"{function}() has no option {name!r}; choose from "
-                + ", ".join(SolverOptions.__annotations__)
+                + ", ".join(kind.__annotations__)
             )
     return dict(options)
 
 
-def take_phi(options: Dict[str, Any], cage: Cage, mesh: DomainMesh) -> Optional[Floats]:
-    """Removes phi from options where it is an array, (F, n), and returns it."""
+def has_own_phi(options: Dict[str, Any]) -> bool:
     phi = options.get("phi")
-    if phi is None or np.ndim(phi) == 0:
-        return None
-    del options["phi"]
-    array = as_array(phi, "phi")
-    shape = len(mesh.cells), len(cage)
-    if array.shape != shape:
-        raise InputError(
-            f"phi has shape {array.shape}, but needs {shape}: one row for each cell of the mesh and "
-            "one column for each control point"
-        )
-    return as_floats(array, "phi")
+    return hasattr(phi, "__len__") and not isinstance(phi, str)
 
 
-def as_locality(options: Dict[str, Any], count: int, cage: Cage) -> None:
-    """Checks reach and mask of options, of count points, and makes them arrays."""
-    if options.get("reach") is not None:
-        options["reach"] = as_floats(as_array(options["reach"], "reach"), "reach")
-        if options["reach"].shape != (len(cage),):
-            raise InputError(
-                f"reach has shape {options['reach'].shape}, but needs {(len(cage),)}: one factor "
-                "for each control point"
-            )
-    if options.get("mask") is None:
-        return
-    array = np.asarray(options["mask"])
+def as_masks(mask: Any, count: int, cage: Cage) -> Any:
+    """Masks of count points as _core takes them: pairs of control points and points."""
+
+    def is_pair(entry: Any) -> bool:
+        is_list = isinstance(entry, (list, tuple)) and len(entry) == 2
+        return is_list and all(hasattr(part, "__len__") for part in entry)
+
+    def indices(part: Any, name: str, size: int) -> Any:
+        return as_indices(as_array(part, name).reshape(-1), name, size)
+
+    if isinstance(mask, (list, tuple)) and all(map(is_pair, mask)):
+        return [
+            (indices(first, f"mask[{k}][0]", len(cage)), indices(second, f"mask[{k}][1]", count))
+            for k, (first, second) in enumerate(mask)
+        ]
+    array = mask.tocsc() if is_sparse(mask) else as_array(mask, "mask")
     shape = count, len(cage)
     if array.shape != shape or array.dtype != bool:
         raise InputError(
             f"mask has shape {array.shape} and type {array.dtype}, but needs {shape} and bool: one "
-            "row for each vertex and one column for each control point"
+            "row for each vertex and one column for each control point; or pairs of index lists, "
+            "(control_points, vertices)"
         )
-    options["mask"] = array
+    columns = [array[:, [i]].nonzero()[0].astype(np.int32) for i in range(len(cage))]
+    return [(np.array([i], np.int32), rows) for i, rows in enumerate(columns) if len(rows)]
+
+
+def as_table(value: Any, name: str, shape: Any, what: str) -> Floats:
+    array = as_array(value, name)
+    if array.shape != shape:
+        raise InputError(f"{name} has shape {array.shape}, but needs {shape}: {what}")
+    return as_floats(array, name)
+
+
+def parsed(
+    options: Dict[str, Any], cage: Cage, domain: Optional[DomainMesh], count: int
+) -> Dict[str, Any]:
+    """Options as _core takes them. Masks have count points."""
+    given = dict(options)
+    if given.get("reach") is not None:
+        given["reach"] = as_table(
+            given["reach"], "reach", (len(cage),), "one factor for each control point"
+        )
+    if has_own_phi(given) and domain:
+        given["phi"] = as_table(
+            given["phi"], "phi", (len(domain.cells), len(cage)),
+            "one row for each cell of the mesh and one column for each control point",
+        )
+    if given.get("mask") is not None:
+        given["mask"] = as_masks(given["mask"], count, cage)
+    choices: Dict[str, Any] = {
+        "symmetric": [None, "x", "y", "z"][: cage.dim + 1], "conflicts": ["fail", "relax"]
+    }
+    for name, known in choices.items():
+        value = given.pop(name, known[0])
+        if value not in known:
+            names = ", ".join(choice for choice in known if choice)
+            raise OptionError(f"{name} must be one of {names}, not {value!r}")
+        given[name] = known.index(value)
+    given["mirror_axis"], given["relax"] = given.pop("symmetric") - 1, given.pop("conflicts") == 1
+    return given
 
 
 class Certificate(NamedTuple):
@@ -374,13 +435,6 @@ def warn_unless_converged(report: Dict[str, Any], stacklevel: int) -> None:
         )
 
 
-def _solution(found: Any, cage: Cage, domain: DomainMesh, warn: bool) -> Solution:
-    parts, report, proof = found
-    if warn:
-        warn_unless_converged(report, stacklevel=4)
-    return Solution(parts, cage, domain, report, proof)
-
-
 @with_options
 def solve(
     cage: CageLike,
@@ -434,20 +488,8 @@ def solve(
     >>> solution.at([[0.5, 0.5]]).round(2)
     array([[0.25, 0.25, 0.25, 0.25]])
     """
-    given = checked(options, "solve")
-    cage = as_cage(cage)
-    domain = mesh_of(cage) if mesh is None else as_mesh(mesh, cage)
-    phi = take_phi(given, cage, domain)
-    as_locality(given, len(domain), cage)
-    found = _core.solve(
-        cage.points, cage.facets, domain.points, domain.cells, given, phi, callback
-    )
-    return _solution(found, cage, domain, True)
-
-
-def require_name_of_phi(options: Dict[str, Any]) -> None:
-    if np.ndim(options.get("phi", "")) > 0:
-        raise OptionError("phi: a Solver needs the name of a weighting; solve() takes arrays")
+    checked(options, "solve")
+    return Solver(cage, mesh, **options)._run(None, 0, 0, callback, 4)
 
 
 mesh_of = mesh  # where an argument has this name
@@ -455,15 +497,14 @@ mesh_of = mesh  # where an argument has this name
 
 @with_options
 class Solver:
-    """Solves a problem in several steps: solving on, and moving the rest cage.
+    """Solves a problem in several steps, and for a rest cage that is reshaped.
 
-    The first solve equals `solve`; later ones continue from the last state. One thread at a time
-    may use a Solver.
+    The first solve equals `solve`; later ones resume. One thread at a time may use a Solver. A
+    `Rig` does the same for a model.
 
     Parameters
     ----------
     cage : Cage, or what `Cage` accepts
-        With a connected interior.
     mesh : DomainMesh or tuple of arrays, optional
         Default: ``flbc.mesh(cage)``.
 
@@ -479,20 +520,42 @@ class Solver:
         If an option is out of range.
     """
 
+    _kind: Any = SolverOptions
+
     def __init__(
         self, cage: CageLike, mesh: Optional[MeshLike] = None, **options: Unpack[SolverOptions]
     ) -> None:
-        given = checked(options, "Solver")
-        require_name_of_phi(given)
         cage = as_cage(cage)
         domain = mesh_of(cage) if mesh is None else as_mesh(mesh, cage)
-        as_locality(given, len(domain), cage)
-        self._core = _core.Solver(cage.points, cage.facets, domain.points, domain.cells, given)
+        nothing = np.zeros((0, cage.dim)), as_polygons(None, "", 0)
+        self._start(cage, domain, None, nothing, options)
+
+    def _start(self, cage: Cage, domain: Any, vertices: Any, model: Any, options: Any) -> None:
+        self._options = checked(options, type(self).__name__, self._kind)
+        self._model_size = len(model[0])
+        if domain is None and has_own_phi(self._options):
+            domain = mesh_of(cage, vertices)
+        given = parsed(self._options, cage, domain, self._model_size or len(domain))
+        shape = domain and (domain.points, domain.cells)
+        self._core = _core.Rig(
+            cage.points, cage.facets, shape, vertices, model[0], model[1], given
+        )
+
+    def _run(
+        self, moved: Optional[Floats], iterations: int, seconds: float, callback: Any, level: int
+    ) -> Solution:
+        found = self._core.solve(moved, iterations, seconds, callback)
+        if not (iterations or seconds):
+            warn_unless_converged(found[1], level)
+        return self._solution(found)
+
+    def _solution(self, found: Any) -> Solution:
+        return Solution(found[0], self.cage, self.mesh, *found[1:])
 
     def solve(
         self, *, iterations: int = 0, seconds: float = 0, callback: Callback = None
     ) -> Solution:
-        """Solves, or continues from the last solve.
+        """Solves, or resumes the last solve.
 
         Parameters
         ----------
@@ -508,10 +571,9 @@ class Solver:
         Solution
             With its own copy of the weights. Its report covers only this call.
         """
-        found = self._core.solve(iterations, seconds, callback)
-        return _solution(found, self.cage, self.mesh, not (iterations or seconds))
+        return self._run(None, iterations, seconds, callback, 4)
 
-    def move(
+    def reshape(
         self,
         control_points: ArrayLike,
         *,
@@ -519,7 +581,8 @@ class Solver:
         seconds: float = 0,
         callback: Callback = None,
     ) -> Solution:
-        """Moves the rest cage and its mesh, and solves.
+        """Moves the control points of the rest cage, and the mesh with them, and solves. The model
+        of a `Rig` stays.
 
         Parameters
         ----------
@@ -534,40 +597,41 @@ class Solver:
         Raises
         ------
         InputError
-            If a cell of the mesh would be inverted. The Solver is then unchanged.
+            If a cell of the mesh would be inverted, the model would be outside, masks could not
+            be obeyed, or the cage has several parts. Then nothing has changed.
         """
         cage = self.cage
         moved = as_points(control_points, "control_points", cage.dim, len(cage))
-        found = self._core.move(moved, iterations, seconds, callback)
-        return _solution(found, self.cage, self.mesh, not (iterations or seconds))
+        return self._run(moved, iterations, seconds, callback, 4)
 
-    def set_options(self, **options: Unpack[SolverOptions]) -> None:
-        """Changes options of the following solves; `phi` cannot change."""
-        given = checked(options, "Solver")
-        require_name_of_phi(given)
-        as_locality(given, len(self.mesh), self.cage)
-        self._core.set_options({**self._core.options(), **given})
-
-    def __reduce__(self) -> Any:
-        raise TypeError(
-            "a Solver cannot be pickled or copied; keep cage, mesh, and options of it, and make "
-            "another with flbc.Solver(cage, mesh, **options)"
-        )
+    def set_options(self, **options: Any) -> None:
+        """Changes options of the following solves."""
+        merged = {**self._options, **checked(options, type(self).__name__, self._kind)}
+        size, domain = self._model_size, self.mesh
+        given = parsed(merged, self.cage, domain, size or len(domain))
+        self._core.set_options(given, size > 0)
+        self._options = merged
 
     def restart(self) -> None:
         """Makes the next solve start over."""
         self._core.restart()
 
+    def __reduce__(self) -> Any:
+        raise TypeError(
+            f"a {type(self).__name__} cannot be pickled or copied; keep its arguments and options, "
+            f"and make another with flbc.{type(self).__name__}(cage, ..., **options)"
+        )
+
     @property
     def options(self) -> Dict[str, Any]:
-        """dict: all options, as `Solver` takes them."""
-        options = self._core.options()
-        if options["mask"] is not None:
-            mask = np.zeros((len(self.mesh), len(self.cage)), bool)
-            for control_points, vertices in options["mask"]:
-                mask[np.ix_(vertices, control_points)] = True
-            options["mask"] = mask
-        return options
+        """dict: those given so far."""
+        return dict(self._options)
+
+    @property
+    def solution(self) -> Optional[Solution]:
+        """Solution or None: of the last solve."""
+        found = self._core.solution()
+        return found and self._solution(found)
 
     @property
     def cage(self) -> Cage:

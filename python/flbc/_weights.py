@@ -17,7 +17,7 @@ from ._shapes import (
     as_points,
     as_polygons,
     check_scalars,
-    posed_points,
+    each_pose,
 )
 
 if TYPE_CHECKING:
@@ -33,9 +33,22 @@ def is_sparse(weights: Any) -> bool:
     return hasattr(weights, "tocsr")
 
 
+def as_matrix(weights: Any, name: str) -> Any:
+    """Weights as an array or a sparse matrix."""
+    if hasattr(weights, "weights"):
+        raise InputError(
+            f"{name} is a {type(weights).__name__}; use its methods, which keep masks and offsets "
+            "(deform, reduced, transferred, composed, export, view), or pass its weights"
+        )
+    array = weights if is_sparse(weights) else as_array(weights, name)
+    if len(array.shape) != 2:
+        raise InputError(f"{name} has shape {array.shape}, but needs (P, n): a row per point")
+    return array
+
+
 def as_weights(weights: Any, name: str, num_points: int, num_control_points: int) -> Any:
     """Weights as _core takes them: an array, or the parts of a sparse matrix."""
-    array = weights if is_sparse(weights) else as_array(weights, name)
+    array = as_matrix(weights, name)
     if array.shape != (num_points, num_control_points):
         raise InputError(
             f"{name} has shape {array.shape}, but needs ({num_points}, {num_control_points}): "
@@ -91,6 +104,8 @@ def sparsify(
 ) -> Weights:
     """Reduces weights to at most k influences per point.
 
+    Only `Binding.reduced` keeps masks and an exact mirror.
+
     The result is non-negative, sums to 1, and reproduces every point, even if the given weights do
     not.
 
@@ -122,23 +137,25 @@ def sparsify(
     OptionError
         If `k` or `threshold` is out of range.
     """
-    check_scalars(k=(k, "an integer"), threshold=(threshold, "a number"))
+    most = limit_of(k, threshold)
     cage = cage_after(weights, cage)
     places = as_points(points, "points", cage.dim)
     given = as_weights(weights, "weights", len(places), len(cage))
     polygons = None if faces is None else as_polygons(faces, "faces", len(places))
-    most = np.iinfo(np.int32).max if k is None else k
     return from_core(
         _core.sparsify(
-            cage.points, places, given, most, threshold, polygons, as_poses(poses, "poses", cage)
+            cage.points, places, given, most, threshold, polygons, as_poses(poses, cage)
         )
     )
 
 
-def as_poses(poses: Any, name: str, cage: Any) -> Any:
-    return [
-        as_points(pose, f"{name}[{k}]", cage.dim, len(cage)) for k, pose in enumerate(poses)
-    ]
+def limit_of(k: Optional[int], threshold: float) -> int:
+    check_scalars(k=(k, "an integer"), threshold=(threshold, "a number"))
+    return int(np.iinfo(np.int32).max) if k is None else k
+
+
+def as_poses(poses: Any, cage: Any) -> Any:
+    return [as_points(pose, f"poses[{k}]", cage.dim, len(cage)) for k, pose in enumerate(poses)]
 
 
 def deform(weights: Weights, control_points: CageLike) -> Floats:
@@ -159,41 +176,11 @@ def deform(weights: Weights, control_points: CageLike) -> Floats:
     InputError
         If the numbers of control points differ.
     """
-    array = weights if is_sparse(weights) else as_array(weights, "weights")
-    if len(array.shape) != 2:
-        raise InputError(f"weights has shape {array.shape}, but needs (P, n)")
-    posed = posed_points(control_points)
-    if posed.ndim == 3:
-        return np.array([deform(weights, pose) for pose in posed])
-    moved = as_points(posed, "control_points", count=array.shape[1])
-    return np.asarray(array @ moved)
+    matrix = as_matrix(weights, "weights")
+    def move(pose: Any) -> Floats:
+        return np.asarray(matrix @ as_points(pose, "control_points", count=matrix.shape[1]))
 
-
-def compose(weights: Weights, map: Weights) -> Weights:
-    """Multiplies weights by a map, if the n control points themselves follow m others.
-
-    Parameters
-    ----------
-    weights : array_like or sparse matrix, shape (P, n)
-    map : array_like or sparse matrix, shape (n, m)
-        Weights of the n control points, at least 0; rows sum to 1.
-
-    Returns
-    -------
-    scipy.sparse.csr_matrix, shape (P, m)
-        Limit its influences by `sparsify`.
-
-    Raises
-    ------
-    InputError
-        If shapes do not match, or the map is no such matrix.
-    """
-    first = weights if is_sparse(weights) else as_array(weights, "weights")
-    second = map if is_sparse(map) else as_array(map, "map")
-    if first.ndim != 2 or second.ndim != 2:
-        raise InputError("weights and map must be matrices, a row per point")
-    given, shares = as_weights(first, "weights", *first.shape), as_weights(second, "map", *second.shape)
-    return from_core(_core.compose(given, shares))
+    return each_pose(control_points, move, matrix.shape[0])
 
 
 def transfer(
@@ -205,6 +192,8 @@ def transfer(
     limit: Optional[float] = None,
 ) -> Floats:
     """Weights for another version of a model, from the nearest place on it.
+
+    Only `Binding.transferred` keeps masks and an exact mirror.
 
     Parameters
     ----------
@@ -228,15 +217,11 @@ def transfer(
     InputError
         If points are farther away than the limit.
     """
-    check_scalars(limit=(limit, "a number"))
-    cage = cage_after(weights, cage)
-    places = as_points(points, "points", cage.dim)
-    given = as_weights(weights, "weights", len(places), len(cage))
-    corners = corners_of(places, faces)
-    others = as_points(to, "to", cage.dim)
-    longest = np.inf if limit is None else limit
-    found: Floats = _core.transfer(cage.points, places, corners, given, others, longest)[0]
-    return found
+    from ._binding import Binding
+
+    found = Binding(weights, cage, points).transferred(to, from_faces=faces, limit=limit)
+    dense: Floats = found.weights.toarray()
+    return dense
 
 
 def corners_of(points: Floats, faces: Optional[Faces]) -> Any:

@@ -10,12 +10,14 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "flbc/binding.h"
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/sparse_weights.h"
@@ -82,6 +84,49 @@ inline std::vector<std::vector<Index>> lists_of(const Polygons& polygons) {
   return lists;
 }
 
+//! An array with a row per column of a matrix. \param owner  keeps the matrix
+template <class Matrix>
+py::array view_of(const Matrix& matrix, const py::handle& owner) {
+  const std::vector<py::ssize_t> shape{matrix.cols(), matrix.rows()};
+  return py::array_t<typename Matrix::Scalar>(shape, matrix.data(), owner);
+}
+
+//! The arrays of scipy.sparse.csr_matrix, and the number of columns.
+inline py::object view_of(const SparseWeights& weights, const py::handle& owner) {
+  const auto count = static_cast<py::ssize_t>(weights.values().size());
+  return py::make_tuple(
+      py::array_t<double>(count, weights.values().data(), owner),
+      // Below 2^31: SciPy takes signed numbers without a copy.
+      py::array_t<std::int32_t>(
+          count, reinterpret_cast<const std::int32_t*>(weights.control_points().data()), owner),
+      py::array_t<std::int64_t>(static_cast<py::ssize_t>(weights.starts().size()),
+                                weights.starts().data(), owner),
+      weights.num_control_points());
+}
+
+//! The same of a value that the arrays own.
+template <class Value>
+auto owned_view_of(Value value) {
+  auto kept = std::make_unique<Value>(std::move(value));
+  const auto& found = *kept;
+  return view_of(found,
+                 py::capsule(kept.release(), [](void* p) { delete static_cast<Value*>(p); }));
+}
+
+template <class Matrix>
+py::array as_array(Matrix matrix) {
+  return owned_view_of(std::move(matrix));
+}
+
+inline py::object as_python(SparseWeights weights) {
+  return owned_view_of(std::move(weights));
+}
+
+template <class Number>
+py::array as_array(const std::vector<Number>& list) {
+  return py::array_t<Number>(static_cast<py::ssize_t>(list.size()), list.data());
+}
+
 inline Polygons polygons_of(const std::vector<std::vector<Index>>& lists) {
   std::vector<Index> corners;
   std::vector<std::int64_t> starts{0};
@@ -89,34 +134,7 @@ inline Polygons polygons_of(const std::vector<std::vector<Index>>& lists) {
     corners.insert(corners.end(), list.begin(), list.end());
     starts.push_back(static_cast<std::int64_t>(corners.size()));
   }
-  return {Indices(static_cast<py::ssize_t>(corners.size()), corners.data()),
-          Polygons::second_type(static_cast<py::ssize_t>(starts.size()), starts.data())};
-}
-
-//! An array with a row per column of a matrix, which it owns.
-template <class Matrix>
-py::array as_array(Matrix matrix) {
-  auto kept = std::make_unique<Matrix>(std::move(matrix));
-  const auto* data = kept->data();
-  const std::vector<py::ssize_t> shape{kept->cols(), kept->rows()};
-  py::capsule owner(kept.release(), [](void* p) { delete static_cast<Matrix*>(p); });
-  return py::array_t<typename Matrix::Scalar>(shape, data, owner);
-}
-
-//! The arrays of scipy.sparse.csr_matrix, and the number of columns.
-inline py::object as_python(SparseWeights weights) {
-  auto kept = std::make_unique<SparseWeights>(std::move(weights));
-  const auto& sparse = *kept;
-  py::capsule owner(kept.release(), [](void* p) { delete static_cast<SparseWeights*>(p); });
-  const auto count = static_cast<py::ssize_t>(sparse.values().size());
-  return py::make_tuple(
-      py::array_t<double>(count, sparse.values().data(), owner),
-      // Below 2^31: SciPy takes signed numbers without a copy.
-      py::array_t<std::int32_t>(
-          count, reinterpret_cast<const std::int32_t*>(sparse.control_points().data()), owner),
-      py::array_t<std::int64_t>(static_cast<py::ssize_t>(sparse.starts().size()),
-                                sparse.starts().data(), owner),
-      sparse.num_control_points());
+  return {as_array(corners), as_array(starts)};
 }
 
 //! \param weights  an array, or a tuple as from as_python()
@@ -143,6 +161,41 @@ py::tuple as_python(DomainMesh<Dim> mesh) {
   return py::make_tuple(as_array(std::move(mesh.points)), as_array(std::move(mesh.cells)));
 }
 
+//! Masks: pairs of control points and points.
+using MaskLists = std::vector<std::pair<Indices, Indices>>;
+
+inline std::vector<Mask> masks_of(const MaskLists& lists) {
+  const auto indices = [](const Indices& array) {
+    return std::vector<Index>(array.data(), array.data() + array.size());
+  };
+  std::vector<Mask> masks;
+  for (const auto& [control_points, points] : lists) {
+    masks.push_back({indices(control_points), indices(points)});
+  }
+  return masks;
+}
+
+template <int Dim>
+EdgeList edges_of(const PointList<Dim>& points, const Polygons& polygons) {
+  return edges_of_polygons(points, lists_of(polygons));
+}
+
+//! The dimension of a class template.
+template <class T>
+constexpr int kDimOf = 0;
+template <template <int> class T, int Dim>
+constexpr int kDimOf<T<Dim>> = Dim;
+
+//! A binding of either dimension, which does not change.
+struct AnyBinding {
+  std::variant<Binding<2>, Binding<3>> value;
+
+  template <class Action>
+  auto visit(const Action& action) const {
+    return std::visit(action, value);
+  }
+};
+
 //! In a process forked from one that has used OpenMP, more than one thread would wait for threads
 //! that do not exist.
 void use_threads_of_this_process();
@@ -158,6 +211,7 @@ auto without_gil(const Work& work) {
   return work();
 }
 
+void bind_bindings(py::module_& module);
 void bind_solving(py::module_& module);
 void bind_files(py::module_& module);
 

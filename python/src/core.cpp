@@ -9,17 +9,15 @@
 #include "flbc/border.h"
 #include "flbc/cage_facts.h"
 #include "flbc/check.h"
-#include "flbc/compose.h"
-#include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/gradients.h"
 #include "flbc/io/cut_polygon.h"
+#include "flbc/mask_conflicts.h"
 #include "flbc/mean_value.h"
 #include "flbc/meshing.h"
 #include "flbc/names.h"
 #include "flbc/placement.h"
 #include "flbc/sparsify.h"
-#include "flbc/transfer_weights.h"
 #include "flbc/version.h"
 #include "options.h"
 #ifdef FLBC_LINKS_CAGING
@@ -32,10 +30,13 @@ namespace {
 
 using namespace py::literals;
 
-void set_error(const char* type, const char* message) {
+// \param arguments  of the exception: its message, and its data
+template <class... Arguments>
+void set_error(const char* type, const Arguments&... arguments) {
   // A signal may be the reason: Ctrl-C also ends the process of a mesher.
   if (PyErr_CheckSignals() != 0) return;
-  PyErr_SetString(py::module_::import("flbc._errors").attr(type).ptr(), message);
+  const auto kind = py::module_::import("flbc._errors").attr(type);
+  PyErr_SetObject(kind.ptr(), kind(arguments...).ptr());
 }
 
 // The library names its own options.
@@ -55,8 +56,10 @@ void translate(std::exception_ptr pointer) {
     if (pointer) std::rethrow_exception(pointer);
   } catch (const OptionError& error) {
     set_error("OptionError", error.what());
+  } catch (const MaskConflict& error) {
+    set_error("MaskConflict", error.what(), error.points, error.control_points);
   } catch (const InputError& error) {
-    set_error("InputError", in_words_of_python(error.what()).c_str());
+    set_error("InputError", in_words_of_python(error.what()));
   } catch (const IoError& error) {
     set_error("IoError", error.what());
   } catch (const SolverError& error) {
@@ -179,26 +182,6 @@ py::tuple normalized_mesh(const Doubles& vertices, const Indices& cells) {
 
 // ---------------------------------------------------------------------------------------- weights
 
-// How far weights put a point from where they should.
-double misplacement(const Doubles& points, const Indices& facets, const Doubles& places,
-                    const py::object& weights) {
-  return by_dimension(points, [&](auto dim) {
-    constexpr int kDim = decltype(dim)::value;
-    const auto cage = cage_of<kDim>(points, facets);
-    const auto all = points_of<kDim>(places);
-    const auto given = weights_of(weights);
-    return without_gil([&] {
-      const auto moved = deform<kDim>(given, cage.points);
-      const auto errors = displacements<kDim>(attached_points(cage, all, given), moved);
-      double largest = 0;
-      for (Index p = 0; p < given.num_points(); ++p) {
-        if (given.has_weights(p)) largest = std::max(largest, errors[p]);
-      }
-      return largest;
-    });
-  });
-}
-
 // What weights at points are computed from.
 template <int Dim>
 struct Known {
@@ -257,37 +240,12 @@ py::object sparsify(const Doubles& control_points, const Doubles& points, const 
     const auto cage = points_of<kDim>(control_points);
     const auto all = points_of<kDim>(points);
     const auto moved = poses_of<kDim>(poses);
-    const auto lists = polygons ? lists_of(*polygons) : std::vector<std::vector<Index>>();
+    const auto edges = polygons ? edges_of(all, *polygons) : EdgeList();
     return as_python(without_gil([&] {
       validate<kDim>(options);
-      const auto edges = edges_of_polygons(all, lists);
-      if (edges.ends.empty()) {
-        return flbc::sparsify<kDim>(cage, all, given, options);
-      }
-      return reduce_by_poisson<kDim>(cage, all, edges, given, moved, options);
+      return edges.ends.empty() ? flbc::sparsify<kDim>(cage, all, given, options)
+                                : reduce_by_poisson<kDim>(cage, all, edges, given, moved, options);
     }));
-  });
-}
-
-py::object compose(const py::object& weights, const py::object& map) {
-  const auto given = weights_of(weights), shares = weights_of(map);
-  return as_python(without_gil([&] { return flbc::compose(given, shares); }));
-}
-
-py::tuple transfer(const Doubles& control_points, const Doubles& points, const Indices& corners,
-                   const py::object& weights, const Doubles& places, double limit) {
-  return by_dimension(control_points, [&](auto dim) {
-    constexpr int kDim = decltype(dim)::value;
-    const auto cage = points_of<kDim>(control_points);
-    const ModelElements<kDim> model{
-        points_of<kDim>(points),
-        Eigen::Map<const FacetList<3>>(corners.data(), 3, corners.shape(0))};
-    const auto to = points_of<kDim>(places);
-    const auto given = weights_of(weights);
-    Eigen::VectorXd distances;
-    const auto found = as_array(without_gil(
-        [&] { return transfer_weights<kDim>(cage, model, given, to, limit, &distances).dense(); }));
-    return py::make_tuple(found, py::array_t<double>(distances.size(), distances.data()));
   });
 }
 
@@ -359,17 +317,15 @@ PYBIND11_MODULE(_core, module) {
   module.def("check_cage", &check_cage);
   module.def("outside", &outside);
   module.def("border", &border);
-  module.def("misplacement", &misplacement);
   module.def("make_cage", &make_cage);
   module.def("repair", &repair);
   module.def("normalized_mesh", &normalized_mesh);
   module.def("weights_at", &weights_at);
   module.def("gradients", &gradients);
   module.def("sparsify", &sparsify);
-  module.def("transfer", &transfer);
-  module.def("compose", &compose);
   module.def("mean_value", &mean_value);
   module.def("measure", &measure);
+  bind_bindings(module);
   bind_solving(module);
   bind_files(module);
 }

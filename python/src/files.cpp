@@ -86,20 +86,15 @@ void write_weights(const std::string& path, const py::object& weights) {
 // ------------------------------------------------------------------------------- engines and pages
 
 template <int Dim>
-gltf::Surface surface_of(const Doubles& points, const Polygons& polygons) {
+gltf::Surface surface_of(const Binding<Dim>& binding, const Polygons& polygons) {
   io::Model model;
+  const auto points = as_array(binding.rest());
   model.soup = {places_of(points), lists_of(polygons), {}};
   if (model.soup.polygons.empty()) return {};
   return gltf::surface_of_model<Dim>(model);
 }
 
-template <int Dim>
-std::vector<std::array<Index, 2>> edges_of(const Cage<Dim>& cage) {
-  return view::edges_of_cage<Dim>({}, cage.facets);
-}
-
-void export_skin(const std::string& path, const Doubles& cage_points, const Indices& facets,
-                 const Doubles& points, const Polygons& polygons, const py::object& weights,
+void export_skin(const AnyBinding& any, const std::string& path, const Polygons& polygons,
                  const std::vector<double>& times, const std::vector<Doubles>& poses,
                  Index max_influences, const std::string& name) {
   const auto extension = io::extension_of(path);
@@ -110,48 +105,46 @@ void export_skin(const std::string& path, const Doubles& cage_points, const Indi
   options.max_influences = max_influences;
   options.name = name;
   if (extension == "usda") options.format = gltf::SkinFormat::kUsda;
-  by_dimension(cage_points, [&](auto dim) {
-    constexpr int kDim = decltype(dim)::value;
-    const auto cage = cage_of<kDim>(cage_points, facets);
-    options.cage_edges = view::as_facets(edges_of(cage));
+  any.visit([&](const auto& binding) {
+    constexpr int kDim = kDimOf<std::decay_t<decltype(binding)>>;
+    options.cage_edges = view::as_facets(view::edges_of_cage<kDim>({}, binding.cage.facets));
     const gltf::Animation<kDim> animation{times, poses_of<kDim>(poses)};
-    const auto places = points_of<kDim>(points);
-    const auto given = weights_of(weights);
+    const auto surface = surface_of<kDim>(binding, polygons);
     without_gil([&] {
-      const auto surface = surface_of<kDim>(points, polygons);
-      options.edges = edges_of_polygons(places, lists_of(polygons));
-      const auto skin =
-          gltf::export_skin<kDim>(cage.points, places, given, surface, options, animation);
+      const auto skin = gltf::export_skin<kDim>(binding, surface, options, animation);
       io::write_file(path, [&](std::ostream& out) { out << skin.content; });
     });
   });
 }
 
-std::string make_page(const Doubles& cage_points, const Indices& facets, const Doubles& points,
-                      const Polygons& polygons, const py::object& weights,
+std::string make_page(const AnyBinding& any, const Polygons& polygons,
                       const std::vector<Doubles>& poses, const std::string& title) {
-  return by_dimension(cage_points, [&](auto dim) {
-    constexpr int kDim = decltype(dim)::value;
-    const auto cage = cage_of<kDim>(cage_points, facets);
+  return any.visit([&](const auto& binding) {
+    constexpr int kDim = kDimOf<std::decay_t<decltype(binding)>>;
     const auto moved = poses_of<kDim>(poses);
+    const auto& cage = binding.cage;
     view::PageContent<kDim> content;
     content.title = title;
     content.model_file = "model.obj";
-    content.weights_file = "weights.mtx";
+    content.weights_file = "binding.npz";
     content.cage_file = "cage.obj";
     content.cage.points = cage.points;
     content.cage.facets = cage.facets;
-    content.cage.edges = edges_of(cage);
-    content.points = points_of<kDim>(points);
+    content.cage.edges = view::edges_of_cage<kDim>({}, cage.facets);
+    content.points = binding.rest();
     for (std::size_t k = 0; k < moved.size(); ++k) {
       content.poses.push_back(
           {"pose " + std::to_string(k + 1), static_cast<double>(k + 1), moved[k]});
     }
-    const auto given = weights_of(weights);
+    content.surface = surface_of<kDim>(binding, polygons);
     return without_gil([&] {
-      content.surface = surface_of<kDim>(points, polygons);
+      constexpr auto kMost = view::kMostInfluences;
+      const auto& weights = binding.weights;
+      bool is_crowded = false;
+      for (Index p = 0; p < weights.num_points(); ++p) is_crowded |= weights.count(p) > kMost;
       content.weights = view::limit_influences<kDim>(
-          cage.points, attached_points(cage, content.points, given), given, view::kMostInfluences);
+          cage.points, binding.points, is_crowded ? binding.reduced({kMost}).weights : weights,
+          kMost);
       return view::make_page(content);
     });
   });

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "options.h"
 
+#include <algorithm>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <type_traits>
 
@@ -43,62 +45,18 @@ Value value_of(const std::string& option, const py::handle& given) {
   }
 }
 
-template <class Value>
-py::object as_object(const Value& value) {
-  if constexpr (IsOptional<Value>::value) {
-    return value ? as_object(*value) : py::none();
-  } else if constexpr (std::is_enum_v<Value>) {
-    return py::str(name_of(value));
-  } else {
-    return py::cast(value);
-  }
-}
-
 struct Field {
   const char* name;
   std::function<void(SolverOptions&, const py::handle&)> set;
-  std::function<py::object(const SolverOptions&)> get;
 };
 
 //! \param place  returns a reference to the field of options
 template <class Place>
 Field field(const char* name, const Place& place) {
-  return {name,
-          [name, place](SolverOptions& options, const py::handle& value) {
+  return {name, [name, place](SolverOptions& options, const py::handle& value) {
             auto& target = place(options);
             target = value_of<std::decay_t<decltype(target)>>(name, value);
-          },
-          [place](const SolverOptions& options) { return as_object(place(options)); }};
-}
-
-// A mask of a row per point and a column per control point; or a list, as masks_as_object() makes.
-std::vector<Mask> masks_of(const py::handle& given) {
-  if (given.is_none()) return {};
-  std::vector<Mask> masks;
-  if (py::isinstance<py::list>(given)) {
-    for (const auto& [control_points, points] :
-         given.cast<std::vector<std::pair<std::vector<Index>, std::vector<Index>>>>()) {
-      masks.push_back({control_points, points});
-    }
-    return masks;
-  }
-  const auto array = given.cast<py::array_t<bool>>();
-  const auto masked = array.unchecked<2>();
-  for (py::ssize_t i = 0; i < masked.shape(1); ++i) {
-    Mask mask{{static_cast<Index>(i)}, {}};
-    for (py::ssize_t p = 0; p < masked.shape(0); ++p) {
-      if (masked(p, i)) mask.points.push_back(static_cast<Index>(p));
-    }
-    if (!mask.points.empty()) masks.push_back(std::move(mask));
-  }
-  return masks;
-}
-
-py::object masks_as_object(const std::vector<Mask>& masks) {
-  if (masks.empty()) return py::none();
-  py::list list;
-  for (const auto& mask : masks) list.append(py::make_tuple(mask.control_points, mask.points));
-  return std::move(list);
+          }};
 }
 
 #define FLBC_FIELD(name, member) \
@@ -121,15 +79,12 @@ const std::vector<Field>& fields() {
       FLBC_FIELD("active_set", active_set),
       FLBC_FIELD("penalty", penalty),
       {"mask",
-       [](SolverOptions& options, const py::handle& value) { options.masks = masks_of(value); },
-       [](const SolverOptions& options) { return masks_as_object(options.masks); }},
+       [](SolverOptions& options, const py::handle& value) {
+         if (!value.is_none()) options.masks = masks_of(value.cast<MaskLists>());
+       }},
       {"reach",
        [](SolverOptions& options, const py::handle& value) {
-         options.reach.clear();
          if (!value.is_none()) options.reach = value.cast<std::vector<double>>();
-       },
-       [](const SolverOptions& options) -> py::object {
-         return options.reach.empty() ? py::none() : py::cast(options.reach);
        }},
   };
   return table;
@@ -172,45 +127,43 @@ std::vector<std::string> option_names() {
   return names;
 }
 
-SolverOptions options_of(const py::dict& keywords) {
-  SolverOptions options;
-  for (const auto& field : fields()) {
-    if (keywords.contains(field.name)) field.set(options, keywords[field.name]);
+BindOptions options_of(const py::dict& keywords) {
+  BindOptions options;
+  const auto method =
+      keywords.contains("method") ? py::str(keywords["method"]).cast<std::string>() : std::string();
+  options.coordinates = value_named<Coordinates>(method);
+  for (const auto& [key, value] : keywords) {
+    const auto name = key.cast<std::string>();
+    const auto is_named = [&name = name](const auto& field) { return name == field.name; };
+    const auto field = std::find_if(fields().begin(), fields().end(), is_named);
+    if (name == "max_influences") {
+      options.max_influences = value_of<Index>(name, value);
+    } else if (name == "outside") {
+      options.outside = value_of<OutsidePoints>(name, value);
+    } else if (name == "mirror_axis") {
+      options.mirror_axis = value.cast<int>();
+    } else if (field == fields().end() ||
+               (options.coordinates && (name == "method" || value.is_none()))) {
+      continue;
+    } else if (options.coordinates && name != "threads" && name != "non_negative") {
+      throw OptionError(name + ": the method " + method +
+                        " does not use it; leave out this option");
+    } else if (name == "phi" && py::isinstance<py::array>(value)) {
+      const auto phi = value.cast<Doubles>();
+      options.phi = WeightMatrix::Map(phi.data(), phi.shape(1), phi.shape(0));
+    } else {
+      field->set(options.solver, value);
+    }
   }
   return options;
 }
 
-std::optional<Coordinates> coordinates_of(const py::dict& keywords) {
-  if (!keywords.contains("method")) return {};
-  return value_named<Coordinates>(py::str(keywords["method"]));
-}
-
-SolverOptions coordinates_options_of(const py::dict& keywords) {
-  py::dict used;
-  for (const auto& [key, value] : keywords) {
-    const auto name = key.cast<std::string>();
-    if (name == "method" || value.is_none()) continue;
-    if (name != "threads" && name != "non_negative") {
-      throw OptionError(name + ": the method " + keywords["method"].cast<std::string>() +
-                        " does not use it; leave out this option");
-    }
-    used[key] = value;
-  }
-  return options_of(used);
-}
-
-py::dict as_dict(const SolverOptions& options) {
-  py::dict dict;
-  for (const auto& field : fields()) dict[field.name] = field.get(options);
-  return dict;
-}
-
-py::dict as_dict(const SolveReport& report, const std::optional<Coordinates>& coordinates) {
+py::dict as_dict(const SolveReport& report, const std::string& method) {
   using namespace py::literals;
   const auto& seconds = report.seconds;
   const auto& quality = report.quality;
   py::dict dict(
-      "method"_a = coordinates ? name_of(*coordinates) : name_of(report.method),
+      "method"_a = method.empty() ? name_of(report.method) : method,
       "control_points"_a = report.control_points, "vertices"_a = report.vertices,
       "cells"_a = report.cells, "iterations"_a = report.iterations,
       "converged"_a = report.status == SolveStatus::kConverged, "status"_a = name_of(report.status),
@@ -235,10 +188,40 @@ py::dict as_dict(const SolveReport& report, const std::optional<Coordinates>& co
   }
   if (!report.parts.empty()) {
     py::list parts;
-    for (const auto& part : report.parts) parts.append(as_dict(part, coordinates));
+    for (const auto& part : report.parts) parts.append(as_dict(part, method));
     dict["parts"] = parts;
   }
   return dict;
+}
+
+py::dict as_dict(const BindReport& report) {
+  using namespace py::literals;
+  const auto& solve = report.solve;
+  // A file has only these of a solve.
+  auto dict = solve.control_points > 0
+                  ? as_dict(solve, report.method)
+                  : py::dict("method"_a = report.method, "iterations"_a = solve.iterations,
+                             "converged"_a = solve.status == SolveStatus::kConverged,
+                             "status"_a = name_of(solve.status));
+  dict["options"] = report.options;
+  dict["mesher"] = report.mesher;
+  dict["note"] = report.note;
+  return dict;
+}
+
+py::object as_python(const std::shared_ptr<const Proof>& proof) {
+  if (!proof) return py::none();
+  const auto cells = proof->phi.cols(), n = proof->phi.rows(), axes = proof->multipliers.rows();
+  const auto phi = proof->phi.dense();
+  py::dict arrays;
+  arrays["phi"] = py::array_t<double>({cells, n}, phi.data());
+  arrays["flux"] = py::array_t<float>({cells, axes, n}, proof->flux.data());
+  arrays["multipliers"] =
+      py::array_t<double>({proof->multipliers.cols(), axes}, proof->multipliers.data());
+  arrays["smoothness"] = proof->smoothness;
+  arrays["masked"] =
+      py::array_t<Index>({proof->masked.cols(), Eigen::Index(2)}, proof->masked.data());
+  return std::move(arrays);
 }
 
 }  // namespace flbc::python

@@ -1,34 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Options of a solve as keyword arguments, and its report as a dict.
+//! Options of a solve or a Rig as keyword arguments, and its report as a dict.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "arrays.h"
-#include "flbc/coordinates.h"
+#include "flbc/binding.h"
 
 namespace flbc::python {
 
 //! The names of all options.
 std::vector<std::string> option_names();
 
-//! \throws OptionError naming the option
-SolverOptions options_of(const py::dict& keywords);
+//! Masks are those of the solver. \param keywords  others are ignored
+//! \throws OptionError naming the option, also if other coordinates do not use it
+BindOptions options_of(const py::dict& keywords);
 
-//! The coordinates that the method names, or none.
-std::optional<Coordinates> coordinates_of(const py::dict& keywords);
+//! With the names of the report of `flbc solve`. \param method  name; empty for that in the report
+py::dict as_dict(const SolveReport& report, const std::string& method = "");
+py::dict as_dict(const BindReport& report);
 
-//! Options of coordinates, which are threads and non_negative. \throws OptionError for others
-SolverOptions coordinates_options_of(const py::dict& keywords);
-
-//! All options by their names.
-py::dict as_dict(const SolverOptions& options);
-
-//! With the names of the report of `flbc solve`. \param coordinates  that were computed, if any
-py::dict as_dict(const SolveReport& report, const std::optional<Coordinates>& coordinates = {});
+//! The arrays of a proof, a row per cell or vertex; None without one.
+py::object as_python(const std::shared_ptr<const Proof>& proof);
 
 //! A value of an enumeration by its name. \throws OptionError with all names
 template <class Enum>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes of cages, solves, and solves that continue.
+// Meshes of cages, solves, and solves that resume.
 #include <omp.h>
 
 #include <atomic>
@@ -7,12 +7,14 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 
 #include "arrays.h"
 #include "flbc/errors.h"
 #include "flbc/linked_meshers.h"
+#include "flbc/names.h"
 #include "flbc/rig.h"
 #include "flbc/solver.h"
 #include "options.h"
@@ -27,8 +29,6 @@ void throw_if_interrupted() {
   const py::gil_scoped_acquire gil;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
-
-// ---------------------------------------------------------------------------------------- meshing
 
 py::tuple mesh(const Doubles& points, const Indices& facets, Index vertices,
                const std::optional<Doubles>& embedded, double time_limit) {
@@ -49,18 +49,16 @@ py::tuple mesh(const Doubles& points, const Indices& facets, Index vertices,
   });
 }
 
-// --------------------------------------------------------------------------------------- solving
-
 // The observer of a solve that runs without the GIL.
-// \param callback  a Python function or None; outlives the solve
+// \param callback  a Python function or None; outlives the observer
 Observer observer_of(const py::object& callback) {
   Observer observer;
   observer.poll = interruption();
-  if (callback.is_none()) return observer;
-  observer.progress = [handle = py::handle(callback)](const Progress& progress) {
+  observer.progress = [&callback](const Progress& progress) {
+    if (callback.is_none()) return true;
     const py::gil_scoped_acquire gil;
     const auto object = py::cast(progress);
-    const auto result = handle(object);
+    const auto result = callback(object);
     object.cast<Progress&>().objective = {};  // refers to the running solve
     const int goes_on = result.is_none() ? 1 : PyObject_IsTrue(result.ptr());
     if (goes_on < 0) throw py::error_already_set();
@@ -69,127 +67,16 @@ Observer observer_of(const py::object& callback) {
   return observer;
 }
 
-template <class Options>
-Options here(Options options) {
-  if (is_forked) options.threads = 1;
-  return options;
-}
-
-// The arrays of a proof, a row per cell or vertex; None without one.
-py::object arrays_of(const std::shared_ptr<const Proof>& proof) {
-  if (!proof) return py::none();
-  const auto cells = proof->phi.cols(), n = proof->phi.rows(), axes = proof->multipliers.rows();
-  const auto phi = proof->phi.dense();
-  py::dict arrays;
-  arrays["phi"] = py::array_t<double>({cells, n}, phi.data());
-  arrays["flux"] = py::array_t<float>({cells, axes, n}, proof->flux.data());
-  arrays["multipliers"] =
-      py::array_t<double>({proof->multipliers.cols(), axes}, proof->multipliers.data());
-  arrays["smoothness"] = proof->smoothness;
-  arrays["masked"] =
-      py::array_t<Index>({proof->masked.cols(), Eigen::Index(2)}, proof->masked.data());
-  return std::move(arrays);
-}
-
-py::tuple solved(Solution solution, const std::optional<Coordinates>& coordinates = {}) {
-  const auto report = as_dict(solution.report, coordinates);
-  const auto proof = arrays_of(solution.report.certificate.proof);
+py::tuple as_tuple(Solution solution, const BindOptions& options) {
+  const auto report =
+      as_dict(solution.report, options.coordinates ? name_of(*options.coordinates) : "");
+  const auto proof = as_python(solution.report.certificate.proof);
   return py::make_tuple(as_python(std::move(solution.weights)), report, proof);
 }
 
-// What solve() and bind() are asked for.
-struct Request {
-  Request(const py::dict& keywords, const std::optional<Doubles>& array)
-      : coordinates(coordinates_of(keywords)),
-        options(here(coordinates ? coordinates_options_of(keywords) : options_of(keywords))) {
-    if (!array) return;
-    phi = Eigen::MatrixXd::Map(array->data(), array->shape(1), array->shape(0)).eval();
-  }
-
-  template <int Dim>
-  Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& domain, const Observer& observer) {
-    if (coordinates) {
-      return compute_coordinates(cage, domain, *coordinates,
-                                 {options.non_negative, options.threads}, observer);
-    }
-    if (!phi) return flbc::solve<Dim>(cage, domain, options, observer);
-    validate(options);
-    auto problem =
-        make_problem(cage, domain, DistanceScheme::kConstant, *resolve(options).smoothness);
-    problem.phi = WeightFunctions(std::move(*phi));
-    return flbc::solve(problem, options, observer);
-  }
-
-  std::optional<Coordinates> coordinates;
-  SolverOptions options;  // coordinates read non_negative and threads
-  std::optional<Eigen::MatrixXd> phi{};
-};
-
-py::tuple solve(const Doubles& points, const Indices& facets, const Doubles& vertices,
-                const Indices& cells, const py::dict& keywords, const std::optional<Doubles>& phi,
-                const py::object& callback) {
-  Request request(keywords, phi);
-  return by_dimension(points, [&](auto dim) -> py::tuple {
-    constexpr int kDim = decltype(dim)::value;
-    const auto cage = cage_of<kDim>(points, facets);
-    const auto domain = mesh_of<kDim>(vertices, cells);
-    const auto observer = observer_of(callback);
-    return solved(without_gil([&] { return request.solve(cage, domain, observer); }),
-                  request.coordinates);
-  });
-}
-
-// \param domain  none: it is made, of so many vertices, or as many as usual
-// \param options  of the solve, with the mask of the model
-// \return weights, report, note, offsets or None, and points outside
-py::tuple bind_model(const Doubles& points, const Indices& facets,
-                     const std::optional<std::pair<Doubles, Indices>>& domain,
-                     const std::optional<Index>& vertices, const Doubles& model,
-                     const Polygons& polygons, const py::dict& keywords,
-                     const std::optional<Doubles>& phi, Index max_influences,
-                     const std::string& outside, int mirror_axis, const py::object& callback) {
-  Request request(keywords, phi);
-  BindOptions options;
-  options.vertices = vertices.value_or(kDefaultVertices);
-  options.solver.threads = request.options.threads;
-  options.observer = observer_of(callback);
-  options.max_influences = max_influences;
-  options.outside = named<OutsidePoints>("outside", outside);
-  options.masks = std::move(request.options.masks);
-  options.mirror_axis = mirror_axis;
-  return by_dimension(points, [&](auto dim) -> py::tuple {
-    constexpr int kDim = decltype(dim)::value;
-    const auto cage = cage_of<kDim>(points, facets);
-    const auto all = points_of<kDim>(model);
-    const auto lists = lists_of(polygons);
-    MadeDomain<kDim> given;
-    if (domain) given.mesh = mesh_of<kDim>(domain->first, domain->second);
-    std::string note;
-    auto binding = without_gil([&] {
-      const auto edges = edges_of_polygons(all, lists);
-      auto rig = domain ? Rig<kDim>(cage, std::move(given), all, edges, options)
-                        : Rig<kDim>(cage, all, edges, options, linked_meshers<kDim>());
-      request.options.masks = rig.masks().of_mesh;
-      rig.set_solution(request.solve(rig.cage(), rig.mesh(), options.observer));
-      auto bound = rig.bind();
-      note = vertices ? bound.report.note : rig.masks().note();
-      return bound;
-    });
-    const py::object offsets =
-        binding.offsets.cols() > 0 ? py::object(as_array(binding.offsets)) : py::none();
-    return py::make_tuple(as_python(std::move(binding.weights)),
-                          as_dict(binding.report.solve, request.coordinates), note, offsets,
-                          binding.outside);
-  });
-}
-
-template <class Solver>
-struct DimensionOf;
-template <int Dim>
-struct DimensionOf<Solver<Dim>> : std::integral_constant<int, Dim> {};
-
-// A Solver of either dimension, for one thread at a time.
-class AnySolver {
+// A Rig of either dimension, for one thread at a time. Without a model, it is one of the mesh, and
+// masks are those of its vertices.
+class AnyRig {
   struct Release {
     void operator()(std::atomic<bool>* flag) const { *flag = false; }
   };
@@ -197,68 +84,141 @@ class AnySolver {
   template <class Action>
   auto use(const Action& action) {
     if (is_used_.exchange(true)) {
-      throw Error("this Solver is in use, by another thread or by the caller of this callback");
+      throw Error("this object is in use, by another thread or by the caller of this callback");
     }
     const std::unique_ptr<std::atomic<bool>, Release> lock(&is_used_);
-    return std::visit([&](auto& solver) { return action(*solver); }, solver_);
+    return std::visit([&](auto& rig) { return action(*rig); }, rig_);
   }
 
   template <class Action>
-  py::tuple run(const py::object& callback, const Action& action) {
-    return use([&](auto& solver) {
-      const auto observer = observer_of(callback);
-      // A copy, because the Solver needs its weights for the next move.
-      return solved(without_gil([&] { return Solution(action(solver, observer)); }));
+  auto run(const py::object& callback, const Action& action) {
+    return use([&](auto& rig) {
+      callback_ = callback;
+      const std::unique_ptr<py::object, void (*)(py::object*)> reset(
+          &callback_, [](py::object* kept) { *kept = py::none(); });
+      return without_gil([&] { return action(rig); });
     });
   }
 
+  // \param freed  output: the control points of masks that could not be obeyed
+  template <int Dim>
+  static BindOptions parsed(const py::dict& keywords, const Cage<Dim>& cage,
+                            const PointList<Dim>& points, std::vector<Index>& freed) {
+    auto options = options_of(keywords);
+    if (is_forked) options.solver.threads = 1;
+    if (points.cols() == 0) return options;
+    std::swap(options.masks, options.solver.masks);
+    if (keywords["relax"].cast<bool>() && !options.masks.empty()) {
+      options.masks = without_gil([&] {
+        return relax_masks(cage, points, std::move(options.masks), freed, options.mirror_axis);
+      });
+    }
+    return options;
+  }
+
  public:
-  AnySolver(const Doubles& points, const Indices& facets, const Doubles& vertices,
-            const Indices& cells, const py::dict& keywords) {
+  // \param domain  none: it is made if these coordinates need one, or `vertices` are given
+  AnyRig(const Doubles& points, const Indices& facets,
+         const std::optional<std::pair<Doubles, Indices>>& domain,
+         const std::optional<Index>& vertices, const Doubles& model, const Polygons& polygons,
+         const py::dict& keywords) {
     by_dimension(points, [&](auto dim) {
       constexpr int kDim = decltype(dim)::value;
-      auto cage = cage_of<kDim>(points, facets);
-      auto domain = mesh_of<kDim>(vertices, cells);
-      const auto options = here(options_of(keywords));
-      solver_ = without_gil([&] {
-        return std::make_unique<Solver<kDim>>(std::move(cage), std::move(domain), options);
+      const auto cage = cage_of<kDim>(points, facets);
+      const auto all = points_of<kDim>(model);
+      auto options = parsed(keywords, cage, all, freed_);
+      options.vertices = vertices.value_or(kDefaultVertices);
+      options.observer = observer_of(callback_);
+      const auto edges = edges_of(all, polygons);
+      MadeDomain<kDim> given;
+      if (domain) given.mesh = mesh_of<kDim>(domain->first, domain->second);
+      const bool needs_mesh =
+          vertices || !options.coordinates || !is_pointwise(*options.coordinates);
+      rig_ = without_gil([&] {
+        if (domain) {
+          return std::make_unique<Rig<kDim>>(cage, std::move(given), all, edges, options);
+        }
+        if (!needs_mesh) return std::make_unique<Rig<kDim>>(cage, all, edges, options);
+        return std::make_unique<Rig<kDim>>(cage, all, edges, options, linked_meshers<kDim>());
       });
     });
   }
 
-  py::tuple solve(int iterations, double seconds, const py::object& callback) {
-    return run(callback, [&](auto& solver, const Observer& observer) {
-      return solver.solve({iterations, seconds}, observer);
+  // \param control_points  moved ones, or none
+  py::tuple solve(const std::optional<Doubles>& control_points, int iterations, double seconds,
+                  const py::object& callback) {
+    auto solution = run(callback, [&](auto& rig) {
+      constexpr int kDim = kDimOf<std::decay_t<decltype(rig)>>;
+      const Budget budget{iterations, seconds};
+      return Solution(control_points ? rig.reshape(points_of<kDim>(*control_points), budget)
+                                     : rig.solve(budget));
     });
+    return use([&](auto& rig) { return as_tuple(std::move(solution), rig.options()); });
   }
 
-  py::tuple move(const Doubles& control_points, int iterations, double seconds,
-                 const py::object& callback) {
-    return run(callback, [&](auto& solver, const Observer& observer) {
-      constexpr int kDim = DimensionOf<std::decay_t<decltype(solver)>>::value;
-      return solver.reshape(points_of<kDim>(control_points), {iterations, seconds}, observer);
-    });
-  }
-
-  void set_options(const py::dict& keywords) {
-    use([&](auto& solver) { solver.set_options(here(options_of(keywords))); });
-  }
   void restart() {
-    use([](auto& solver) { solver.restart(); });
+    use([](auto& rig) {
+      auto solution = rig.solution();
+      if (solution.weights.num_points() == 0) return;
+      solution.report.status = SolveStatus::kStopped;
+      rig.set_solution(std::move(solution));
+    });
   }
-  py::dict options() {
-    return use([](auto& solver) { return as_dict(solver.options()); });
+
+  void set_model(const Doubles& model, const Polygons& polygons) {
+    use([&](auto& rig) {
+      const auto points = points_of<kDimOf<std::decay_t<decltype(rig)>>>(model);
+      const auto edges = edges_of(points, polygons);
+      without_gil([&] { rig.set_model(points, edges); });
+    });
   }
+
+  void set_options(const py::dict& keywords, bool has_model) {
+    use([&](auto& rig) {
+      std::vector<Index> freed;
+      auto points = rig.placement().points;
+      if (!has_model) points.resize(Eigen::NoChange, 0);
+      auto options = parsed(keywords, rig.cage(), points, freed);
+      options.vertices = rig.options().vertices;
+      options.observer = rig.options().observer;
+      without_gil([&] { rig.set_options(options); });
+      freed_ = std::move(freed);
+    });
+  }
+
+  AnyBinding bind(bool reduces, const py::object& callback) {
+    return run(callback, [&](auto& rig) {
+      auto binding = reduces ? rig.bind() : rig.binding();
+      auto& note = binding.report.note;
+      for (const Index i : freed_) {
+        note += i != freed_.front() ? ", "
+                : note.empty()      ? "masks were removed from control points "
+                                    : "; masks were removed from control points ";
+        note += std::to_string(i);
+      }
+      return AnyBinding{std::move(binding)};
+    });
+  }
+
+  py::object solution() {
+    return use([](auto& rig) -> py::object {
+      if (rig.solution().weights.num_points() == 0) return py::none();
+      return as_tuple(rig.solution(), rig.options());
+    });
+  }
+
   py::tuple cage() {
-    return use([](auto& solver) { return as_python(solver.cage()); });
+    return use([](auto& rig) { return as_python(rig.cage()); });
   }
   py::tuple mesh() {
-    return use([](auto& solver) { return as_python(solver.mesh()); });
+    return use([](auto& rig) { return as_python(rig.mesh()); });
   }
 
  private:
-  std::variant<std::unique_ptr<Solver<2>>, std::unique_ptr<Solver<3>>> solver_;
+  std::variant<std::unique_ptr<Rig<2>>, std::unique_ptr<Rig<3>>> rig_;
   std::atomic<bool> is_used_{false};
+  py::object callback_ = py::none();
+  std::vector<Index> freed_{};
 };
 
 }  // namespace
@@ -284,8 +244,6 @@ void bind_solving(py::module_& module) {
   module.def("has_forked", [] { is_forked = true; });
   module.def("option_names", &option_names);
   module.def("mesh", &mesh);
-  module.def("solve", &solve);
-  module.def("bind_model", &bind_model);
 
   py::class_<Progress>(module, "Progress", "Progress of a solve, for callbacks.")
       .def_readonly("iteration", &Progress::iteration, "int: counted from 1")
@@ -307,16 +265,18 @@ void bind_solving(py::module_& module) {
                std::to_string(progress.relative_primal_residual) + " of the threshold>";
       });
 
-  py::class_<AnySolver>(module, "Solver")
-      .def(py::init<const Doubles&, const Indices&, const Doubles&, const Indices&,
-                    const py::dict&>())
-      .def("solve", &AnySolver::solve)
-      .def("move", &AnySolver::move)
-      .def("set_options", &AnySolver::set_options)
-      .def("restart", &AnySolver::restart)
-      .def("options", &AnySolver::options)
-      .def("cage", &AnySolver::cage)
-      .def("mesh", &AnySolver::mesh);
+  py::class_<AnyRig>(module, "Rig")
+      .def(py::init<const Doubles&, const Indices&,
+                    const std::optional<std::pair<Doubles, Indices>>&, const std::optional<Index>&,
+                    const Doubles&, const Polygons&, const py::dict&>())
+      .def("solve", &AnyRig::solve)
+      .def("restart", &AnyRig::restart)
+      .def("set_model", &AnyRig::set_model)
+      .def("set_options", &AnyRig::set_options)
+      .def("bind", &AnyRig::bind)
+      .def("solution", &AnyRig::solution)
+      .def("cage", &AnyRig::cage)
+      .def("mesh", &AnyRig::mesh);
 }
 
 }  // namespace flbc::python

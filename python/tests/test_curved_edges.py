@@ -42,8 +42,7 @@ def test_model_is_reproduced(example):
     cage = flbc.read_cage(MESHES / "2d/figure_cage.obj")
     vertices, faces = flbc.read_model(MESHES / "2d/figure_model.obj")
     controls, fine, of_fine = example.with_handles(cage)
-    weights = flbc.compose(flbc.bind(vertices, faces, fine).weights, of_fine)
-    dense = weights.toarray()
+    dense = flbc.bind(vertices, faces, fine).composed(of_fine, controls).weights.toarray()
     assert dense.min() >= 0
     assert np.abs(dense.sum(axis=1) - 1).max() < 1e-13
     assert np.abs(dense @ controls - vertices).max() < 1e-13 * np.abs(vertices).max()

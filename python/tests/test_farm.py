@@ -26,7 +26,6 @@ def test_folder_is_bound(tmp_path):
     for name, text in lines.items():
         assert text.endswith("control points"), text
         vertices, _ = flbc.read_model(tmp_path / name)
-        cage = flbc.read_cage(tmp_path / name.replace(".obj", "_cage.ply"))
-        weights = flbc.read_weights(tmp_path / name.replace(".obj", ".mtx"))
-        assert weights.shape == (len(vertices), len(cage))
-        assert flbc.check(cage, vertices, weights) == []
+        binding = flbc.load_binding(tmp_path / name.replace(".obj", ".npz"))
+        assert binding.weights.shape == (len(vertices), len(binding.cage))
+        assert flbc.check(binding.cage, vertices, binding.weights) == []

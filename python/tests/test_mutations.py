@@ -81,7 +81,7 @@ def solve(m, valid):
 def solver(m, valid):
     cage, mesh, _ = valid
     solver = flbc.Solver(cage, mesh, max_iterations=10)
-    solver.move(m.damaged(cage.points * 1.01), iterations=2)
+    solver.reshape(m.damaged(cage.points * 1.01), iterations=2)
 
 
 def at(m, valid):
@@ -99,6 +99,12 @@ def bind(m, valid):
         max_iterations=10,
     )
     binding.deform(m.damaged(cage.points))
+    binding.jacobians(m.damaged(cage.points))
+    binding.reduced(m.one_of([None, 4, 5, 0])).transferred(
+        m.damaged(mesh.points), m.damaged(mesh.cells), from_faces=m.one_of([None, mesh.cells[:, :3]])
+    )
+    mask = m.one_of([m.damaged(np.eye(len(mesh.points), len(cage)) > 0), [([0], [1])]])
+    flbc.Binding(m.damaged(valid[2].weights), cage, mesh.points, m.damaged(mesh.cells), mask)
 
 
 def use_weights(m, valid):

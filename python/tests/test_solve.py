@@ -84,8 +84,9 @@ def test_other_coordinates_refuse_what_they_do_not_use(flat, method):
             flbc.solve(flat.cage, flat.mesh, method=method, **option)
     with pytest.raises(flbc.OptionError, match="non_negative constraint is for"):
         flbc.solve(flat.cage, flat.mesh, method=method, non_negative="constraint")
-    with pytest.raises(flbc.OptionError, match=f"weights, .* not {method}"):
-        flbc.Solver(flat.cage, flat.mesh, method=method)
+    solver = flbc.Solver(flat.cage, flat.mesh, method=method)
+    same = flbc.solve(flat.cage, flat.mesh, method=method)
+    assert np.array_equal(solver.solve().weights, same.weights)
     bound = flbc.bind(flat.mesh.points, None, flat.cage, domain=flat.mesh, method=method)
     assert bound.report["method"] == method
 
@@ -261,7 +262,7 @@ def test_other_processes_solve(solid, method):
 
 
 # ---- Solver -------------------------------------------------------------------------------------
-def test_solver_continues(flat):
+def test_solver_resumes(flat):
     solver = flbc.Solver(flat.cage, flat.mesh, penalty=1.0)
     first = solver.solve(iterations=3)
     assert not first.converged and first.report["iterations"] == 3
@@ -279,16 +280,16 @@ def test_solver_continues(flat):
 
 
 @pytest.mark.parametrize("which", ["flat", "solid"])
-def test_solver_moves_the_rest_cage(which, request):
+def test_solver_reshapes_the_rest_cage(which, request):
     solution = request.getfixturevalue(which)
     solver = flbc.Solver(solution.cage, solution.mesh)
     moved = solution.cage.points * ([1.1] + [1.0] * (solution.cage.dim - 1))
-    after = solver.move(moved)
+    after = solver.reshape(moved)
     assert np.array_equal(solver.cage.points, moved)
     assert np.array_equal(after.mesh.points, solver.mesh.points)
     assert abs(flbc.deform(after.weights, moved) - after.mesh.points).max() < 1e-12
     with pytest.raises(flbc.InputError, match="control_points"):
-        solver.move(moved[1:])
+        solver.reshape(moved[1:])
 
 
 def test_solver_is_for_one_thread_at_a_time(flat):
@@ -307,7 +308,7 @@ def test_results_can_be_pickled(flat, limb):
 
 def test_solver_says_what_to_pickle(flat):
     solver = flbc.Solver(flat.cage, flat.mesh, tolerance=1e-5)
-    with pytest.raises(TypeError, match="flbc.Solver\\(cage, mesh, \\*\\*options\\)"):
+    with pytest.raises(TypeError, match="flbc.Solver"):
         pickle.dumps(solver)
     again = flbc.Solver(solver.cage, solver.mesh, **solver.options)
     assert np.array_equal(again.solve().weights, solver.solve().weights)

@@ -20,6 +20,18 @@ rows: int = moved.shape[0]
 vertices, faces = flbc.read_model("model.obj")
 binding = flbc.bind(vertices, faces, cage, threads=2)
 html: str = flbc.view(vertices, faces, binding.weights, cage).html
+control_points, points = binding.masks[0]
+first: int = int(points[0]) + binding.outside.shape[0]
+if binding.solution and binding.domain:
+    corners: int = binding.domain.cells.shape[1] + binding.solution.weights.shape[0]
+few: flbc.Binding = binding.reduced(4).transferred(vertices[:2])
+bends = few.jacobians(cage).sum() + few.deform([cage.points]).sum()
+rig = flbc.Rig(cage, vertices, faces, max_influences=4, mask=[([0], [1])], conflicts="relax")
+iterations = rig.reshape(cage.points).report["iterations"]
+try:
+    flbc.load_binding("b.npz").save("c.npz")
+except flbc.MaskConflict as conflict:
+    freed: int = conflict.control_points[0]
 """
 WRONG = [
     "flbc.Cage([[0, 0]]).facetz",
@@ -27,6 +39,9 @@ WRONG = [
     "flbc.solve(cage, tolerance='small')",
     "flbc.solve(cage, accuracy=1e-5)",
     "flbc.mesh(cage, vertices='many')",
+    "flbc.bind([[0, 0]], None, cage).domain.cells",
+    "flbc.bind([[0, 0]], None, cage).weight",
+    "flbc.Rig(cage, [[0, 0]], conflicts=3)",
 ]
 
 

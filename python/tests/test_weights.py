@@ -147,20 +147,6 @@ def test_bind_equals_its_steps(limb, moved):
     assert abs(every.weights - solution.at(vertices)).max() == 0
 
 
-@pytest.mark.parametrize("max_influences", [0, 4])
-@pytest.mark.parametrize("outside, place", [("nearest", [1.25, 3.5]), ("keep", [1.25, 0.5])])
-def test_bind_places_vertices_outside(square, outside, place, max_influences):
-    points = [[0.5, 0.5], [1.25, 0.5]]
-    options = {"mesh_vertices": 200, "max_influences": max_influences}
-    with pytest.raises(flbc.InputError, match="outside"):
-        flbc.bind(points, None, square, **options)
-    binding = flbc.bind(points, None, square, outside=outside, **options)
-    assert binding.outside.tolist() == [1]
-    assert (binding.weights[[1]].nnz == 0) == (outside == "keep")
-    assert np.allclose(binding.deform(square.points), points)
-    assert np.allclose(binding.deform(square.points + [0, 3]), [[0.5, 3.5], place])
-
-
 def test_border_names_control_points_to_hold(square):
     points = np.array([[0.5, 0.4], [0.5, 0.6], [1.25, 0.5]])
     held = flbc.border(points, [[0, 1, 2]], square)
@@ -186,37 +172,6 @@ def test_pages_take_planar_vertices_with_z(square):
     assert flbc.view(points, [[0, 1, 2]], weights, square).html
     with pytest.raises(flbc.InputError, match="vertices has shape"):
         flbc.view(points + 1, [[0, 1, 2]], weights, square)
-
-
-@pytest.mark.parametrize("max_influences", [0, 4])
-def test_bind_extends_weights_to_vertices_outside(limb, max_influences):
-    cage, vertices, faces = limb
-    vertices = vertices.copy()
-    vertices[7] = cage.points.max(axis=0) + 0.1
-    binding = flbc.bind(
-        vertices, faces, cage, mesh_vertices=2000, outside="extend", max_influences=max_influences
-    )
-    assert binding.outside.tolist() == [7]
-    inside = np.arange(len(vertices)) != 7
-    assert binding.weights[inside].min() >= 0 > binding.weights[[7]].min()
-    if max_influences:
-        assert np.diff(binding.weights.indptr)[inside].max() <= max_influences
-    turned = [[1, 0.3, 0], [0, 1.5, 0], [0, 0, 1]]
-    assert np.allclose(binding.deform(cage.points @ turned), vertices @ turned)
-
-
-@pytest.mark.parametrize("outside", ["nearest", "keep"])
-def test_pages_and_skins_of_models_partly_outside(model, outside, tmp_path):
-    cage, vertices, faces, _ = model
-    vertices = vertices.copy()
-    vertices[:3] += 2 * np.ptp(cage.points)
-    binding = flbc.bind(vertices, faces, cage, mesh_vertices=2000, outside=outside)
-    assert binding.outside.tolist() == [0, 1, 2]
-    flbc.view(vertices, faces, binding.weights, cage)
-    flbc.export(tmp_path / "model.glb", vertices, faces, binding.weights, cage)
-    flbc.export(tmp_path / "model.usda", vertices, faces, binding.weights.toarray(), cage)
-    with pytest.raises(flbc.InputError, match="do not belong"):
-        flbc.view(vertices[::-1], faces, binding.weights, cage)
 
 
 def test_messages_name_options_of_python(square, flat):

@@ -27,7 +27,7 @@ def test_wheel(tmp_path):
     )
     wheel = next(tmp_path.glob("flbc-*.whl"))
     names = zipfile.ZipFile(wheel).namelist()
-    for file in ("__init__.py", "_solve.py", "_core.pyi", "py.typed"):
+    for file in ("__init__.py", "_solve.py", "_binding.py", "_core.pyi", "py.typed"):
         assert f"flbc/{file}" in names
     metadata = next(name for name in names if name.endswith("/METADATA"))
     license = re.search(r"^License: (.*)$", zipfile.ZipFile(wheel).read(metadata).decode(), re.M)[1]

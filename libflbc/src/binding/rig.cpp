@@ -346,9 +346,14 @@ void Rig<Dim>::set_options(const BindOptions& options) {
     changed = placed_;
     constrain(*changed, cage(), mesh(), points_, options);
   }
-  if (solver_) {
+  const bool is_local = !options.coordinates && options.phi.size() == 0;
+  if (solver_ && is_local) {
     const auto& masks = changed ? changed->masks : placed_.masks;
     solver_->set_options(solver_options(options, masks));
+  } else if (solver_) {
+    auto solution = solver_->solution();
+    solution.report.status = SolveStatus::kStopped;
+    set_solution(std::move(solution));
   }
   if (differ(options_, options)) {
     is_given_ = false;

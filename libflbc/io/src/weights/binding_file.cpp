@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <sstream>
 #include <utility>
 
 #include "flbc/errors.h"
@@ -117,14 +118,8 @@ Binding<Dim> read(const NpzReader& file, const nlohmann::json& info) {
   return binding;
 }
 
-}  // namespace
-
-bool is_binding_file(const std::string& path) {
-  return extension_of(path) == "npz";
-}
-
 template <int Dim>
-void write_binding(const std::string& path, const Binding<Dim>& binding) {
+void write(const std::string& path, std::ostream& out, const Binding<Dim>& binding) {
   check_finite(binding.weights);
   const auto& report = binding.report;
   nlohmann::ordered_json info{{"flbc", FLBC_VERSION},
@@ -137,40 +132,37 @@ void write_binding(const std::string& path, const Binding<Dim>& binding) {
                               {"iterations", report.solve.iterations},
                               {"mesher", report.mesher},
                               {"note", report.note}};
-  write_file(path, [&](std::ostream& out) {
-    NpzWriter file(path, out);
-    const auto& weights = binding.weights;
-    file.add_text("format", "csr");
-    const std::int64_t shape[] = {weights.num_points(), weights.num_control_points()};
-    file.add("shape", shape, {2});
-    add_weights(file, "", weights);
-    file.add_columns("cage", binding.cage.points);
-    file.add_columns("facets", binding.cage.facets);
-    file.add_columns("points", binding.points);
-    file.add_columns("offsets", binding.offsets);
-    const auto& ends = binding.edges.ends;
-    file.add("edges", ends.empty() ? nullptr : ends.front().data(),
-             {static_cast<std::int64_t>(ends.size()), 2});
-    file.add_list("edge_weights", binding.edges.weights);
-    add_masks(file, binding.masks);
-    file.add_list("outside", binding.outside);
-    if (binding.mirror) {
-      info["mirror_axis"] = binding.mirror->axis;
-      file.add_list("mirror_images", binding.mirror->images);
-      file.add_list("mirror_partners", binding.mirror->partners);
-    }
-    if (binding.domain.num_cells() > 0) {
-      file.add_columns("domain", binding.domain.points);
-      file.add_columns("cells", binding.domain.cells);
-      add_weights(file, "domain_", binding.domain_weights);
-    }
-    file.add_text("info", info.dump());
-    file.finish();
-  });
+  NpzWriter file(path, out);
+  const auto& weights = binding.weights;
+  file.add_text("format", "csr");
+  const std::int64_t shape[] = {weights.num_points(), weights.num_control_points()};
+  file.add("shape", shape, {2});
+  add_weights(file, "", weights);
+  file.add_columns("cage", binding.cage.points);
+  file.add_columns("facets", binding.cage.facets);
+  file.add_columns("points", binding.points);
+  file.add_columns("offsets", binding.offsets);
+  const auto& ends = binding.edges.ends;
+  file.add("edges", ends.empty() ? nullptr : ends.front().data(),
+           {static_cast<std::int64_t>(ends.size()), 2});
+  file.add_list("edge_weights", binding.edges.weights);
+  add_masks(file, binding.masks);
+  file.add_list("outside", binding.outside);
+  if (binding.mirror) {
+    info["mirror_axis"] = binding.mirror->axis;
+    file.add_list("mirror_images", binding.mirror->images);
+    file.add_list("mirror_partners", binding.mirror->partners);
+  }
+  if (binding.domain.num_cells() > 0) {
+    file.add_columns("domain", binding.domain.points);
+    file.add_columns("cells", binding.domain.cells);
+    add_weights(file, "domain_", binding.domain_weights);
+  }
+  file.add_text("info", info.dump());
+  file.finish();
 }
 
-AnyBinding read_binding(const std::string& path) {
-  const NpzReader file(path);
+AnyBinding read(const NpzReader& file) {
   if (!file.has("info")) {
     file.fail("has weights alone, not a binding; make one by flbc run, or by flbc solve --model");
   }
@@ -181,6 +173,32 @@ AnyBinding read_binding(const std::string& path) {
   } catch (const nlohmann::json::exception&) {
     file.fail("the array 'info' is damaged");
   }
+}
+
+}  // namespace
+
+bool is_binding_file(const std::string& path) {
+  return extension_of(path) == "npz";
+}
+
+template <int Dim>
+void write_binding(const std::string& path, const Binding<Dim>& binding) {
+  write_file(path, [&](std::ostream& out) { write(path, out, binding); });
+}
+
+template <int Dim>
+std::string encode_binding(const Binding<Dim>& binding) {
+  std::ostringstream out;
+  write("the binding", out, binding);
+  return out.str();
+}
+
+AnyBinding read_binding(const std::string& path) {
+  return read(NpzReader(path));
+}
+
+AnyBinding decode_binding(std::string content) {
+  return read(NpzReader("the binding", std::move(content)));
 }
 
 SparseWeights read_npz(const std::string& path, std::string) {
@@ -202,5 +220,7 @@ void write_npz(std::ostream& out, const SparseWeights& weights) {
 
 template void write_binding(const std::string&, const Binding<2>&);
 template void write_binding(const std::string&, const Binding<3>&);
+template std::string encode_binding(const Binding<2>&);
+template std::string encode_binding(const Binding<3>&);
 
 }  // namespace flbc::io

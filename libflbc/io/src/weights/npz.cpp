@@ -109,7 +109,11 @@ void NpzReader::fail(const std::string& message) const {
   throw InputError(path_ + ": " + message);
 }
 
-NpzReader::NpzReader(const std::string& path) : path_(path), content_(read_file(path)) {
+NpzReader::NpzReader(const std::string& path) : NpzReader(path, read_file(path)) {
+}
+
+NpzReader::NpzReader(std::string path, std::string content)
+    : path_(std::move(path)), content_(std::move(content)) {
   const auto number = [&](std::size_t position, int bytes) {
     if (position + static_cast<std::size_t>(bytes) > content_.size()) fail("the file is damaged");
     std::size_t value = 0;

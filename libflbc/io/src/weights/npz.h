@@ -73,6 +73,9 @@ class NpzReader {
   //! Reads a file. \throws IoError; InputError if it is damaged or compressed
   explicit NpzReader(const std::string& path);
 
+  //! \param path  for messages
+  NpzReader(std::string path, std::string content);
+
   bool has(const std::string& name) const { return arrays_.count(name) > 0; }
 
   //! The numbers of an array of this number of columns (0: a list) in C order, converted.

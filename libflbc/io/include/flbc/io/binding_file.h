@@ -26,6 +26,13 @@ void write_binding(const std::string& path, const Binding<Dim>& binding);
 //! Reads a binding that write_binding() has written. \throws IoError; InputError naming the array
 AnyBinding read_binding(const std::string& path);
 
+//! The content of such a file. \throws InputError if a weight is not finite
+template <int Dim>
+std::string encode_binding(const Binding<Dim>& binding);
+
+//! The inverse. \throws InputError naming the array
+AnyBinding decode_binding(std::string content);
+
 //! Whether a file may hold a binding, by its extension.
 bool is_binding_file(const std::string& path);
 

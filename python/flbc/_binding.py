@@ -1,0 +1,548 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bindings of models to cages, how they are made, and files and pages of them."""
+from __future__ import annotations
+
+import html
+import warnings
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple
+
+import numpy as np
+
+from . import _core
+from ._errors import InputError, OptionError
+from ._shapes import (
+    Cage,
+    DomainMesh,
+    as_array,
+    as_cage,
+    as_mesh,
+    as_points,
+    as_polygons,
+    check_scalars,
+    each_pose,
+    frozen,
+    mesh_from,
+    parts_of,
+)
+from ._solve import (
+    RigOptions,
+    Solution,
+    Solver,
+    as_masks,
+    checked,
+    warn_unless_converged,
+    with_options,
+)
+from ._weights import (
+    as_matrix,
+    as_poses,
+    as_weights,
+    cage_after,
+    corners_of,
+    from_core,
+    limit_of,
+)
+
+if TYPE_CHECKING:
+    import os
+
+    from numpy.typing import ArrayLike
+    from scipy.sparse import csr_matrix
+    from typing_extensions import Unpack
+
+    from ._shapes import CageLike, Faces, Floats, Ints, MeshLike
+    from ._solve import Callback
+    from ._weights import Weights
+
+
+class Page:
+    """A page in which the cage can be dragged; notebooks show it.
+
+    Attributes
+    ----------
+    html : str
+        The page, which needs no other file and no network.
+    """
+
+    __slots__ = ("html",)
+
+    def __init__(self, html: str) -> None:
+        self.html = html
+
+    def save(self, path: "str | os.PathLike[str]") -> None:
+        """Writes a file that ends in .npz, for `load_binding` and all commands of the program.
+        NumPy reads its arrays, and `scipy.sparse.load_npz` the weights."""
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self.html)
+
+    def _repr_html_(self) -> str:
+        return (
+            f'<iframe srcdoc="{html.escape(self.html)}" style="width:100%;height:600px;border:0">'
+            "</iframe>"
+        )
+
+
+class Binding:
+    """A model bound to a cage: weights with all that belongs to them.
+
+    What is made of a binding keeps what it promises: masked weights stay exactly 0, mirrored ones
+    bit-identical, rows sum to 1, and vertices outside the cage do what was chosen. `bind`, `Rig`,
+    and `load_binding` return bindings. The constructor makes one by weights from elsewhere: what
+    they do not reproduce becomes offsets, and vertices without weights stay where they are. A
+    binding does not change; it can be pickled.
+
+    Parameters
+    ----------
+    weights : array_like or sparse matrix, shape (P, n)
+    cage : Cage, or what `Cage` accepts
+    points : array_like, shape (P, d)
+        Vertices of the model at rest.
+    faces : array_like of int, optional
+        Influences are reduced without seams along their edges.
+    mask : optional
+        As for `bind`; these weights must be 0.
+
+    Attributes
+    ----------
+    weights : scipy.sparse.csr_matrix, shape (P, n), read-only
+    offsets : ndarray, shape (P, d), or None
+        What is added after deforming, for vertices outside the cage.
+    cage : Cage
+        At rest.
+    points : ndarray, shape (P, d)
+        Vertices of the model at rest.
+    outside : ndarray of int
+        Vertices outside the cage.
+    masks : list of tuple
+        Pairs of indices, ``(control_points, vertices)``, of weights that stay 0. They end at the
+        facets of these control points.
+    report : dict
+        Of the solve, with ``note``: what differs from the request. A file has a part of it.
+    solution : Solution or None
+        On the domain mesh, if there is one.
+
+    Raises
+    ------
+    InputError
+        If shapes do not match, or a masked weight is not 0.
+    """
+
+    __slots__ = (
+        "weights", "offsets", "cage", "points", "outside", "masks", "report", "solution", "_any"
+    )
+    weights: csr_matrix
+    offsets: Optional[Floats]
+    cage: Cage
+    points: Floats
+    outside: Ints
+    masks: List[Tuple[Ints, Ints]]
+    report: Dict[str, Any]
+    solution: Optional[Solution]
+    _any: _core.Binding
+
+    def __init__(
+        self,
+        weights: Weights,
+        cage: CageLike,
+        points: ArrayLike,
+        faces: Optional[Faces] = None,
+        mask: Any = None,
+    ) -> None:
+        cage = cage_after(weights, cage)
+        places = as_points(points, "points", cage.dim)
+        given = as_weights(weights, "weights", len(places), len(cage))
+        polygons = as_polygons(faces, "faces", len(places))
+        masks = [] if mask is None else as_masks(mask, len(places), cage)
+        core = _core.Binding(cage.points, cage.facets, places, given, polygons, masks)
+        self._take(core, core.arrays())
+
+    def _take(self, core: _core.Binding, arrays: Dict[str, Any]) -> Binding:
+        parts, domain, proof = (arrays.pop(k, None) for k in ("domain_weights", "domain", "proof"))
+        arrays["cage"], arrays["weights"] = Cage(*arrays["cage"]), from_core(arrays["weights"])
+        arrays["solution"] = domain and Solution(
+            parts, arrays["cage"], mesh_from(domain), arrays["report"], proof
+        )
+        for array in (arrays["weights"].data, arrays["points"], arrays["offsets"]):
+            if array is not None:
+                frozen(array)
+        for name, value in arrays.items():
+            object.__setattr__(self, name, value)
+        object.__setattr__(self, "_any", core)
+        return self
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError("a Binding does not change; its methods return others")
+
+    @property
+    def domain(self) -> Optional[DomainMesh]:
+        """DomainMesh or None: the mesh of the interior of the cage, if there is one."""
+        return self.solution.mesh if self.solution else None
+
+    def _pose(self, control_points: Any) -> Floats:
+        return as_points(control_points, "control_points", self.cage.dim, len(self.cage))
+
+    def deform(self, control_points: CageLike) -> Floats:
+        """The vertices of the model, shape (P, d), for moved control points: a Cage, or an array of
+        shape (n, d). For a stack of poses, shape (T, n, d), the result has shape (T, P, d)."""
+        return each_pose(
+            control_points, lambda pose: self._any.deform(self._pose(pose)), len(self.points)
+        )
+
+    def jacobians(self, control_points: CageLike) -> Floats:
+        """The Jacobians of a deformation at the vertices, shape (P, d, d), from smooth gradients on
+        the domain mesh, which the binding must have. Entry ``[p, k, j]`` is the derivative of
+        coordinate k in direction j. Vertices that do not move have the identity."""
+        d = self.cage.dim
+        pose = control_points.points if isinstance(control_points, Cage) else control_points
+        columns = self._any.jacobians(self._pose(pose)).reshape(-1, d, d)
+        return np.ascontiguousarray(columns.transpose(0, 2, 1))
+
+    def reduced(
+        self, k: Optional[int] = 8, *, threshold: float = 0, poses: Sequence[ArrayLike] = ()
+    ) -> Binding:
+        """At most k influences per vertex, with `k` and `threshold` as for `sparsify`. The error is
+        minimized for `poses`, arrays of shape (n, d), if given. Vertices outside with
+        ``outside="extend"`` keep all their weights."""
+        most, moved = limit_of(k, threshold), as_poses(poses, self.cage)
+        return _binding(self._any.reduced(most, threshold, moved))
+
+    def transferred(
+        self,
+        points: ArrayLike,
+        faces: Optional[Faces] = None,
+        *,
+        outside: str = "fail",
+        from_faces: Optional[Faces] = None,
+        limit: Optional[float] = None,
+    ) -> Binding:
+        """The binding of another model in the same cage, with all influences: of `points`, shape
+        (Q, d), and their `faces`. A weight is masked where it is masked all around.
+
+        Weights are evaluated on the domain mesh, with `outside` as for `bind`. With `from_faces`,
+        the faces of this model, they come from the nearest place on it instead, within `limit` in
+        units of the cage. Raises InputError for points that are outside or too far."""
+        check_scalars(outside=(outside, "a name"), limit=(limit, "a number"))
+        if limit is not None and from_faces is None:
+            raise OptionError("limit needs from_faces, the faces of this model")
+        to = as_points(points, "points", self.cage.dim)
+        polygons = as_polygons(faces, "faces", len(to))
+        corners = None if from_faces is None else corners_of(self.points, from_faces)
+        longest = np.inf if limit is None else limit
+        return _binding(self._any.transferred(to, polygons, outside, corners, longest))
+
+    def composed(self, map: Weights, cage: Any) -> Binding:
+        """The binding to m other control points, which move those of this binding.
+
+        `map`, shape (n, m), has the weights of the n control points: at least 0, with rows that
+        sum to 1 and reproduce these. `cage` is a Cage, or an array of shape (m, d). The result has
+        no domain mesh. Raises InputError if the binding is mirrored."""
+        points, facets = parts_of(cage)
+        if facets is None:
+            facets = np.zeros((0, self.cage.dim), np.int32)
+        outer = cage if isinstance(cage, Cage) else Cage(points, facets)
+        if outer.dim != self.cage.dim:
+            raise InputError(f"cage has points of shape {outer.points.shape}, but needs "
+                             f"(m, {self.cage.dim})")
+        shares = as_weights(as_matrix(map, "map"), "map", len(self.cage), len(outer))
+        return _binding(self._any.composed(shares, outer.points, outer.facets))
+
+    def export(
+        self,
+        path: "str | os.PathLike[str]",
+        faces: Faces,
+        *,
+        poses: Sequence[ArrayLike] = (),
+        times: Optional[Sequence[float]] = None,
+        max_influences: int = 8,
+        name: str = "model",
+    ) -> None:
+        """Writes a skin for engines: each control point is a joint that only translates.
+
+        Parameters
+        ----------
+        path : str or path
+            A file that ends in .glb or .usda.
+        faces : array_like of int
+        poses : sequence of array_like, shape (n, d)
+            An animation.
+        times : sequence of float, optional
+            Seconds of these poses, ascending. Default: 24 poses per second.
+        max_influences : int, default 8
+            Per vertex, 4 or 8.
+        name : str, default "model"
+            Of the mesh in the file.
+
+        Raises
+        ------
+        IoError
+            If the file cannot be written.
+        OptionError
+            For another extension or number of influences.
+        """
+        moved = as_poses(poses, self.cage)
+        seconds = [k / 24 for k in range(len(moved))] if times is None else list(times)
+        polygons = as_polygons(faces, "faces", len(self.points))
+        _core.export_skin(self._any, str(path), polygons, seconds, moved, max_influences, name)
+
+    def view(
+        self,
+        faces: Optional[Faces] = None,
+        *,
+        poses: Sequence[ArrayLike] = (),
+        title: str = "model",
+    ) -> Page:
+        """Makes a page in which you drag the cage and the model follows, with at most 16 influences
+        per vertex. Without `faces`, it shows points. The `poses` of the cage, arrays of shape
+        (n, d), can be chosen. A notebook shows the page; its ``save("model.html")`` writes a file
+        for any browser."""
+        polygons = as_polygons(faces, "faces", len(self.points))
+        return Page(_core.make_page(self._any, polygons, as_poses(poses, self.cage), title))
+
+    def save(self, path: "str | os.PathLike[str]") -> None:
+        """Writes the binding to a file for `load_binding` and all commands of the program.
+
+        Parameters
+        ----------
+        path : str or path
+            A file that ends in .npz, an archive of NumPy arrays; `scipy.sparse.load_npz` reads its
+            weights.
+
+        Raises
+        ------
+        IoError
+            If the file cannot be written.
+        """
+        if not str(path).endswith(".npz"):
+            raise OptionError(f"{path}: a binding is a file that ends in .npz")
+        self._any.save(str(path))
+
+    def __repr__(self) -> str:
+        points, controls = self.weights.shape
+        return f"<flbc.Binding: {points} points, {controls} control points>"
+
+    def __reduce__(self) -> Any:
+        proof = self.solution._proof if self.solution else None
+        return _restored, (self._any.content(), self.report, proof)
+
+
+def _binding(core: _core.Binding, **other: Any) -> Binding:
+    return Binding.__new__(Binding)._take(core, {**core.arrays(), **other})
+
+
+def _restored(content: bytes, report: Dict[str, Any], proof: Any) -> Binding:
+    return _binding(_core.binding_of(content), report=report, proof=proof)
+
+
+def load_binding(path: "str | os.PathLike[str]") -> Binding:
+    """Reads a binding from the `path` of a file, .npz, by `Binding.save` or the program.
+
+    Returns
+    -------
+    Binding
+    """
+    return _binding(_core.load_binding(str(path)))
+
+
+@with_options
+class Rig(Solver):
+    """A model in a cage whose rest shape, options, and model may change.
+
+    A new pose needs nothing, a new model no solve, and a new rest cage, tolerance, smoothness, or
+    mask a solve that resumes. One thread at a time may use a Rig. `bind` uses one once.
+
+    Parameters
+    ----------
+    cage : Cage, or what `Cage` accepts
+    vertices : array_like, shape (P, d)
+    faces : array_like of int, optional
+        Influences are reduced without seams along their edges.
+    mesh_vertices, domain
+        As for `bind`.
+    {model options}
+
+    Other Parameters
+    ----------------
+    {options}
+
+    Raises
+    ------
+    InputError
+        Naming the defect of cage or model.
+    OptionError
+        If an option is out of range.
+    """
+
+    _kind = RigOptions
+
+    def __init__(
+        self,
+        cage: CageLike,
+        vertices: ArrayLike,
+        faces: Optional[Faces] = None,
+        *,
+        mesh_vertices: Optional[int] = None,
+        domain: Optional[MeshLike] = None,
+        **options: Unpack[RigOptions],
+    ) -> None:
+        check_scalars(mesh_vertices=(mesh_vertices, "an integer"))
+        if options.get("method") == "bbw":
+            raise OptionError(
+                "method 'bbw': a binding needs weights that reproduce the model, which bounded "
+                "biharmonic weights do not; choose another method"
+            )
+        cage = as_cage(cage)
+        fill = None if domain is None else as_mesh(domain, cage)
+        model = self._model(cage, vertices, faces)
+        self._start(cage, fill, mesh_vertices, model, options)
+
+    @staticmethod
+    def _model(cage: Cage, vertices: Any, faces: Any) -> Tuple[Floats, Any]:
+        points = as_points(vertices, "vertices", cage.dim)
+        if len(points) == 0:
+            raise InputError("vertices has shape (0, d): the model has no vertices")
+        return points, as_polygons(faces, "faces", len(points))
+
+    def set_model(self, vertices: ArrayLike, faces: Optional[Faces] = None) -> None:
+        """Takes another model, which needs a solve only with masks. These stay, by the numbers of
+        vertices."""
+        model = self._model(self.cage, vertices, faces)
+        self._core.set_model(*model)
+        self._model_size = len(model[0])
+
+    def bind(self, k: Optional[int] = None, *, callback: Callback = None) -> Binding:
+        """The binding of the model with at most k influences per vertex, 0 for all, by default
+        `max_influences`. Solves first if there is no solution."""
+        return self._bound(k, callback, 3)
+
+    def _bound(self, k: Optional[int], callback: Callback, level: int) -> Binding:
+        binding = _binding(self._core.bind(k is None, callback))
+        if binding.report["note"]:
+            warnings.warn(binding.report["note"], stacklevel=level)
+        warn_unless_converged(binding.report, level + 1)
+        return binding.reduced(k) if k else binding
+
+    def binding(self) -> Binding:
+        """The binding of the model with all influences, of the present solution."""
+        return _binding(self._core.bind(False, None))
+
+
+@with_options
+def bind(
+    vertices: ArrayLike,
+    faces: Optional[Faces],
+    control_points: CageLike,
+    cage_faces: Any = None,
+    *,
+    mesh_vertices: Optional[int] = None,
+    domain: Optional[MeshLike] = None,
+    callback: Callback = None,
+    **options: Unpack[RigOptions],
+) -> Binding:
+    """Binds a model to a cage in one call: meshes, solves, evaluates, and reduces influences.
+
+    Parameters
+    ----------
+    vertices : array_like, shape (P, d)
+    faces : array_like of int, or None
+        Influences are reduced without seams along their edges.
+    control_points, cage_faces
+        The cage: arrays for `Cage`, or a Cage as `control_points` alone.
+    mesh_vertices : int, optional
+        Number of vertices of the domain mesh; default as for `mesh`. "meanvalue", "maxentropy",
+        "maxlikelihood", and "blended" are evaluated at the vertices of the model, and have a mesh
+        only with `mesh_vertices` or `domain`.
+    domain : DomainMesh, optional
+        A given mesh of the cage interior.
+    callback : callable, optional
+        As for `solve`.
+    {model options}
+
+    Other Parameters
+    ----------------
+    {options}
+
+    Returns
+    -------
+    Binding
+
+    Raises
+    ------
+    InputError
+        Naming the defect of cage or model.
+    OptionError
+        If an option is out of range.
+    """
+    checked(options, "bind", RigOptions)
+    cage = as_cage(control_points) if cage_faces is None else Cage(control_points, cage_faces)
+    rig = Rig(cage, vertices, faces, mesh_vertices=mesh_vertices, domain=domain, **options)
+    return rig._bound(None, callback, 3)
+
+
+def _given(vertices: Any, faces: Any, weights: Any, cage: CageLike) -> Binding:
+    """A binding of weights that reproduce the model."""
+    cage = as_cage(cage)
+    points = as_array(vertices, "vertices")
+    if cage.dim == 2 and points.ndim == 2 and not points[:, 2:].any():
+        points = points[:, :2]  # as files have them, with z = 0
+    found = Binding(weights, cage, as_points(points, "vertices", cage.dim), faces)
+    outside = _core.outside(cage.points, cage.facets, found.points)[0]
+    moves = np.diff(found.weights.indptr) > 0
+    wrong = np.setdiff1d(found.outside[moves[found.outside]], outside)
+    if len(wrong):
+        raise InputError(
+            f"weights do not belong to this model and cage: they do not reproduce vertex {wrong[0]}"
+        )
+    return found
+
+
+def view(
+    vertices: ArrayLike,
+    faces: Optional[Faces],
+    weights: Weights,
+    cage: CageLike,
+    *,
+    poses: Sequence[ArrayLike] = (),
+    title: str = "model",
+) -> Page:
+    """Makes a page by weights from elsewhere. `Binding.view` has the same `poses` and `title`.
+
+    Parameters
+    ----------
+    vertices : array_like, shape (P, d)
+    faces : array_like of int, or None to show points
+    weights : array_like or sparse matrix, shape (P, n)
+    cage : Cage, or what `Cage` accepts
+
+    Returns
+    -------
+    Page
+
+    Raises
+    ------
+    InputError
+        If the shapes of vertices, weights, cage, and poses do not match.
+    """
+    return _given(vertices, None, weights, cage).view(faces, poses=poses, title=title)
+
+
+def export(
+    path: "str | os.PathLike[str]",
+    vertices: ArrayLike,
+    faces: Faces,
+    weights: Weights,
+    cage: CageLike,
+    **options: Any,
+) -> None:
+    """Writes a skin by weights from elsewhere. `Binding.export` keeps masks and an exact mirror.
+
+    Parameters
+    ----------
+    path : str or path
+    vertices : array_like, shape (P, d)
+    faces : array_like of int
+    weights : array_like or sparse matrix, shape (P, n)
+    cage : Cage, or what `Cage` accepts
+    options
+        As for `Binding.export`.
+    """
+    _given(vertices, faces, weights, cage).export(path, faces, **options)

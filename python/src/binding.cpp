@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bindings: the methods of flbc::Binding for arrays, and their files.
+#include "flbc/binding.h"
+
+#include <optional>
+#include <string>
+
+#include "arrays.h"
+#include "flbc/io/binding_file.h"
+#include "options.h"
+
+namespace flbc::python {
+namespace {
+
+template <class Action>
+AnyBinding changed(const AnyBinding& binding, const Action& action) {
+  return binding.visit([&](const auto& known) {
+    constexpr int kDim = kDimOf<std::decay_t<decltype(known)>>;
+    return AnyBinding{action(known, std::integral_constant<int, kDim>())};
+  });
+}
+
+AnyBinding bound_by(const Doubles& cage_points, const Indices& facets, const Doubles& points,
+                    const py::object& weights, const Polygons& polygons, const MaskLists& masks) {
+  return by_dimension(cage_points, [&](auto dim) {
+    constexpr int kDim = decltype(dim)::value;
+    const auto all = points_of<kDim>(points);
+    return AnyBinding{flbc::bound_by<kDim>(cage_of<kDim>(cage_points, facets), all,
+                                           weights_of(weights), edges_of(all, polygons),
+                                           masks_of(masks))};
+  });
+}
+
+// The arrays of a binding, by name; those of its weights belong to it.
+py::dict arrays(const py::object& self) {
+  using namespace py::literals;
+  return self.cast<const AnyBinding&>().visit([&](const auto& binding) {
+    py::list masks;
+    for (const auto& mask : binding.masks) {
+      masks.append(py::make_tuple(as_array(mask.control_points), as_array(mask.points)));
+    }
+    py::dict dict("cage"_a = as_python(binding.cage), "weights"_a = view_of(binding.weights, self),
+                  "points"_a = as_array(binding.rest()), "offsets"_a = py::none(),
+                  "outside"_a = as_array(binding.outside), "masks"_a = masks,
+                  "report"_a = as_dict(binding.report), "domain"_a = py::none());
+    if (binding.offsets.cols() > 0) dict["offsets"] = view_of(binding.offsets, self);
+    if (binding.domain.num_cells() > 0) {
+      dict["domain"] =
+          py::make_tuple(view_of(binding.domain.points, self), view_of(binding.domain.cells, self));
+      dict["domain_weights"] = view_of(binding.domain_weights, self);
+      dict["proof"] = as_python(binding.report.solve.certificate.proof);
+    }
+    return dict;
+  });
+}
+
+py::array deform(const AnyBinding& self, const Doubles& control_points) {
+  return self.visit([&](const auto& binding) {
+    const auto pose = points_of<kDimOf<std::decay_t<decltype(binding)>>>(control_points);
+    return as_array(without_gil([&] { return binding.deform(pose); }));
+  });
+}
+
+// The Jacobian of each point, column by column.
+py::array jacobians(const AnyBinding& self, const Doubles& control_points) {
+  return self.visit([&](const auto& binding) {
+    const auto pose = points_of<kDimOf<std::decay_t<decltype(binding)>>>(control_points);
+    return as_array(without_gil([&] { return binding.jacobians(pose); }));
+  });
+}
+
+AnyBinding reduced(const AnyBinding& self, Index most, double threshold,
+                   const std::vector<Doubles>& poses) {
+  SparsifyOptions limits;
+  limits.max_influences = most;
+  limits.threshold = threshold;
+  limits.progress = [poll = interruption()](double) { poll(); };
+  return changed(self, [&](const auto& binding, auto dim) {
+    const auto moved = poses_of<decltype(dim)::value>(poses);
+    return without_gil([&] { return binding.reduced(limits, moved); });
+  });
+}
+
+// \param corners  of the elements of this model; none: by the domain mesh
+AnyBinding transferred(const AnyBinding& self, const Doubles& points, const Polygons& polygons,
+                       const std::string& outside, const std::optional<Indices>& corners,
+                       double limit) {
+  const auto policy = named<OutsidePoints>("outside", outside);
+  return changed(self, [&](const auto& binding, auto dim) {
+    const auto to = points_of<decltype(dim)::value>(points);
+    const auto edges = edges_of(to, polygons);
+    FacetList<3> elements;
+    if (corners) elements = FacetList<3>::Map(corners->data(), 3, corners->shape(0));
+    return without_gil([&] {
+      return corners ? binding.transferred(elements, to, edges, limit)
+                     : binding.transferred(to, edges, policy);
+    });
+  });
+}
+
+AnyBinding composed(const AnyBinding& self, const py::object& map, const Doubles& points,
+                    const Indices& facets) {
+  const auto shares = weights_of(map);
+  return changed(self, [&](const auto& binding, auto dim) {
+    auto outer = cage_of<decltype(dim)::value>(points, facets);
+    return without_gil([&] { return binding.composed(shares, std::move(outer)); });
+  });
+}
+
+void save(const AnyBinding& self, const std::string& path) {
+  without_gil([&] { self.visit([&](const auto& binding) { io::write_binding(path, binding); }); });
+}
+
+AnyBinding load(const std::string& path) {
+  return {without_gil([&] { return io::read_binding(path); })};
+}
+
+py::bytes content(const AnyBinding& self) {
+  return without_gil(
+      [&] { return self.visit([](const auto& binding) { return io::encode_binding(binding); }); });
+}
+
+AnyBinding from_content(const std::string& content) {
+  return {without_gil([&] { return io::decode_binding(content); })};
+}
+
+}  // namespace
+
+void bind_bindings(py::module_& module) {
+  py::class_<AnyBinding>(module, "Binding")
+      .def(py::init(&bound_by))
+      .def("arrays", &arrays)
+      .def("deform", &deform)
+      .def("jacobians", &jacobians)
+      .def("reduced", &reduced)
+      .def("transferred", &transferred)
+      .def("composed", &composed)
+      .def("save", &save)
+      .def("content", &content);
+  module.def("load_binding", &load);
+  module.def("binding_of", &from_content);
+}
+
+}  // namespace flbc::python

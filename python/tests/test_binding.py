@@ -1,0 +1,524 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a binding promises holds after everything that is made of it, in 2D and 3D."""
+import copy
+import json
+import pickle
+import struct
+from types import SimpleNamespace
+
+import flbc
+import numpy as np
+import pytest
+import scipy.sparse
+from scipy.spatial import Delaunay
+
+# ---- a model that has it all: masks, an exact mirror, vertices outside that stay -----------------
+
+
+def box(dim):
+    """A box of two halves, symmetric across x = 1."""
+    if dim == 2:
+        return flbc.Cage([[0, 0], [1, 0], [2, 0], [2, 1], [1, 1], [0, 1]])
+    points = np.array([[x, y, z] for x in (0, 1, 2) for y in (0, 1) for z in (0, 1)], float)
+    ring = [0, 1, 3, 2]
+    sides = [[4 * s + ring[k], 4 * s + ring[k - 1], 4 * s + 4 + ring[k - 1], 4 * s + 4 + ring[k]]
+             for s in (0, 1) for k in range(4)]
+    return flbc.Cage(points, [ring, *sides, [8, 10, 11, 9]])
+
+
+def image(points):
+    return points * ([-1] + [1] * (points.shape[-1] - 1)) + ([2] + [0] * (points.shape[-1] - 1))
+
+
+def images_of(cage):
+    return [int(np.flatnonzero((image(point) == cage.points).all(1))[0]) for point in cage.points]
+
+
+def half(dim, seed, count):
+    """Points of the left half on a grid of binary fractions, so that images are exact."""
+    points = np.random.default_rng(seed).integers(4, 60, (2 * count, dim)) / 64
+    return np.unique(points, axis=0)[:count]
+
+
+def mirrored(left, dim):
+    """These points, one outside, and their images."""
+    left = np.concatenate([left, [[-0.25] + [0.5] * (dim - 1)]])
+    return np.concatenate([left, image(left)])
+
+
+def faces_of(points):
+    cells = Delaunay(points).simplices
+    return cells if points.shape[1] == 2 else np.concatenate([cells[:, :3], cells[:, 1:]])
+
+
+def mask_of(cage, points):
+    """The right end must not move the left part."""
+    return (points[:, :1] < 0.6) & (cage.points[:, 0] == 2)
+
+
+class Case:
+    def __init__(self, dim):
+        self.dim, self.cage = dim, box(dim)
+        self.points = mirrored(half(dim, 1, 60), dim)
+        self.faces = faces_of(self.points)
+        self.options = {"mesh_vertices": 400 if dim == 2 else 900, "outside": "keep",
+                        "symmetric": "x", "mask": mask_of(self.cage, self.points)}
+        self.rig = flbc.Rig(self.cage, self.points, self.faces, max_influences=0, **self.options)
+        self.full = self.rig.bind()
+        few = self.full.reduced(4).weights
+        self.given = flbc.Binding(few, self.cage, self.points, self.faces,
+                                  mask_of(self.cage, self.points))
+
+
+@pytest.fixture(scope="module", params=[2, 3], ids=["2D", "3D"])
+def case(request):
+    return Case(request.param)
+
+
+# ---- operations: what is made of a binding -------------------------------------------------------
+
+
+def skin_in(path):
+    """Positions and weights of a .glb, a column per control point."""
+    data = path.read_bytes()
+    size = struct.unpack("<I", data[12:16])[0]
+    content, numbers = json.loads(data[20 : 20 + size]), data[28 + size :]
+    shapes = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
+    types = {5121: np.uint8, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
+
+    def array(index):
+        accessor = content["accessors"][index]
+        place = content["bufferViews"][accessor["bufferView"]]
+        start = place.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+        kind, width = types[accessor["componentType"]], shapes[accessor["type"]]
+        stride = place.get("byteStride", width * np.dtype(kind).itemsize)
+        rows = [np.frombuffer(numbers, kind, width, start + k * stride)
+                for k in range(accessor["count"])]
+        return np.array(rows)
+
+    attributes = content["meshes"][0]["primitives"][0]["attributes"]
+    names = [content["nodes"][joint]["name"] for joint in content["skins"][0]["joints"]]
+    controls = [name for name in names if name.startswith("control_point_")]
+    column = {k: int(name.rsplit("_", 1)[1]) for k, name in enumerate(names) if name in controls}
+    positions = array(attributes["POSITION"])
+    weights = np.zeros((len(positions), len(controls)))
+    for part in "01":
+        if f"JOINTS_{part}" not in attributes:
+            continue
+        pairs = zip(array(attributes[f"JOINTS_{part}"]), array(attributes[f"WEIGHTS_{part}"]))
+        for v, (joints, values) in enumerate(pairs):
+            for joint, value in zip(joints, values):
+                if value > 0 and joint in column:
+                    weights[v, column[joint]] += value
+    return positions, weights
+
+
+def state(binding, most=None, near=1e-10, region=True):
+    """What a promise needs: points, their weights, and which of the left ones have masks."""
+    weights = binding.weights.toarray()
+    if most:
+        moving = binding.weights[binding.weights.getnnz(axis=1) > 0]
+        assert moving.getnnz(axis=1).max() <= most
+    return SimpleNamespace(binding=binding, cage=binding.cage, points=binding.points,
+                           weights=weights, near=near,
+                           region=region & (binding.points[:, 0] < 0.6))
+
+
+def export(binding, case, folder, most):
+    binding.export(folder / "model.glb", case.faces, max_influences=most)
+    positions, weights = skin_in(folder / "model.glb")
+    assert np.array_equal(positions[:, : case.dim], binding.points.astype(np.float32))
+    assert (weights > 0).sum(axis=1).max() <= most
+    return SimpleNamespace(binding=None, cage=binding.cage, points=binding.points, weights=weights,
+                           near=1e-6, region=binding.points[:, 0] < 0.6)
+
+
+def transferred(binding, case, nearest):
+    if not nearest:
+        # The mesh is masked around the vertices of the model, which are among the others.
+        left = np.concatenate([half(case.dim, 2, 40), half(case.dim, 1, 60)[::2]])
+        to = mirrored(np.unique(left, axis=0), case.dim)
+        known = (to[:, None] == case.points).all(axis=2).any(axis=1)
+        return state(binding.transferred(to, faces_of(to), outside="keep"), region=known)
+    # The vertices outside are given as they are, because they are no part of the model inside.
+    inside = np.delete(np.arange(len(case.points)), binding.outside)
+    same = binding.transferred(case.points[inside], from_faces=case.faces)
+    return state(same, near=1e-9)
+
+
+def saved(binding, folder):
+    binding.save(folder / "binding.npz")
+    weights = scipy.sparse.load_npz(folder / "binding.npz")
+    found = flbc.load_binding(folder / "binding.npz")
+    assert abs(weights - binding.weights).nnz == 0 == abs(found.weights - binding.weights).nnz
+    return state(found)
+
+
+def reshaped(case):
+    rig = flbc.Rig(case.cage, case.points, case.faces, **case.options)
+    rig.solve()
+    stretch = [1] + [1.125] * (case.dim - 1)
+    assert rig.reshape(case.cage.points * stretch).converged
+    assert np.array_equal(rig.cage.points, case.cage.points * stretch)
+    return state(rig.bind(8), 8)
+
+
+OPERATIONS = {
+    "bind": lambda b, case, folder: state(b),
+    "reduced(8)": lambda b, case, folder: state(b.reduced(8), 8),
+    "reduced(4)": lambda b, case, folder: state(b.reduced(4), 4),
+    "reduced twice": lambda b, case, folder: state(b.reduced(8).reduced(4), 4),
+    "export 8": lambda b, case, folder: export(b, case, folder, 8),
+    "export 4": lambda b, case, folder: export(b, case, folder, 4),
+    "transferred": lambda b, case, folder: transferred(b, case, False),
+    "transferred, nearest": lambda b, case, folder: transferred(b, case, True),
+    "save": lambda b, case, folder: saved(b, folder),
+    "save, reduced(4)": lambda b, case, folder: state(saved(b, folder).binding.reduced(4), 4),
+    "pickle": lambda b, case, folder: state(pickle.loads(pickle.dumps(b))),
+    "copy, reduced(4)": lambda b, case, folder: state(copy.deepcopy(b).reduced(4), 4),
+    "reshape": lambda b, case, folder: reshaped(case),
+}
+
+# ---- promises ------------------------------------------------------------------------------------
+
+
+def moved_ends(cage, right_only=False):
+    """A pose that moves the right end, or both ends apart."""
+    x = cage.points[:, :1]
+    return cage.points + 0.5 * ((x == 2) + 0.0 if right_only else x - 1)
+
+
+def zeros(found, case):
+    """Masked weights are exactly 0, and masked vertices do not move at all."""
+    region = found.region
+    assert region.sum() > 5
+    right = found.cage.points[:, 0] == 2
+    assert (found.weights[np.ix_(region, right)] == 0).all()
+    if found.binding:
+        still = found.binding.deform(moved_ends(found.cage, right_only=True))
+        assert np.array_equal(still[region], found.binding.deform(found.cage)[region])
+        for control_points, vertices in found.binding.masks:
+            assert (found.weights[np.ix_(vertices, control_points)] == 0).all()
+        assert found.binding.masks
+
+
+def mirror(found, case):
+    """Weights of mirrored vertices are bit-identical."""
+    count = len(found.points) // 2
+    swapped = found.weights[count:][:, images_of(found.cage)]
+    assert np.array_equal(found.weights[:count], swapped)
+
+
+def sums(found, case):
+    """Weights are not negative, sum to 1, and reproduce the vertices that they move."""
+    moves = found.weights.any(axis=1)
+    assert found.weights.min() >= 0 and moves.sum() >= len(found.points) - 2
+    assert abs(found.weights[moves].sum(axis=1) - 1).max() < found.near
+    places = found.weights[moves] @ found.cage.points
+    assert abs(places - found.points[moves]).max() < 10 * found.near
+    if found.binding:
+        assert abs(found.binding.deform(found.cage) - found.points).max() < 10 * found.near
+
+
+def kept(found, case):
+    """Vertices outside have no weights and never move."""
+    outside = (found.points[:, 0] < 0) | (found.points[:, 0] > 2)
+    assert outside.sum() == 2 and not found.weights[outside].any()
+    if found.binding:
+        assert np.array_equal(found.binding.outside, np.flatnonzero(outside))
+        pose = moved_ends(found.cage)
+        assert np.array_equal(found.binding.deform(pose)[outside], found.points[outside])
+
+
+def jacobians(found, case):
+    """The identity for vertices that do not move, and the matrix of an affine pose for others."""
+    matrix = np.arange(1.0, case.dim**2 + 1).reshape(case.dim, case.dim)
+    jacobians = found.binding.jacobians(found.cage.points @ matrix.T)
+    outside = np.isin(np.arange(len(found.points)), found.binding.outside)
+    assert (jacobians[outside] == np.eye(case.dim)).all()
+    assert abs(jacobians[~outside] - matrix).max() < 1e-8
+
+
+PROMISES = [zeros, mirror, sums, kept, jacobians]
+# Cells without a meaning: a skin has no Jacobians; nothing is outside.
+EMPTY = {("jacobians", "export 8"), ("jacobians", "export 4"), ("kept", "transferred, nearest")}
+
+
+@pytest.fixture(scope="module")
+def made(case, tmp_path_factory):
+    """The results of operations, each made once."""
+    known = {}
+
+    def make(name):
+        if name not in known:
+            folder = tmp_path_factory.mktemp("made")
+            known[name] = OPERATIONS[name](case.full, case, folder)
+        return known[name]
+
+    return make
+
+
+@pytest.mark.parametrize("operation", OPERATIONS)
+@pytest.mark.parametrize("promise", PROMISES, ids=lambda promise: promise.__name__)
+def test_promises(promise, operation, case, made):
+    if (promise.__name__, operation) in EMPTY:
+        pytest.skip("has no meaning")
+    promise(made(operation), case)
+
+
+GIVEN = [name for name in OPERATIONS if name != "reshape"]
+
+
+@pytest.mark.parametrize("operation", GIVEN)
+def test_given_weights_stay(operation, case, tmp_path):
+    if operation == "transferred":
+        with pytest.raises(flbc.InputError, match="no domain mesh"):
+            OPERATIONS[operation](case.given, case, tmp_path)
+        return
+    found = OPERATIONS[operation](case.given, case, tmp_path)
+    expected = case.given.weights.toarray()
+    if len(found.weights) < len(expected):
+        expected = np.delete(expected, case.given.outside, axis=0)
+    near = {"transferred, nearest": 1e-9}.get(operation, found.near if found.binding is None else 0)
+    assert abs(found.weights - expected).max() <= near
+    zeros(found, case)
+    if operation != "transferred, nearest":
+        kept(found, case)
+
+
+@pytest.mark.parametrize("outside", ["nearest", "extend"])
+def test_vertices_outside_follow(outside, case, tmp_path):
+    """Nearest places at an offset, which translations move; affine extensions, which all maps do."""
+    full = flbc.bind(case.points, case.faces, case.cage, domain=case.full.domain, outside=outside,
+                     max_influences=0)
+    matrix = np.eye(case.dim)
+    if outside == "extend":
+        matrix = matrix + np.arange(case.dim**2).reshape(case.dim, -1) / 8
+    for found, most in [(full, 99), (full.reduced(4), 4), (saved(full, tmp_path).binding, 99),
+                        (pickle.loads(pickle.dumps(full)), 99)]:
+        assert np.array_equal(found.outside, case.full.outside)
+        moved = found.deform(found.cage.points @ matrix + 3)
+        assert abs(moved - (case.points @ matrix + 3)).max() < 1e-9
+        inside = np.delete(found.weights.toarray(), found.outside, axis=0)
+        assert inside.min() >= 0 and (inside > 0).sum(axis=1).max() <= most
+        assert (found.weights[found.outside].min() < 0) == (outside == "extend")
+    full.view(case.faces)
+    if outside == "nearest":
+        export(full, case, tmp_path, 8)
+        for function in (flbc.view, lambda *a: flbc.export(tmp_path / "m.usda", *a)):
+            function(case.points, case.faces, full.weights.toarray(), case.cage)
+            with pytest.raises(flbc.InputError, match="do not belong"):
+                function(case.points[::-1], case.faces, full.weights, case.cage)
+
+
+def test_bindings_of_other_control_points(case):
+    plain = flbc.bind(case.points, case.faces, case.cage, mesh_vertices=case.options["mesh_vertices"],
+                      outside="keep", mask=case.options["mask"])
+    # The middle control points follow the ends: the outer cage has the ends only.
+    ends = case.cage.points[:, 0] != 1
+    shares = flbc.mean_value((outer := end_cage(case)), case.cage.points)
+    with pytest.raises(flbc.InputError, match="mirrored"):
+        case.full.composed(shares, outer)
+    found = plain.composed(shares, outer)
+    assert found.domain is None and len(found.cage) == ends.sum()
+    expected = plain.weights @ shares
+    assert abs(found.weights.toarray() - expected).max() < 1e-12
+    rest = found.deform(outer)
+    assert abs(rest - case.points).max() < 1e-10 and np.array_equal(found.outside, plain.outside)
+    # Only the right end follows control points that are all masked.
+    mapped = {tuple(outer.points[i]) for cs, _ in found.masks for i in cs}
+    assert all(point[0] == 2 for point in mapped)
+    for control_points, vertices in found.masks:
+        assert abs(found.weights[vertices][:, control_points]).nnz == 0
+    alone = plain.composed(shares, outer.points)
+    assert abs(alone.weights - found.weights).nnz == 0 and len(alone.cage.facets) == 0
+
+
+def end_cage(case):
+    if case.dim == 2:
+        return flbc.Cage([[0, 0], [2, 0], [2, 1], [0, 1]])
+    points = case.cage.points[case.cage.points[:, 0] != 1]
+    ring = [0, 1, 3, 2]
+    sides = [[ring[k], ring[k - 1], 4 + ring[k - 1], 4 + ring[k]] for k in range(4)]
+    return flbc.Cage(points, [ring, *sides, [4, 6, 7, 5]])
+
+
+# ---- the object ----------------------------------------------------------------------------------
+
+
+def test_attributes(case):
+    full = case.full
+    assert isinstance(full.weights, scipy.sparse.csr_matrix) and isinstance(full.cage, flbc.Cage)
+    assert isinstance(full.domain, flbc.DomainMesh) and full.report["converged"]
+    assert full.report["options"] and case.given.solution is None and case.given.domain is None
+    solution = full.solution
+    assert np.array_equal(solution.mesh.points, full.domain.points)
+    assert abs(flbc.deform(solution.weights, full.cage.points) - full.domain.points).max() < 1e-10
+    again = pickle.loads(pickle.dumps(full))
+    assert again.report == full.report and np.array_equal(again.solution.weights, solution.weights)
+    with pytest.raises(AttributeError, match="does not change"):
+        full.weights = full.weights * 2
+    with pytest.raises(ValueError, match="read-only"):
+        full.weights.data[0] = 2
+
+
+def test_stacks_of_poses(case):
+    rest, count = case.cage.points, len(case.points)
+    for binding in (case.full, case.given):
+        stack = binding.deform([rest, moved_ends(case.cage)])
+        assert stack.shape == (2, count, case.dim)
+        assert np.array_equal(stack[0], binding.deform(case.cage))
+        assert binding.deform(rest[None][:0]).shape == (0, count, case.dim)
+    assert flbc.deform(case.full.weights, rest[None][:0]).shape == (0, count, case.dim)
+    with pytest.raises(flbc.InputError, match=rf"control_points.*, {case.dim}\)"):
+        case.full.deform(rest[1:])
+
+
+def test_functions_of_weights_refuse_bindings(case):
+    for action in (
+        lambda b: flbc.sparsify(b, case.cage, case.points),
+        lambda b: flbc.deform(b, case.cage),
+        lambda b: flbc.transfer(b, case.cage, case.points, case.faces, case.points),
+        lambda b: flbc.export("x.glb", case.points, case.faces, b, case.cage),
+        lambda b: flbc.write_weights("x.mtx", b),
+    ):
+        with pytest.raises(flbc.InputError, match="weights is a Binding; use its methods"):
+            action(case.full)
+
+
+def test_given_weights_must_obey_their_mask(case):
+    mask = np.ones((len(case.points), len(case.cage)), bool)
+    with pytest.raises(flbc.InputError, match="although it is masked"):
+        flbc.Binding(case.given.weights, case.cage, case.points, mask=mask)
+
+
+# ---- masks ---------------------------------------------------------------------------------------
+
+
+def test_masks_of_every_form_are_equal(case):
+    mask = case.options["mask"]
+    region, acting = np.flatnonzero(mask.any(1)), np.flatnonzero(mask.any(0))
+    forms = [mask, scipy.sparse.coo_matrix(mask), scipy.sparse.csr_array(mask), mask.tolist(),
+             [(acting, region)], [([i], region.tolist()) for i in acting], case.rig.options["mask"]]
+    options = {**case.options, "mesh_vertices": None, "domain": case.full.domain,
+               "method": "weights", "max_iterations": 20000}
+    found = [flbc.bind(case.points, None, case.cage, **{**options, "mask": m}) for m in forms]
+    for other in found[1:]:
+        assert abs(other.weights - found[0].weights).nnz == 0
+    for wrong, words in [
+        (mask[1:], "mask has shape"),
+        (mask + 0.0, "float64, but needs"),
+        (scipy.sparse.csr_matrix(mask)[1:], "mask has shape"),
+        ([[True], [True, False]], "mask is no array; its rows may differ"),
+        ([([0], [len(case.points)])], r"mask\[0\]\[1\].* refers to vertex"),
+        ([([99], [0])], r"mask\[0\]\[0\].* refers to vertex 99"),
+        ([([0.5], [0])], "integers"),
+    ]:
+        with pytest.raises(flbc.InputError, match=words):
+            flbc.bind(case.points, None, case.cage, **{**options, "mask": wrong})
+
+
+def test_conflicts_have_data_and_can_be_relaxed(case):
+    # Nothing may move the left part.
+    region = np.flatnonzero((case.points[:, 0] < 0.4) & (case.points[:, 0] > 0))
+    mask = [(np.arange(len(case.cage)), region)]
+    options = {"mesh_vertices": 300 if case.dim == 2 else 0}
+    inside = (case.points[:, 0] > 0) & (case.points[:, 0] < 2)
+    assert inside[region].all()
+    points = case.points[inside]
+    mask = [(mask[0][0], np.flatnonzero(points[:, 0] < 0.4))]
+    with pytest.raises(flbc.MaskConflict) as caught:
+        flbc.bind(points, None, case.cage, mask=mask, **options)
+    error = pickle.loads(pickle.dumps(caught.value))
+    assert isinstance(error, flbc.InputError) and error.points == mask[0][1].tolist()
+    freed = error.control_points
+    assert 0 < len(freed) < len(case.cage) and str(error) == str(caught.value)
+    with pytest.warns(UserWarning, match="masks were removed from control points"):
+        found = flbc.bind(points, None, case.cage, mask=mask, conflicts="relax", **options)
+    assert f"control points {', '.join(map(str, freed))}" in found.report["note"]
+    others = np.setdiff1d(mask[0][0], freed)
+    assert abs(found.weights[mask[0][1]][:, others]).nnz == 0
+    assert abs(found.deform(case.cage) - points).max() < 1e-10
+    with pytest.raises(flbc.OptionError, match="conflicts must be one of fail, relax, not 'drop'"):
+        flbc.bind(points, None, case.cage, mask=mask, conflicts="drop")
+
+
+def test_mirrors_that_are_none_are_refused():
+    points = [[0.3, 0.4], [1.7, 0.4]]
+    with pytest.raises(flbc.OptionError, match="symmetric must be one of x, y, not 'z'"):
+        flbc.bind(points, None, box(2), symmetric="z")
+    with pytest.raises(flbc.InputError, match="has no mirror image"):
+        flbc.bind(points, None, flbc.Cage([[0, 0], [3, 0], [2, 1], [0, 1]]), symmetric="x")
+
+
+def test_arrays_with_masked_entries_are_refused(case):
+    points = np.ma.masked_less(case.cage.points, 0.5)
+    for action in (lambda: flbc.Cage(points), lambda: case.full.deform(points),
+                   lambda: flbc.bind(points, None, case.cage)):
+        with pytest.raises(flbc.InputError, match="masked entries"):
+            action()
+    whole = np.ma.array(case.cage.points)
+    assert np.array_equal(case.full.deform(whole), case.full.deform(case.cage))
+
+
+# ---- Rig -----------------------------------------------------------------------------------------
+
+CHANGES = {
+    "mask": lambda case: {"mask": case.options["mask"]},
+    "tolerance": lambda case: {"tolerance": 1e-8},
+    "smoothness": lambda case: {"smoothness": 0.01},
+    "reach": lambda case: {"reach": np.where(case.cage.points[:, 0] == 1, 2, 1)},
+    "method": lambda case: {"method": "harmonic", "tolerance": None},
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_a_rig_that_resumes_equals_a_new_one(change, case):
+    common = {"domain": case.full.domain, "outside": "keep", "tolerance": 1e-8}
+    changed = {**common, **CHANGES[change](case)}
+    rig = flbc.Rig(case.cage, case.points, case.faces, **common)
+    assert rig.solution is None and rig.solve().converged
+    rig.set_options(**CHANGES[change](case))
+    rig.solve()
+    cold = flbc.Rig(case.cage, case.points, case.faces, **changed)
+    assert abs(rig.binding().weights - cold.bind(0).weights).max() < 2e-3
+    assert set(CHANGES[change](case)) <= set(rig.options)
+
+
+def test_rigs_take_other_models_and_limits(case):
+    rig = flbc.Rig(case.cage, case.points, case.faces, domain=case.full.domain, outside="keep")
+    seen = []
+    rig.solve(callback=lambda p: seen.append(p.iteration))
+    bound = flbc.bind(case.points, case.faces, case.cage, domain=case.full.domain, outside="keep")
+    assert seen and abs(rig.bind().weights - bound.weights).nnz == 0
+    few = rig.bind(4)
+    assert few.weights.getnnz(axis=1).max() <= 4
+    other = half(case.dim, 3, 20)
+    rig.set_model(other)
+    assert abs(rig.binding().weights - rig.solution.at(other)).max() == 0
+    assert np.array_equal(rig.binding().points, other)
+    with pytest.raises(flbc.InputError, match="outside"):
+        rig.set_options(outside="fail")
+        rig.set_model(case.points)
+    with pytest.raises(flbc.Error, match="in use"):
+        rig.set_options(tolerance=1e-9)
+        rig.solve(callback=lambda p: rig.solution)
+    with pytest.warns(flbc.NotConverged, match="3 iterations") as caught:
+        flbc.bind(other, None, case.cage, domain=case.full.domain, max_iterations=3)
+    assert caught[0].filename == __file__
+    with pytest.raises(TypeError, match="flbc.Rig"):
+        pickle.dumps(rig)
+    with pytest.raises(TypeError, match="Rig.. has no option 'accuracy'"):
+        rig.set_options(accuracy=1)
+
+
+def test_pointwise_coordinates_are_exact_at_the_vertices(case):
+    """They are not interpolated in a mesh, with or without one."""
+    points = half(case.dim, 4, 30)
+    exact = flbc.mean_value(case.cage, points)
+    for mesh in ({}, {"domain": case.full.domain}):
+        found = flbc.bind(points, None, case.cage, method="meanvalue", max_influences=0, **mesh)
+        assert abs(found.weights - exact).max() < 1e-14
+        assert found.report["method"] == "meanvalue" and bool(found.domain) == bool(mesh)
+    other = found.transferred(points[::2])
+    assert abs(other.weights - exact[::2]).max() < 1e-14
