@@ -138,6 +138,23 @@ globe >globe.obj
 "$flbc" solve cube.obj --method harmonic --vertices 1000 -q -o globe.npy --model globe.obj
 check_model globe globe.obj cube.obj cube_pose.obj 8 --texture
 
+# ---- 3D: z points up. The model turns about the origin, which may be far away: feet stay on y = 0 --
+upright() { awk '$1 == "v" { y = $3; $3 = $4; $4 = -y } { print }' "$1"; }
+for x in 5 500; do
+  for part in globe cube cube_pose; do
+    awk -v x=$x '$1 == "v" { $2 += x; $4 += 1 } { print }' $part.obj >"standing_$part.obj"
+  done
+  cp globe.npy standing.npy
+  prepare standing standing_globe.obj standing_cube.obj standing_cube_pose.obj 4
+  upright standing_globe.obj >upright.obj
+  upright standing.4.posed.obj >upright_pose.obj
+  export_skin standing standing_globe.obj standing_cube.obj standing.glb -k 4 --up z
+  check standing.glb --model upright.obj --texture
+  export_skin standing standing_globe.obj standing_cube.obj standing.glb -k 4 --up z --fps 2 \
+    --pose standing_cube.obj standing_cube_pose.obj
+  check standing.glb --model upright.obj --pose 0 upright.obj --pose 0.5 upright_pose.obj --texture
+done
+
 # ---- 3D: two materials and a picture -------------------------------------------------------------
 base64 -d >dot.png <<<"iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC"
 printf 'newmtl green\nKd 0 1 0\nd 0.5\nnewmtl dot\nmap_Kd dot.png\n' >look.mtl

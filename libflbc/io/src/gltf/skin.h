@@ -28,7 +28,8 @@ struct SkinOptions {
   SkinFormat format = SkinFormat::kGlb;
   EdgeList edges{};           //!< between the points, for the reduction; empty = each point alone
   std::vector<Mask> masks{};  //!< of the points, for the reduction
-  //! Rotation from the model to y up, for readers. The root has it; coordinates stay as they are.
+  //! Rotation about the origin from the model to y up, for readers. The root has it; coordinates
+  //! stay as they are.
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   FacetList<2> cage_edges{};  //!< 2 x E, between control points, in .glb; no column = not written
 };
