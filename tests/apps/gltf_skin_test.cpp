@@ -374,12 +374,18 @@ TEST_IN_2D_AND_3D(GltfSkinTest, SinglePrecisionIsMeasured) {
   EXPECT_LT(skin.position_change, 1e-6);
   const GlbFile file(skin.content);
   // Seen from there: far away the sums of the weights, which are floats, would count.
-  const Vector<Dim> root = file.root().head<Dim>();
+  const Vector<Dim> root = file.root().translation().head<Dim>();
   const PointList<Dim> near_cage = cage.colwise() - root;
   const PointList<Dim> near_points = example.sample.mesh.points.colwise() - root;
   EXPECT_LT(distance<Dim>(file, in_space<Dim>(near_cage), near_points), 1e-6);
   EXPECT_LT((file.joints() - in_space<Dim>(cage)).norm(), 1e-5);
   EXPECT_LT((file.joints(0) - in_space<Dim>(pose)).norm(), 1e-5);
+  // A turned model turns about the origin, however far that is.
+  gltf::SkinOptions turned;
+  turned.turn << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  const GlbFile upright(example.skin(turned, {{0.0}, {pose}}).content);
+  EXPECT_LT((upright.joints() - turned.turn * in_space<Dim>(cage)).norm(), 1e-5);
+  EXPECT_LT((upright.joints(0) - turned.turn * in_space<Dim>(pose)).norm(), 1e-5);
 
   Segments<Dim> segments(5);
   segments.control_points *= 1e39;

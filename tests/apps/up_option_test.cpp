@@ -3,6 +3,7 @@
 #include "files/up_axis.h"
 #include "support/command_line.h"
 #include "support/glb_file.h"
+#include "support/usda_file.h"
 
 namespace flbc::testing {
 namespace {
@@ -28,12 +29,19 @@ class UpOption : public CommandLineTest {
     return text.str();
   }
 
-  // A pyramid that stands along the axis, in a tetrahedron: MODEL and its options.
-  std::string pyramid(int axis) const {
-    PointList<3> points(3, 5), cage(3, 4);
+  // Vertices of a pyramid that stands along y.
+  static PointList<3> pyramid() {
+    PointList<3> points(3, 5);
     points << 0.1, 0.3, 0.3, 0.1, 0.2,  //
         0.1, 0.1, 0.1, 0.1, 0.35,       //
         0.1, 0.1, 0.25, 0.25, 0.2;
+    return points;
+  }
+
+  // It stands along the axis, in a tetrahedron: MODEL and its options.
+  std::string pyramid(int axis) const {
+    const auto points = pyramid();
+    PointList<3> cage(3, 4);
     cage << 0, 1, 0, 0,  //
         0, 0, 1, 0,      //
         0, 0, 0, 1;
@@ -81,24 +89,36 @@ TEST_F(UpOption, PicturesShowTheModelUpright) {
   EXPECT_NE(picture(1, "z"), upright);
 }
 
+// About the origin, so that feet stay on the ground.
 TEST_F(UpOption, SkinsTurnTheirRoot) {
   for (int axis = 0; axis < 3; ++axis) {
-    expect("export " + pyramid(axis) + " -q -o s.glb");
-    const auto skin = GlbFile(slurp("s.glb"));
-    const auto& root = skin.root_joint();
-    Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
-    if (root.contains("rotation")) {
-      for (int k = 0; k < 4; ++k) turn.coeffs()(k) = root["rotation"][k];
+    const auto poses = " --pose cage.obj pose.obj --fps 1";
+    const auto model = pyramid(axis);
+    PointList<3> moved(3, 4);
+    moved << 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1;
+    moved.row(1).array() += 0.5;
+    tetrahedron(vertices(moved, axis), "pose.obj");
+    const auto expect_upright = [&](const Eigen::MatrixXd& points, const auto& sources, double y) {
+      PointList<3> expected = pyramid()(Eigen::all, sources);
+      expected.row(1).array() += y;
+      EXPECT_LT((points - expected).norm(), 1e-6) << axis;
+    };
+    std::vector<Eigen::Index> sources;
+    for (const std::string animation : {"", poses}) {
+      expect("export " + model + animation + " -q -o s.glb");
+      const auto skin = GlbFile(slurp("s.glb"));
+      sources = skin.sources();
+      expect_upright(skin.skinned(skin.joints()), sources, 0);
+      EXPECT_EQ(skin.root_joint().contains("rotation"), axis != 1);
+      if (!animation.empty()) expect_upright(skin.skinned(skin.joints(1)), sources, 0.5);
     }
-    const Vector<3> up = turn * Vector<3>::Unit(axis);
-    EXPECT_LT((up - Vector<3>::UnitY()).norm(), 1e-12) << axis;
-    EXPECT_EQ(root.contains("rotation"), axis != 1);
-    expect("export " + pyramid(axis) + " -q -o s.usda");
-    const auto text = slurp("s.usda");
-    EXPECT_EQ(text.find("xformOp:transform = (") == std::string::npos, axis == 1);
+    expect("export " + model + poses + " -q -o s.usda");
+    const auto skin = UsdaFile(slurp("s.usda"));
+    const double end = 24;
+    expect_upright(skin.skinned(), sources, 0);
+    expect_upright(skin.skinned(&end), sources, 0.5);
+    EXPECT_EQ(skin.has("/model.xformOp:transform"), axis != 1);
   }
-  // Rows are the images of x, y, and z.
-  expect_piece(slurp("s.usda"), "((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1))");
   expect("export " + pyramid(2) + " -o s.py --up z", 1, "leave out --up");
 }
 

@@ -115,14 +115,16 @@ class GlbFile {
     return json["nodes"][json["skins"][0]["skeleton"].get<std::size_t>()];
   }
 
-  //! Where the root joint is.
-  Eigen::Vector3d root() const {
+  //! From the coordinates of the root joint to those of the scene.
+  Eigen::Isometry3d root() const {
     const auto& translation = root_joint()["translation"];
-    return Eigen::Vector3d(translation[0].get<double>(), translation[1].get<double>(),
-                           translation[2].get<double>());
+    const auto turn = root_joint().value("rotation", Json{0, 0, 0, 1});
+    Eigen::Isometry3d root(Eigen::Quaterniond(turn[3], turn[0], turn[1], turn[2]));
+    for (int k = 0; k < 3; ++k) root.translation()(k) = translation[k];
+    return root;
   }
 
-  //! 3 x n, by the nodes of the control points.
+  //! 3 x n, by the nodes of the control points, in the scene.
   Eigen::MatrixXd joints() const {
     const auto& nodes = json["skins"][0]["joints"];
     constexpr std::size_t kOthers = 2;
@@ -131,7 +133,7 @@ class GlbFile {
       const auto& translation = json["nodes"][nodes[i].get<std::size_t>()]["translation"];
       for (std::size_t axis = 0; axis < 3; ++axis) result(axis, i) = translation[axis];
     }
-    return result.colwise() + root();
+    return (root().linear() * result).colwise() + root().translation();
   }
 
   //! The same at a moment of the animation, linearly between its keys.
@@ -148,7 +150,7 @@ class GlbFile {
       const auto& nodes = json["skins"][0]["joints"];
       const auto joint = std::find(nodes.begin(), nodes.end(), channel["target"]["node"]);
       EXPECT_NE(joint, nodes.end());
-      result.col(joint - nodes.begin()) = root() + between(times, values, time);
+      result.col(joint - nodes.begin()) = root() * between(times, values, time);
     }
     return result;
   }
@@ -162,9 +164,9 @@ class GlbFile {
     for (Eigen::Index v = 0; v < positions.cols(); ++v) {
       for (Eigen::Index slot = 0; slot < numbers.rows(); ++slot) {
         const auto joint = static_cast<Eigen::Index>(numbers(slot, v));
-        Eigen::Matrix4d global = Eigen::Matrix4d::Identity();
-        global.col(3).head<3>() = joints.col(joint);
-        const Eigen::Matrix4d matrix = global * binds.col(joint).reshaped(4, 4);
+        Eigen::Isometry3d global = root();
+        global.translation() = joints.col(joint);
+        const Eigen::Matrix4d matrix = global.matrix() * binds.col(joint).reshaped(4, 4);
         const Eigen::Vector4d moved = matrix * positions.col(v).homogeneous();
         result.col(v) += weights(slot, v) * moved.head<3>();
       }
@@ -175,7 +177,7 @@ class GlbFile {
   Json json;
 
  private:
-  static Eigen::VectorXd between(const Eigen::MatrixXd& times, const Eigen::MatrixXd& values,
+  static Eigen::Vector3d between(const Eigen::MatrixXd& times, const Eigen::MatrixXd& values,
                                  double time) {
     Eigen::Index next = 0;
     while (next < times.cols() && times(0, next) <= time) ++next;

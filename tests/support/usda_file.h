@@ -45,8 +45,8 @@ class UsdaFile {
   const std::string& target(const std::string& path) const { return relations_.at(path); }
   const std::map<std::string, UsdaValue>& metadata() const { return metadata_; }
 
-  //! The vertices of the skin where its bound skeleton puts them, as the schema UsdSkel says: 3 x
-  //! S. \param time  in time codes, one of the animation's; none: at rest
+  //! The vertices of the skin where its bound skeleton puts them in the scene, as the schema
+  //! UsdSkel says: 3 x S. \param time  in time codes, one of the animation's; none: at rest
   Eigen::MatrixXd skinned(const double* time = nullptr) const {
     const std::string surface = "/model/surface", cage = target(surface + ".skel:skeleton");
     const auto worlds = world_transforms(cage, time);
@@ -58,6 +58,9 @@ class UsdaFile {
     require(slots * points.count == joints.value.count, "jointIndices do not fit the points");
     require(slots * points.count == weights.value.count, "jointWeights do not fit the points");
     const auto place = matrices((*this)[surface + ".primvars:skel:geomBindTransform"].value)[0];
+    Eigen::Matrix4d scene = Eigen::Matrix4d::Identity();
+    const std::string transform = "/model.xformOp:transform";
+    if (has(transform)) scene = matrices((*this)[transform].value)[0];
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3, static_cast<Eigen::Index>(points.count));
     for (std::size_t k = 0; k < joints.value.count; ++k) {
       const auto v = k / slots;
@@ -65,7 +68,8 @@ class UsdaFile {
       require(joint < worlds.size(), "an influence of no joint");
       const Eigen::RowVector4d point(points.numbers[3 * v], points.numbers[3 * v + 1],
                                      points.numbers[3 * v + 2], 1);
-      const Eigen::RowVector4d moved = point * place * binds[joint].inverse() * worlds[joint];
+      const Eigen::RowVector4d moved =
+          point * place * binds[joint].inverse() * worlds[joint] * scene;
       result.col(static_cast<Eigen::Index>(v)) +=
           weights.value.numbers[k] * moved.head<3>().transpose();
     }

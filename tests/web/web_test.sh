@@ -23,6 +23,7 @@ mkdir -p "$work"
 if [ "$kind" = node ]; then
   node "$here/isolation.mjs" "$root/build/web"
   node "$here/node_test.mjs" "$dist/flbc.mjs" "$flbc" "$meshes" "$work"
+  node "$here/gltf_test.mjs" "$dist/flbc.mjs" "$flbc" "$work/.." "$work"
   node "$here/core_test.mjs" "$dist/core.mjs"
   # The package as others install it, without anything else.
   command -v npm >/dev/null || exit 0

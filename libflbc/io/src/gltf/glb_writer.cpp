@@ -291,7 +291,8 @@ class SkinBuilder {
     centre_ = low + size / 2;
     cage_ = num_nodes();
     add_joint("cage", centre_, Eigen::Vector3f::Zero());
-    edit_.node(cage_)["translation"] = list_of(scene_.origin + centre_.cast<double>());
+    edit_.node(cage_)["translation"] =
+        list_of(scene_.turn * (scene_.origin + centre_.cast<double>()));
     if (!scene_.turn.isIdentity(0)) {
       const Eigen::Quaterniond turn(scene_.turn);
       edit_.node(cage_)["rotation"] = {turn.x(), turn.y(), turn.z(), turn.w()};

@@ -30,10 +30,11 @@ struct GlbScene {
   JointWeights weights{};     //!< of the S vertices; with a document of the points of the model
   Eigen::Matrix3Xf joints{};  //!< 3 x n, at rest
   FacetList<2> wire{};        //!< 2 x E, edges between joints, or no column
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  //!< rotation of the root
-  std::vector<float> times{};                          //!< in seconds
-  std::vector<Channel> channels{};                     //!< joints that move
-  std::shared_ptr<const io::GltfSource> document{};    //!< null: the mesh is written anew
+  //! Rotation about the origin of the cage coordinates.
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  std::vector<float> times{};                        //!< in seconds
+  std::vector<Channel> channels{};                   //!< joints that move
+  std::shared_ptr<const io::GltfSource> document{};  //!< null: the mesh is written anew
 };
 
 //! Makes the content of a .glb file. The scene has two root nodes: the mesh, and the joint "cage"

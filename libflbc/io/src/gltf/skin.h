@@ -26,7 +26,8 @@ struct SkinOptions {
   WeightFormat weight_format = WeightFormat::kFloat;
   std::string name = "model";  //!< of the mesh, in .glb
   SkinFormat format = SkinFormat::kGlb;
-  //! Rotation from the model to y up, for readers. The root has it; coordinates stay as they are.
+  //! Rotation about the origin from the model to y up, for readers. The root has it; coordinates
+  //! stay as they are.
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   FacetList<2> cage_edges{};  //!< 2 x E, between control points, in .glb; no column = not written
 };
