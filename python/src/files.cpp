@@ -138,13 +138,7 @@ std::string make_page(const AnyBinding& any, const Polygons& polygons,
     }
     content.surface = surface_of<kDim>(binding, polygons);
     return without_gil([&] {
-      constexpr auto kMost = view::kMostInfluences;
-      const auto& weights = binding.weights;
-      bool is_crowded = false;
-      for (Index p = 0; p < weights.num_points(); ++p) is_crowded |= weights.count(p) > kMost;
-      content.weights = view::limit_influences<kDim>(
-          cage.points, binding.points, is_crowded ? binding.reduced({kMost}).weights : weights,
-          kMost);
+      content.weights = view::limit_influences(binding, view::kMostInfluences);
       return view::make_page(content);
     });
   });
