@@ -22,6 +22,7 @@ rm -rf "$work"
 mkdir -p "$work"
 if [ "$kind" = node ]; then
   node "$here/isolation.mjs" "$root/build/web"
+  node "$here/calls_test.mjs"
   node "$here/node_test.mjs" "$dist/flbc.mjs" "$flbc" "$meshes" "$work"
   node "$here/gltf_test.mjs" "$dist/flbc.mjs" "$flbc" "$work/.." "$work"
   node "$here/core_test.mjs" "$dist/core.mjs"

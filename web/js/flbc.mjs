@@ -22,7 +22,12 @@ async function makeWorker(script) {
   return new NodeWorker(script, { eval: true, execArgv: [] });
 }
 
+const ended = () => new FlbcError({ kind: "Ended", message: "the worker has been ended" });
+
 export class Flbc {
+  waiting = new Map();
+  next = 0;
+
   // \param wasm  bytes, a Response or an address of the module, where it is not inside this file
   // \param worker  bytes of the worker's script, likewise
   static async start({ wasm, worker } = {}) {
@@ -35,19 +40,21 @@ export class Flbc {
     return flbc;
   }
 
-  async restart() {
-    this.waiting = new Map();
-    this.next = 0;
-    this.worker = await makeWorker(this.script);
-    const take = (event) => this.take(event.data ?? event);
-    if (this.worker.on) {
-      this.worker.on("message", take);
-      this.worker.on("error", (error) => this.end(error));
-    } else {
-      this.worker.addEventListener("message", take);
-      this.worker.addEventListener("error", (event) => this.end(event));
-    }
-    this.worker.postMessage({ compiled: this.compiled });
+  // Calls from now on go to another worker.
+  restart() {
+    const ready = makeWorker(this.script).then((worker) => {
+      const take = (event) => this.take(event.data ?? event);
+      const fail = (event) => {
+        const message = `the worker failed: ${event.message ?? event}`;
+        if (this.ready === ready) this.end(new FlbcError({ kind: "Crash", message }));
+      };
+      if (worker.on) worker.on("message", take).on("error", fail).on("exit", fail);
+      else Object.assign(worker, { onmessage: take, onerror: fail });
+      worker.postMessage({ compiled: this.compiled });
+      return worker;
+    });
+    this.ready = ready;
+    return ready;
   }
 
   take({ id, stage, done, result, error }) {
@@ -59,9 +66,10 @@ export class Flbc {
     else call.done(result);
   }
 
-  // Ends the worker. \param error  what the calls that wait are told
-  end(error = new FlbcError({ kind: "Ended", message: "the worker has been ended" })) {
-    this.worker?.terminate();
+  // Ends the worker. \param error  with which the calls that wait are rejected
+  end(error = ended()) {
+    this.ready?.then((worker) => worker.terminate());
+    this.ready = undefined;
     for (const { fail } of this.waiting.values()) fail(error);
     this.waiting.clear();
   }
@@ -74,9 +82,13 @@ export class Flbc {
 
   call(name, given = {}, onProgress = undefined) {
     return new Promise((done, fail) => {
+      if (!this.ready) return fail(ended());
       const id = this.next++;
       this.waiting.set(id, { done, fail, onProgress });
-      this.worker.postMessage({ id, name, given });
+      this.ready.then((worker) => worker.postMessage({ id, name, given })).catch((error) => {
+        this.waiting.delete(id);
+        fail(error);
+      });
     });
   }
 
@@ -84,13 +96,7 @@ export class Flbc {
 
   async readModel(name, bytes, files = {}) {
     for (const [other, content] of Object.entries(files)) await this.addFile(other, content);
-    await this.addFile(name, bytes);
-    return this.call("readModel", { name });
-  }
-
-  async readCage(name, bytes) {
-    await this.addFile(name, bytes);
-    return this.call("readCage", { name });
+    return this.call("readModel", { name, bytes: new Uint8Array(bytes) });
   }
 
   // \param locality  what a locality file has, or the bytes of one
@@ -102,17 +108,35 @@ export class Flbc {
 
   // Lets the engine compile what it will need, with a small model that is forgotten.
   warmUp(name, bytes) { return this.call("warmUp", { name, bytes }); }
+  readCage(name, bytes) { return this.call("readCage", { name, bytes: new Uint8Array(bytes) }); }
   setModel(points, triangles) { return this.call("setModel", { points, triangles }); }
   setCage(points, facets) { return this.call("setCage", { points, facets }); }
   setMesh(points, cells) { return this.call("setMesh", { points, cells }); }
   deform(points) { return this.call("deform", { points }); }
   modelFile(points, extension) { return this.call("modelFile", { points, extension }); }
-  glb({ poses = [], ...options } = {}) { return this.call("glb", { ...options, poses: poses.map((pose) => Array.from(pose)) }); }
 }
 
-// The others take an object of options.
-for (const name of ["makeCage", "repairCage", "makeMesh", "solve", "solution", "setSolution", "reduce", "move",
-                    "points", "cage", "weights", "harmonicWeights", "content", "page", "weightFile",
-                    "cageFile", "meshFile", "memory", "version"]) {
-  Flbc.prototype[name] = function (options, onProgress) { return this.call(name, options, onProgress); };
+// The others take an object of these options. Other options are misspelled.
+const kOptions = {
+  makeCage: "controlPoints offset symmetry", repairCage: "", makeMesh: "vertices", solve: "smoothness tolerance distances precision",
+  solution: "", setSolution: "points cells starts controlPoints values options", reduce: "influences", move: "points refine seconds",
+  points: "", cage: "", weights: "", harmonicWeights: "", content: "picture", page: "picture", glb: "influences times poses",
+  weightFile: "format of", cageFile: "", meshFile: "", memory: "", version: "",
+};
+
+function checkOptions(name, options) {
+  for (const key of Object.keys(options)) {
+    if (kOptions[name].split(" ").includes(key)) continue;
+    const message = `${name}: there is no option "${key}"; there are: ${kOptions[name] || "none"}`;
+    throw new FlbcError({ kind: "OptionError", message });
+  }
+}
+
+for (const name of Object.keys(kOptions)) {
+  Flbc.prototype[name] = async function (options = {}, onProgress = undefined) {
+    checkOptions(name, options);
+    if (options.options) checkOptions("solve", options.options);
+    const { poses } = options;
+    return this.call(name, poses ? { ...options, poses: poses.map((pose) => Array.from(pose)) } : options, onProgress);
+  };
 }

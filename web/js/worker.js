@@ -21,7 +21,6 @@ async function begin(compiled) {
 
 function warmUp(given) {
   const other = new glue.Session();
-  other.call("addFile", given, undefined);
   for (const [name, options] of [["readModel", given], ["makeCage", {}], ["makeMesh", { vertices: 800 }],
                                  ["solve", {}], ["content", {}]]) other.call(name, options, undefined);
   other.delete();

@@ -22,6 +22,7 @@
 #include "flbc/cage_facts.h"
 #include "flbc/coordinates.h"
 #include "flbc/deform.h"
+#include "flbc/io/binding_file.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/mask_conflicts.h"
@@ -49,6 +50,24 @@ using Report = std::function<void(const char* stage, double done)>;
 
 constexpr const char* kCageFile = "cage.obj";
 constexpr const char* kLocalityFile = "locality.json";
+// Files of the model, and those of the session, which replace none of them.
+const std::string kModelFolder = "/model/", kOwnFolder = "/own/";
+
+void write_file(const std::string& name, const val& bytes) {
+  const auto folder = std::filesystem::path(name).parent_path();
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  std::ofstream file(name, std::ios::binary);
+  if (!(file << bytes.as<std::string>() << std::flush)) {
+    throw InputError(name + ": there cannot be a file of this name");
+  }
+}
+
+// While files of the session are read by their names.
+struct InOwnFolder {
+  InOwnFolder() { std::filesystem::current_path(kOwnFolder); }
+  ~InOwnFolder() { std::filesystem::current_path(kModelFolder); }
+};
 
 // A cage with defects, and where they are.
 class DefectiveCage : public InputError {
@@ -85,7 +104,8 @@ val bytes_of(const std::string& text) {
 
 // Writes a file by its name and takes its bytes.
 template <class Write>
-val bytes_of(const std::string& file, const Write& write) {
+val bytes_of(const std::string& name, const Write& write) {
+  const auto file = kOwnFolder + name;
   write(file);
   const auto bytes = io::read_file(file);
   std::filesystem::remove(file);
@@ -182,7 +202,7 @@ class Work {
       : name_(name), file_(name), facets_(std::move(facets)) {
     if constexpr (Dim == 2) {
       if (io::read_polygons(name).polygons.empty()) {
-        file_ = "filled.obj";
+        file_ = kOwnFolder + "filled.obj";
         write_filled(file_, facets_);
       }
     }
@@ -207,7 +227,7 @@ class Work {
     report_ = name == "move" ? Report() : report;  // moves are short
     first_excess_ = 0;
     if (name == "makeCage") return make_cage(options(), report);
-    if (name == "readCage") return read_cage(text("name"));
+    if (name == "readCage") return read_cage(text("name"), given["bytes"]);
     if (name == "repairCage") return repair_cage();
     if (name == "setCage") return set_cage({pose(), matrix_in<FacetList<Dim>>(given["facets"])});
     if (name == "makeMesh") return make_mesh(options(), report);
@@ -252,6 +272,7 @@ class Work {
   }
 
   val set_cage(Cage<Dim> cage) {
+    const InOwnFolder folder;
     app::write_cage(kCageFile, cage);
     show_cage(std::move(cage), kCageFile);
     return from_json(cage_facts());
@@ -259,6 +280,7 @@ class Work {
 
   void show_cage(Cage<Dim> cage, const std::string& file) {
     rig_.reset();
+    bound_.reset();
     cage_ = std::move(cage);
     shown_ = app::load_shown_cage<Dim>(file);
   }
@@ -297,7 +319,9 @@ class Work {
 #endif
 
   // A defective cage is kept, to be shown or repaired.
-  val read_cage(const std::string& file) {
+  val read_cage(const std::string& file, const val& bytes) {
+    const InOwnFolder folder;
+    write_file(file, bytes);
     const auto any = io::to_cage(io::read_polygons(file), file);
     const auto* const cage = std::get_if<Cage<Dim>>(&any);
     if (cage == nullptr) {
@@ -351,7 +375,7 @@ class Work {
       if (report_) report_(stage == Stage::kDistances ? "measuring distances" : "solving", done);
     };
     rig_ = std::make_unique<Rig<Dim>>(cage_, std::move(mesh), points(), edges_, binding);
-    few_ = {};
+    bound_.reset();
     return val::undefined();
   }
 
@@ -383,9 +407,13 @@ class Work {
     }
   }
 
-  // At the model's points, reduced if they were.
+  // The model in the present cage, reduced if it was.
+  const Binding<Dim>& binding() {
+    if (!bound_) bound_ = rig().binding();
+    return *bound_;
+  }
   const SparseWeights& weights() {
-    return few_.num_points() > 0 ? few_ : rig().weights_of_points();
+    return binding().weights;
   }
 
   val solve(const Json& options) {
@@ -396,7 +424,7 @@ class Work {
     rig_->set_options(binding);
     solver_given_ = options;
     const auto& of = rig_->solve().report;
-    few_ = {};
+    bound_.reset();
     return from_json({{"iterations", of.iterations},
                       {"objective", of.objective},
                       {"converged", of.status == SolveStatus::kConverged}});
@@ -419,7 +447,7 @@ class Work {
     }
     try {
       rig_->set_options(binding);
-      few_ = {};
+      bound_.reset();
     } catch (const MaskConflict& conflict) {
       reply["conflict"] = {{"vertices", conflict.points},
                            {"controlPoints", conflict.control_points}};
@@ -456,7 +484,7 @@ class Work {
     } catch (const Error& error) {
       return from_json({{"refused", error.what()}});
     }
-    few_ = {};
+    bound_.reset();
     cage_ = rig_->cage();
     shown_.points = cage_.points;
     const auto& report = rig_->solution().report;
@@ -481,7 +509,7 @@ class Work {
   val reduce(const Json& options, const Report& report) {
     SparsifyOptions limits{options.value("influences", 8)};
     limits.progress = [&](double done) { report("reducing influences", done); };
-    few_ = rig().reduced(limits);
+    bound_ = rig().binding().reduced(limits);
     return from_json({{"influences", limits.max_influences}});
   }
 
@@ -496,7 +524,7 @@ class Work {
                        " control points is not one of this cage, which has " +
                        std::to_string(cage_.size()));
     }
-    return points() + deform<Dim>(weights(), control_points - cage_.points);
+    return binding().deform(control_points);
   }
 
   // ------------------------------------------------------------------------------ page and files
@@ -506,8 +534,7 @@ class Work {
     if (!rig_ || rig_->solution().weights.num_points() == 0) {
       return {cage_.size(), std::vector<std::int64_t>(points().cols() + 1), {}, {}};
     }
-    return view::limit_influences<Dim>(cage_.points, rig_->placement().points, weights(),
-                                       view::kMostInfluences);
+    return view::limit_influences(binding(), view::kMostInfluences);
   }
 
   std::string title() const {
@@ -527,8 +554,6 @@ class Work {
     gltf::SkinOptions skin;
     skin.max_influences = options.value("influences", 4);
     skin.name = title();
-    skin.edges = edges_;
-    if (rig_) skin.masks = rig_->masks().of_points;
     const auto up = app::up_of(app::UpAxis::kAuto, file_);
     skin.turn = app::turn_upright(app::up_axis(up, points()));
     skin.cage_edges = view::as_facets(shown_.edges);
@@ -536,13 +561,12 @@ class Work {
     for (const auto& pose : options.value("poses", Json::array())) {
       animation.poses.push_back(points_in(pose));
     }
-    return bytes_of(
-        gltf::export_skin<Dim>(cage_.points, points(), weights(), surface_, skin, animation)
-            .content);
+    return bytes_of(gltf::export_skin<Dim>(binding(), surface_, skin, animation).content);
   }
 
   val weight_file(const std::string& of, const std::string& format) {
     return bytes_of("weights." + format, [&](const auto& file) {
+      if (io::is_binding_file(file) && of != "mesh") return io::write_binding(file, binding());
       io::write_weights(file, of == "mesh" ? rig().solution().weights : weights());
     });
   }
@@ -570,8 +594,8 @@ class Work {
   EdgeList edges_;
   Cage<Dim> cage_;
   view::ShownCage<Dim> shown_;
-  std::unique_ptr<Rig<Dim>> rig_;  // once there is a mesh
-  SparseWeights few_;              // after reduce()
+  std::unique_ptr<Rig<Dim>> rig_;      // once there is a mesh
+  std::optional<Binding<Dim>> bound_;  // of the last solve
   Json solver_given_ = Json::object();
   Report report_;  // of the present step
   double first_excess_ = 0;
@@ -608,8 +632,10 @@ val error_object(const char* kind, const std::string& message,
 class Session {
  public:
   Session() {
-    std::filesystem::create_directory("/work");
-    std::filesystem::current_path("/work");
+    for (const auto& folder : {kOwnFolder, kModelFolder}) {
+      std::filesystem::create_directory(folder);
+      std::filesystem::current_path(folder);
+    }
   }
 
   val call(const std::string& name, const val& given, const val& report) {
@@ -636,18 +662,18 @@ class Session {
   val run(const std::string& name, const val& given, const Report& report) {
     if (name == "version") return val(std::string(FLBC_VERSION));
     if (name == "memory") return val(static_cast<double>(emscripten_get_heap_size()));
-    if (name == "addFile") {
-      const auto bytes = given["bytes"].as<std::string>();
-      std::ofstream(given["name"].as<std::string>(), std::ios::binary) << bytes;
-      return val::undefined();
+    if (name == "addFile" || name == "readModel") {
+      const auto file = given["name"].as<std::string>();
+      write_file(file, given["bytes"]);
+      return name == "addFile" ? val::undefined() : read_model(file);
     }
-    if (name == "readModel") return read_model(given["name"].as<std::string>());
     if (name == "setModel") {
       const app::ModelFacets<3> facets{matrix_in<PointList<3>>(given["points"]),
                                        matrix_in<FacetList<3>>(given["triangles"])};
       write_triangles("model.obj", facets);
       return work_.emplace<Work<3>>("model.obj", facets).facts();
     }
+    if (work_.valueless_by_exception()) work_ = std::monostate();  // the model was refused
     return std::visit(
         [&](auto& work) -> val {
           if constexpr (std::is_same_v<std::decay_t<decltype(work)>, std::monostate>) {

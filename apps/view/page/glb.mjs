@@ -50,9 +50,12 @@ function shapeOf({ sources, triangles, groups, numVertices }, deformer, pose) {
   return { POSITION: places, NORMAL: normals };
 }
 
+// From sRGB, as glTF has colors.
+const linear = (value) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
+
 function materialOf({ color, opacity = 1, cutoff = 0, picture = -1 }) {
-  const factor = [...(color ?? [1, 1, 1]).map((value) => value ** 2.2), opacity];
-  return { pbrMetallicRoughness: { metallicFactor: 0, baseColorFactor: factor, ...(picture >= 0 && { baseColorTexture: { index: picture } }) },
+  const factor = [...(color ?? [1, 1, 1]).map(linear), opacity];
+  return { doubleSided: true, pbrMetallicRoughness: { metallicFactor: 0, baseColorFactor: factor, ...(picture >= 0 && { baseColorTexture: { index: picture } }) },
            ...(opacity < 1 && { alphaMode: "BLEND" }), ...(cutoff > 0 && { alphaMode: "MASK", alphaCutoff: cutoff }) };
 }
 
@@ -75,7 +78,7 @@ export function glbOf({ center, poses, rest, surface, title, weights, base }, ba
   });
   const attributes = putShape(atRest);
   if (surface.textureCoordinates) attributes.TEXCOORD_0 = put(surface.textureCoordinates, "VEC2");
-  if (surface.colors) attributes.COLOR_0 = put(Float32Array.from(surface.colors, (byte) => (byte / 255) ** 2.2), "VEC3");
+  if (surface.colors) attributes.COLOR_0 = put(Float32Array.from(surface.colors, (byte) => linear(byte / 255)), "VEC3");
   const primitives = surface.parts.map(({ first, count }, material) =>
     ({ attributes, targets, material, indices: put(Uint32Array.from(surface.triangles.subarray(first, first + count))) }));
   const images = surface.pictures.map((address) =>
