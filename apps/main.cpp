@@ -12,8 +12,8 @@
 #include "commands/commands.h"
 #include "flbc/errors.h"
 #include "flbc/version.h"
-#include "help/wording.h"
-#include "system/system.h"
+#include "front/system/system.h"
+#include "front/wording.h"
 
 namespace {
 

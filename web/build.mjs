@@ -8,7 +8,7 @@ import { fileURLToPath } from "node:url";
 const [built, version, address] = process.argv.slice(2);
 const at = (path) => new URL(path, import.meta.url);
 const read = (path) => readFileSync(at(path), "utf8");
-const view = "../apps/view/page/";
+const view = "../libflbc/front/page/";
 const dist = at("dist/");
 mkdirSync(dist, { recursive: true });
 
@@ -48,7 +48,7 @@ function decoders() {
 }
 
 function page(assets) {
-  const names = /set\(page_modules\s+([^)]*)\)/.exec(read("../apps/view/CMakeLists.txt"))[1].trim().split(/\s+/);
+  const names = /set\(page_modules\s+([^)]*)\)/.exec(read("../libflbc/front/CMakeLists.txt"))[1].trim().split(/\s+/);
   const program = packed(joined([...names.map((name) => `${view}${name}.mjs`), "js/unpacked.mjs", "js/flbc.mjs",
                                  "page/reshaping.mjs", "page/protecting.mjs", "page/shapes.mjs", "page/cage_edits.mjs", "page/decoding.mjs", "page/app.mjs"]));
   const kSamples = { Character: "3d/character", Limb: "3d/limb", Torus: "3d/torus", "Figure, in 2D": "2d/figure" };

@@ -5,13 +5,13 @@
 #include <memory>
 
 #include "commands/commands.h"
-#include "files/load.h"
-#include "files/model_facets.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
+#include "front/load.h"
+#include "front/model_facets.h"
+#include "front/system/held_signals.h"
 #include "solve/make_cage.h"
-#include "system/held_signals.h"
 
 namespace flbc::app {
 namespace {

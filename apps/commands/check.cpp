@@ -5,13 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.h"
-#include "files/bound_model.h"
-#include "files/load.h"
 #include "flbc/cage_facts.h"
 #include "flbc/errors.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
+#include "front/bound_model.h"
+#include "front/load.h"
 #include "report/check_report.h"
 #include "report/report_json.h"
 

@@ -6,12 +6,12 @@
 
 #include "commands/commands.h"
 #include "compare/comparison.h"
-#include "files/load.h"
 #include "flbc/errors.h"
 #include "flbc/version.h"
-#include "poses/poses.h"
+#include "front/load.h"
+#include "front/model_page.h"
+#include "front/poses.h"
 #include "report/report_json.h"
-#include "view/model_page.h"
 
 namespace flbc::app {
 namespace {

@@ -4,13 +4,13 @@
 #include <memory>
 
 #include "commands/commands.h"
-#include "files/bound_model.h"
-#include "files/load.h"
 #include "flbc/compose.h"
 #include "flbc/io/binding_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/quality.h"
-#include "poses/poses.h"
+#include "front/bound_model.h"
+#include "front/load.h"
+#include "front/poses.h"
 
 namespace flbc::app {
 namespace {

@@ -4,13 +4,13 @@
 #include <memory>
 
 #include "commands/commands.h"
-#include "files/gltf_facts.h"
-#include "files/load.h"
-#include "files/movable_model.h"
 #include "flbc/errors.h"
 #include "flbc/io/weights_io.h"
+#include "front/gltf_facts.h"
+#include "front/load.h"
+#include "front/movable_model.h"
+#include "front/system/held_signals.h"
 #include "model/gltf_edit.h"
-#include "system/held_signals.h"
 
 namespace flbc::app {
 namespace {

@@ -8,18 +8,18 @@
 
 #include "commands/commands.h"
 #include "commands/pose_options.h"
-#include "files/bound_model.h"
 #include "files/deform_points.h"
-#include "files/load.h"
-#include "files/movable_model.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
+#include "front/bound_model.h"
+#include "front/load.h"
+#include "front/movable_model.h"
+#include "front/poses.h"
+#include "front/system/held_signals.h"
 #include "poses/outside.h"
-#include "poses/poses.h"
 #include "solve/cage_solver.h"
-#include "system/held_signals.h"
 
 namespace flbc::app {
 namespace {
@@ -358,7 +358,8 @@ void add_deform_command(CLI::App& app, int&) {
       "supports. The program reports those that are lost.\n"
       "The results of a sequence have the numbers of --pose pose_%d.obj, or count from 0.\n"
       "Points (.npy) and binary .ply files without faces and normals may be of any size, with a\n"
-      "binding or --domain. They are moved in batches, and everything in the file except coordinates\n"
+      "binding or --domain. They are moved in batches, and everything in the file except "
+      "coordinates\n"
       "stays the same.\n"
       "\n"
       "Examples:\n"

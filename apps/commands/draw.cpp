@@ -6,15 +6,16 @@
 #include "commands/commands.h"
 #include "draw/model_picture.h"
 #include "draw/plane_picture.h"
-#include "files/bound_model.h"
-#include "files/load.h"
 #include "files/upright.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
-#include "poses/poses.h"
-#include "view/model_page.h"
+#include "front/bound_model.h"
+#include "front/load.h"
+#include "front/model_page.h"
+#include "front/poses.h"
+#include "help/options.h"
 
 namespace flbc::app {
 namespace {

@@ -9,10 +9,6 @@
 
 #include "commands/commands.h"
 #include "commands/pose_options.h"
-#include "files/bound_model.h"
-#include "files/gltf_facts.h"
-#include "files/load.h"
-#include "files/movable_model.h"
 #include "files/upright.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
@@ -21,10 +17,15 @@
 #include "flbc/io/weights_io.h"
 #include "flbc/placement.h"
 #include "flbc/sparse_weights.h"
+#include "front/bound_model.h"
+#include "front/gltf_facts.h"
+#include "front/load.h"
+#include "front/model_page.h"
+#include "front/movable_model.h"
+#include "front/poses.h"
 #include "gltf/skin.h"
+#include "help/options.h"
 #include "poses/outside.h"
-#include "poses/poses.h"
-#include "view/model_page.h"
 
 namespace flbc::app {
 namespace {

@@ -6,16 +6,16 @@
 #include <memory>
 
 #include "commands/commands.h"
-#include "files/gltf_facts.h"
-#include "files/movable_model.h"
 #include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/meshing.h"
 #include "flbc/quality.h"
-#include "report/facts.h"
-#include "solve/estimate.h"
-#include "solve/make_domain.h"
+#include "front/estimate.h"
+#include "front/facts.h"
+#include "front/gltf_facts.h"
+#include "front/make_domain.h"
+#include "front/movable_model.h"
 
 namespace flbc::app {
 namespace {

@@ -4,12 +4,12 @@
 #include <memory>
 
 #include "commands/commands.h"
-#include "files/load.h"
 #include "flbc/io/mesh_io.h"
-#include "solve/make_domain.h"
+#include "front/load.h"
+#include "front/make_domain.h"
+#include "front/system/held_signals.h"
 #include "solve/progress_bar.h"
 #include "solve/solve_settings.h"
-#include "system/held_signals.h"
 
 namespace flbc::app {
 namespace {

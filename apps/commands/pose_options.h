@@ -4,8 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "front/poses.h"
 #include "help/options.h"
-#include "poses/poses.h"
 
 namespace flbc::app {
 

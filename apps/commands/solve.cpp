@@ -5,19 +5,19 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.h"
-#include "files/bound_model.h"
 #include "files/certificate_file.h"
-#include "files/load.h"
 #include "flbc/gradients.h"
 #include "flbc/io/files.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/quality.h"
+#include "front/bound_model.h"
+#include "front/load.h"
+#include "front/system/held_signals.h"
 #include "poses/outside.h"
 #include "report/report_json.h"
 #include "solve/cage_solver.h"
-#include "system/held_signals.h"
 
 namespace flbc::app {
 namespace {

@@ -8,9 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.h"
-#include "files/bound_model.h"
-#include "files/load.h"
-#include "files/movable_model.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
@@ -20,11 +17,15 @@
 #include "flbc/placement.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
-#include "poses/poses.h"
+#include "front/bound_model.h"
+#include "front/load.h"
+#include "front/movable_model.h"
+#include "front/poses.h"
+#include "front/system/held_signals.h"
+#include "help/options.h"
 #include "report/report_json.h"
 #include "report/sparsify_report.h"
 #include "solve/progress_bar.h"
-#include "system/held_signals.h"
 
 namespace flbc::app {
 namespace {

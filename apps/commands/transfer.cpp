@@ -5,16 +5,17 @@
 #include <sstream>
 
 #include "commands/commands.h"
-#include "files/bound_model.h"
-#include "files/load.h"
-#include "files/model_facets.h"
-#include "files/movable_model.h"
 #include "flbc/bounding_box.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/quality.h"
+#include "front/bound_model.h"
+#include "front/load.h"
+#include "front/model_facets.h"
+#include "front/movable_model.h"
+#include "front/system/held_signals.h"
+#include "help/options.h"
 #include "solve/cage_solver.h"
-#include "system/held_signals.h"
 
 namespace flbc::app {
 namespace {

@@ -8,20 +8,21 @@
 
 #include "commands/commands.h"
 #include "commands/pose_options.h"
-#include "draw/base64.h"
-#include "files/bound_model.h"
-#include "files/load.h"
-#include "files/movable_model.h"
 #include "files/upright.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/poses.h"
 #include "flbc/sparsify_error.h"
-#include "poses/poses.h"
+#include "front/base64.h"
+#include "front/bound_model.h"
+#include "front/load.h"
+#include "front/model_page.h"
+#include "front/movable_model.h"
+#include "front/page.h"
+#include "front/poses.h"
+#include "help/options.h"
 #include "report/sparsify_report.h"
-#include "view/model_page.h"
-#include "view/page.h"
 
 namespace flbc::app {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "compare/comparison.h"
 #include "compare/distortion.h"
-#include "files/load.h"
 #include "flbc/check.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
@@ -16,11 +15,12 @@
 #include "flbc/names.h"
 #include "flbc/solver.h"
 #include "flbc/sparsify_error.h"
-#include "help/wording.h"
-#include "instantiate.h"
+#include "front/instantiate.h"
+#include "front/load.h"
+#include "front/make_domain.h"
+#include "front/wording.h"
 #include "report/properties.h"
 #include "solve/cage_solver.h"
-#include "solve/make_domain.h"
 #include "solve/progress_bar.h"
 
 namespace flbc::app {

@@ -8,7 +8,7 @@
 
 #include "files/upright.h"
 #include "flbc/meshing.h"
-#include "poses/poses.h"
+#include "front/poses.h"
 #include "run/folder.h"
 #include "run/inputs.h"
 #include "solve/solve_settings.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "compare/distortion.h"
 
-#include "instantiate.h"
+#include "front/instantiate.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>

@@ -7,7 +7,7 @@
 #include "draw/model_picture.h"
 #include "draw/plane_picture.h"
 #include "flbc/deform.h"
-#include "view/model_page.h"
+#include "front/model_page.h"
 
 namespace flbc::app {
 namespace {

@@ -6,7 +6,7 @@
 #include "compare/comparison.h"
 #include "draw/canvas.h"
 #include "flbc/io/files.h"
-#include "instantiate.h"
+#include "front/instantiate.h"
 #include "report/properties.h"
 #include "text/text_writer.h"
 

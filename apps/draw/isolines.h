@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "draw/primitives.h"
+#include "front/primitives.h"
 
 namespace flbc::draw {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "draw/picture_options.h"
-#include "draw/primitives.h"
+#include "front/primitives.h"
 
 namespace flbc::draw {
 

@@ -7,8 +7,8 @@
 
 #include <Eigen/Geometry>
 
-#include "draw/colormap.h"
 #include "draw/weight_painter.h"
+#include "front/colormap.h"
 
 namespace flbc::draw {
 namespace {

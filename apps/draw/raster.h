@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "draw/primitives.h"
+#include "front/primitives.h"
 
 namespace flbc::draw {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "draw/colormap.h"
 #include "draw/isolines.h"
 #include "flbc/errors.h"
+#include "front/colormap.h"
 
 namespace flbc::draw {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
+#include "front/system/held_signals.h"
 #include "solve/progress_bar.h"
-#include "system/held_signals.h"
 
 namespace flbc::app {
 namespace {

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "draw/view.h"
-#include "files/up_axis.h"
+#include "front/up_axis.h"
 
 namespace flbc::app {
 

@@ -52,4 +52,9 @@ std::function<std::string(const std::string&)> in_range(double low, double high)
 //! \param line_break  "\n", and what indents the next line
 std::string wrapped(const std::string& text, std::size_t width, const std::string& line_break);
 
+//! Adds --cage, the rest cage of weights that have none.
+inline CLI::Option* add_cage_option(CLI::App& command, std::string& cage) {
+  return command.add_option("--cage", cage, "rest cage of the weights; a .npz file has it");
+}
+
 }  // namespace flbc::app

@@ -8,7 +8,7 @@
 #include "flbc/bounding_box.h"
 #include "flbc/deform.h"
 #include "flbc/placement.h"
-#include "report/facts.h"
+#include "front/facts.h"
 
 namespace flbc::app {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "files/movable_model.h"
 #include "flbc/binding.h"
 #include "flbc/border.h"
-#include "poses/poses.h"
+#include "front/movable_model.h"
+#include "front/poses.h"
 
 namespace flbc::app {
 

@@ -6,8 +6,8 @@
 #include <ostream>
 
 #include "flbc/check.h"
+#include "front/facts.h"
 #include "report/check_report.h"
-#include "report/facts.h"
 #include "report/properties.h"
 
 namespace flbc::app {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "report/facts.h"
+#include "front/facts.h"
 
 namespace flbc::app {
 namespace {

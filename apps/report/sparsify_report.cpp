@@ -3,7 +3,6 @@
 
 #include <sstream>
 
-#include "files/bound_model.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "flbc/cell_locator.h"
@@ -13,6 +12,7 @@
 #include "flbc/quality.h"
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
+#include "front/bound_model.h"
 #include "help/options.h"
 
 namespace flbc::app {

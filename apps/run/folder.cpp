@@ -7,14 +7,14 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "files/load.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
+#include "front/load.h"
+#include "front/system/held_signals.h"
+#include "front/system/system.h"
 #include "help/options.h"
 #include "report/report_json.h"
 #include "run/inputs.h"
-#include "system/held_signals.h"
-#include "system/system.h"
 
 namespace flbc::app {
 namespace {

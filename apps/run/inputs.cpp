@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "files/load.h"
 #include "flbc/errors.h"
-#include "poses/poses.h"
+#include "front/load.h"
+#include "front/poses.h"
 
 namespace flbc::app {
 namespace {

@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "files/movable_model.h"
 #include "files/upright.h"
 #include "flbc/cage.h"
 #include "flbc/cage_from_model.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/types.h"
+#include "front/movable_model.h"
+#include "front/poses.h"
 #include "gltf/skin.h"
 #include "model/surface.h"
-#include "poses/poses.h"
 #include "report/sparsify_report.h"
 #include "solve/solve_settings.h"
 

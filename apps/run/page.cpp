@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <string>
 
-#include "report/facts.h"
+#include "front/facts.h"
+#include "front/model_page.h"
+#include "front/page.h"
 #include "run/steps.h"
-#include "view/model_page.h"
-#include "view/page.h"
 
 namespace flbc::app {
 

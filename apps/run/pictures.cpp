@@ -3,8 +3,8 @@
 #include "draw/plane_picture.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
-#include "instantiate.h"
-#include "report/facts.h"
+#include "front/facts.h"
+#include "front/instantiate.h"
 #include "run/steps.h"
 
 namespace flbc::app {

@@ -2,7 +2,6 @@
 // The steps of flbc run that make what engines take: few influences, and a skin.
 #include <filesystem>
 
-#include "files/load.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "flbc/io/binding_file.h"
@@ -12,9 +11,10 @@
 #include "flbc/quality.h"
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
+#include "front/facts.h"
+#include "front/instantiate.h"
+#include "front/load.h"
 #include "gltf/skin.h"
-#include "instantiate.h"
-#include "report/facts.h"
 #include "report/sparsify_report.h"
 #include "run/steps.h"
 #include "solve/progress_bar.h"

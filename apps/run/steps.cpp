@@ -3,18 +3,18 @@
 
 #include <iostream>
 
-#include "files/bound_model.h"
-#include "files/load.h"
-#include "files/model_facets.h"
 #include "flbc/deform.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/names.h"
 #include "flbc/quality.h"
+#include "front/bound_model.h"
+#include "front/facts.h"
+#include "front/load.h"
+#include "front/model_facets.h"
+#include "front/poses.h"
 #include "poses/outside.h"
-#include "poses/poses.h"
 #include "report/check_report.h"
-#include "report/facts.h"
 #include "report/report_json.h"
 #include "solve/progress_bar.h"
 

@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "poses/poses.h"
+#include "front/page.h"
+#include "front/poses.h"
 #include "run/folder.h"
 #include "run/inputs.h"
 #include "solve/cage_solver.h"
-#include "view/page.h"
 
 namespace flbc::app {
 

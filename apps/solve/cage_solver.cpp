@@ -9,8 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "files/load.h"
-#include "files/model_facets.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage_facts.h"
 #include "flbc/domain_mesh.h"
@@ -22,10 +20,12 @@
 #include "flbc/names.h"
 #include "flbc/published_penalty.h"
 #include "flbc/solver.h"
-#include "report/facts.h"
+#include "front/estimate.h"
+#include "front/facts.h"
+#include "front/load.h"
+#include "front/make_domain.h"
+#include "front/model_facets.h"
 #include "report/report_json.h"
-#include "solve/estimate.h"
-#include "solve/make_domain.h"
 #include "solve/progress_bar.h"
 
 namespace flbc::app {

@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "files/load.h"
-#include "files/locality_file.h"
 #include "flbc/cage.h"
 #include "flbc/errors.h"
 #include "flbc/io/formats.h"
@@ -17,7 +15,9 @@
 #include "flbc/placement.h"
 #include "flbc/quality.h"
 #include "flbc/rig.h"
-#include "help/wording.h"
+#include "front/load.h"
+#include "front/locality_file.h"
+#include "front/wording.h"
 #include "solve/solve_settings.h"
 
 namespace flbc::app {

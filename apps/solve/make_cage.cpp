@@ -4,11 +4,11 @@
 #include <iostream>
 #include <iterator>
 
-#include "files/load.h"
 #include "flbc/cage_facts.h"
 #include "flbc/errors.h"
+#include "front/facts.h"
+#include "front/load.h"
 #include "help/options.h"
-#include "report/facts.h"
 #include "solve/progress_bar.h"
 
 namespace flbc::app {

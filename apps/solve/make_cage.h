@@ -7,9 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "files/model_facets.h"
 #include "flbc/cage_from_model.h"
 #include "flbc/repair_cage.h"
+#include "front/model_facets.h"
 
 namespace flbc::app {
 

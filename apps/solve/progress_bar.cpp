@@ -5,7 +5,7 @@
 #include <sstream>
 #include <utility>
 
-#include "system/system.h"
+#include "front/system/system.h"
 
 namespace flbc::app {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/solve_settings.h"
 
-#include "files/locality_file.h"
 #include "flbc/errors.h"
 #include "flbc/io/formats.h"
 #include "flbc/names.h"
@@ -135,7 +134,10 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
   add_choice(command, "--non-negative", options.non_negative,
              "method that keeps weights non-negative (default: depends on --method)");
   add_phi(command, settings);
-  add_locality_option(command, settings.locality);
+  command.add_option("--locality", settings.locality,
+                     "a .json file of masks, which are control points and the regions that they "
+                     "must not move (their weights there become exactly 0), and of reach, how far "
+                     "weights extend");
   add_choice(command, "--distances", options.distances,
              "compute distances on the mesh, or interpolate them from a coarser one (default: "
              "auto)");

@@ -9,7 +9,7 @@
 
 #include "flbc/coordinates.h"
 #include "flbc/placement.h"
-#include "solve/make_domain.h"
+#include "front/make_domain.h"
 
 namespace flbc::app {
 

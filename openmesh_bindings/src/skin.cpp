@@ -39,7 +39,8 @@ void write_skin_file(const std::string& path, const Binding<Dim>& binding, io::M
   skin.format = format_of(path);
   skin.max_influences = options.max_influences;
   const auto animation = animation_of(poses, options.frames_per_second);
-  for (const auto& point : binding.rest().colwise()) {
+  const auto rest = binding.rest();
+  for (const auto& point : rest.colwise()) {
     Vector<3> place = Vector<3>::Zero();
     place.template head<Dim>() = point;
     model.soup.points.push_back(place);

@@ -12,8 +12,8 @@
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/placement.h"
+#include "front/page.h"
 #include "gltf/skin.h"
-#include "view/page.h"
 
 namespace flbc::python {
 namespace {

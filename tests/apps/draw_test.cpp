@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "draw/canvas.h"
-#include "draw/colormap.h"
+#include "front/colormap.h"
 #include "draw/isolines.h"
 #include "draw/layout.h"
 #include "draw/plane_picture.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures of models in space: what is nearer covers what is farther, what is hidden is pale.
 #include "draw/model_picture.h"
-#include "draw/colormap.h"
+#include "front/colormap.h"
 #include "draw/view.h"
 #include "support/command_line.h"
 #include "support/png_image.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // --up of the commands that show or export models.
-#include "files/up_axis.h"
+#include "front/up_axis.h"
 #include "support/command_line.h"
 #include "support/glb_file.h"
 #include "support/usda_file.h"

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import test from "node:test";
 
-const page = new URL("../../apps/view/page/", import.meta.url);
+const page = new URL("../../libflbc/front/page/", import.meta.url);
 const load = (name) => import(new URL(`${name}.mjs`, page));
 const { Camera } = await load("camera");
 const { portion } = await load("colors");

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "files/model_facets.h"
+#include "front/model_facets.h"
 #include "fuzz/reader.h"
 
 namespace flbc::fuzz {

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
-#include "draw/primitives.h"
+#include "front/primitives.h"
 
 namespace flbc::draw {
 

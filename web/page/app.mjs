@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page: from a dropped file to a model that is dragged by its cage.
-import { portion } from "../../apps/view/page/colors.mjs";
-import { decodeContent } from "../../apps/view/page/data.mjs";
-import { Deformer } from "../../apps/view/page/deformer.mjs";
-import { show } from "../../apps/view/page/main.mjs";
-import { element, setTheme, tell } from "../../apps/view/page/panel.mjs";
-import { download } from "../../apps/view/page/saving.mjs";
+import { portion } from "../../libflbc/front/page/colors.mjs";
+import { decodeContent } from "../../libflbc/front/page/data.mjs";
+import { Deformer } from "../../libflbc/front/page/deformer.mjs";
+import { show } from "../../libflbc/front/page/main.mjs";
+import { element, setTheme, tell } from "../../libflbc/front/page/panel.mjs";
+import { download } from "../../libflbc/front/page/saving.mjs";
 import { Flbc } from "../js/flbc.mjs";
 import { unpacked } from "../js/unpacked.mjs";
 import { cageToObj, mergePoints, splitEdge } from "./cage_edits.mjs";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compressed glTF files become plain ones, which the library reads.
-import { extremes, GlbBuffer, kSizes } from "../../apps/view/page/glb.mjs";
+import { extremes, GlbBuffer, kSizes } from "../../libflbc/front/page/glb.mjs";
 import { unpacked } from "../js/unpacked.mjs";
 
 const kDraco = "KHR_draco_mesh_compression", kMeshopt = "EXT_meshopt_compression";

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Regions of the model that control points must not move, painted by a brush, and the reach of
 // control points. Weights are solved for the latest stroke, one at a time.
-import { element, tell } from "../../apps/view/page/panel.mjs";
-import { download } from "../../apps/view/page/saving.mjs";
-import { add, length, pointAt } from "../../apps/view/page/vectors.mjs";
+import { element, tell } from "../../libflbc/front/page/panel.mjs";
+import { download } from "../../libflbc/front/page/saving.mjs";
+import { add, length, pointAt } from "../../libflbc/front/page/vectors.mjs";
 
 const kMostRegions = 50;     // that can be undone
 const kMostConflicts = 300;  // that are drawn

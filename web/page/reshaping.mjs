@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reshaping the rest cage, for which weights are computed anew. The cage follows the pointer at once;
 // what is solved is always the latest shape, one at a time.
-import { inSpace } from "../../apps/view/page/data.mjs";
-import { element } from "../../apps/view/page/panel.mjs";
+import { inSpace } from "../../libflbc/front/page/data.mjs";
+import { element } from "../../libflbc/front/page/panel.mjs";
 
 function areSame(a, b) {
   return a.every((value, k) => value === b[k]);

@@ -13,11 +13,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "files/load.h"
-#include "files/locality_file.h"
-#include "files/model_facets.h"
-#include "files/movable_model.h"
-#include "files/up_axis.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage_facts.h"
 #include "flbc/coordinates.h"
@@ -30,10 +25,15 @@
 #include "flbc/rig.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
+#include "front/estimate.h"
+#include "front/load.h"
+#include "front/locality_file.h"
+#include "front/make_domain.h"
+#include "front/model_facets.h"
+#include "front/model_page.h"
+#include "front/movable_model.h"
+#include "front/up_axis.h"
 #include "gltf/skin.h"
-#include "solve/estimate.h"
-#include "solve/make_domain.h"
-#include "view/model_page.h"
 #ifdef FLBC_LINKS_CGAL
 #include "flbc/cage_from_model.h"
 #include "flbc/repair_cage.h"

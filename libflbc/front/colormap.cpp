@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "draw/colormap.h"
+#include "front/colormap.h"
 
 #include <algorithm>
 #include <array>

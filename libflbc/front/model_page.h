@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "files/up_axis.h"
 #include "flbc/io/model_file.h"
-#include "poses/poses.h"
-#include "view/page.h"
+#include "front/page.h"
+#include "front/poses.h"
+#include "front/up_axis.h"
 
 namespace flbc::app {
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "files/model_facets.h"
+#include "front/model_facets.h"
 
 #include <algorithm>
 #include <array>
 #include <set>
 #include <utility>
 
-#include "files/load.h"
 #include "flbc/bounding_box.h"
 #include "flbc/io/cut_polygon.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/splat_file.h"
 #include "flbc/placement.h"
-#include "instantiate.h"
+#include "front/instantiate.h"
+#include "front/load.h"
 
 namespace flbc::app {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "files/up_axis.h"
+#include "front/up_axis.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
 
-#include "files/gltf_facts.h"
 #include "flbc/errors.h"
+#include "front/gltf_facts.h"
 
 namespace flbc::app {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "system/system.h"
+#include "front/system/system.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -15,7 +15,7 @@
 #endif
 
 #include "flbc/errors.h"
-#include "system/held_signals.h"
+#include "front/system/held_signals.h"
 
 namespace flbc::app {
 namespace {

@@ -7,7 +7,6 @@
 //! ..., "factor": 0.5}]}.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
@@ -16,9 +15,6 @@
 #include "flbc/sparse_weights.h"
 
 namespace flbc::app {
-
-//! Adds --locality. \param path  outlives the command
-CLI::Option* add_locality_option(CLI::App& command, std::string& path);
 
 //! The content of a locality file.
 struct Locality {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "system/system.h"
+#include "front/system/system.h"
 
 #ifndef NOMINMAX
 #define NOMINMAX
@@ -17,7 +17,7 @@
 #include <system_error>
 
 #include "flbc/errors.h"
-#include "system/held_signals.h"
+#include "front/system/held_signals.h"
 
 namespace flbc::app {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "files/locality_file.h"
+#include "front/locality_file.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -8,14 +8,14 @@
 #include <set>
 #include <sstream>
 
-#include "files/load.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/formats.h"
 #include "flbc/io/vertex_attribute.h"
 #include "flbc/options.h"
 #include "flbc/place_masks.h"
-#include "instantiate.h"
+#include "front/instantiate.h"
+#include "front/load.h"
 
 namespace flbc::app {
 namespace {
@@ -174,13 +174,6 @@ bool relaxes(const LocalityJson& json) {
 }
 
 }  // namespace
-
-CLI::Option* add_locality_option(CLI::App& command, std::string& path) {
-  return command.add_option("--locality", path,
-                            "a .json file of masks, which are control points and the regions that "
-                            "they must not move (their weights there become exactly 0), and of "
-                            "reach, how far weights extend");
-}
 
 std::string Locality::note() const {
   std::string numbers;

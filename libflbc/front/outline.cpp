@@ -3,8 +3,8 @@
 #include <map>
 #include <utility>
 
-#include "files/model_facets.h"
 #include "flbc/errors.h"
+#include "front/model_facets.h"
 
 namespace flbc::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "files/model_facets.h"
+#include "front/model_facets.h"
 
 #include <png.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/make_domain.h"
+#include "front/make_domain.h"
 
 #include <algorithm>
 
-#include "files/load.h"
 #include "flbc/errors.h"
 #include "flbc/linked_meshers.h"
-#include "help/wording.h"
+#include "front/load.h"
+#include "front/wording.h"
 
 namespace flbc::app {
 namespace {

@@ -3,12 +3,11 @@
 //! Bindings as commands read and write them: one file, or weights with the files of the rest.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "flbc/binding.h"
-#include "poses/poses.h"
-#include "view/page.h"
+#include "front/page.h"
+#include "front/poses.h"
 
 namespace flbc::app {
 
@@ -23,9 +22,6 @@ struct BindingFiles {
   //! The file that has the cage, for messages.
   const std::string& cage_file() const { return cage.empty() ? weights : cage; }
 };
-
-//! Adds --cage, the rest cage of weights that have none. \param name  such as "--cage"
-CLI::Option* add_cage_option(CLI::App& command, std::string& cage, const char* name = "--cage");
 
 //! \throws OptionError if there is no cage, or a second one
 void require_cage(const BindingFiles& files, const char* option = "--cage");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "draw/base64.h"
+#include "front/base64.h"
 
 #include <algorithm>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "files/movable_model.h"
+#include "front/movable_model.h"
 
 #include <algorithm>
 #include <iostream>
 
-#include "draw/colormap.h"
-#include "files/load.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
+#include "front/colormap.h"
+#include "front/load.h"
 
 namespace flbc::app {
 namespace {

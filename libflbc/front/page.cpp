@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "view/page.h"
+#include "front/page.h"
 
 #include <cmath>
 #include <cstdint>
@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "draw/base64.h"
-#include "draw/colormap.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/sparsify.h"
-#include "instantiate.h"
+#include "front/base64.h"
+#include "front/colormap.h"
+#include "front/instantiate.h"
 #include "model/gltf_writer.h"
 #include "model/srgb.h"
 

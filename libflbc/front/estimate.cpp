@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/estimate.h"
+#include "front/estimate.h"
 
 #include <cmath>
 #include <sstream>

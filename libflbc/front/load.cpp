@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "files/load.h"
+#include "front/load.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -10,8 +10,8 @@
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/meshing.h"
-#include "system/held_signals.h"
-#include "system/system.h"
+#include "front/system/held_signals.h"
+#include "front/system/system.h"
 
 namespace flbc::app {
 namespace {

@@ -2,7 +2,7 @@
 // The colors of weights.
 #pragma once
 
-#include "draw/primitives.h"
+#include "front/primitives.h"
 
 namespace flbc::draw {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "help/wording.h"
+#include "front/wording.h"
 
 namespace flbc::app {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "files/gltf_facts.h"
+#include "front/gltf_facts.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

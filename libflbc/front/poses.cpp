@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "poses/poses.h"
+#include "front/poses.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <numeric>
 
-#include "files/model_facets.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
 #include "flbc/green.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/same_vertices.h"
-#include "instantiate.h"
+#include "front/instantiate.h"
+#include "front/model_facets.h"
 
 namespace flbc::app {
 namespace {

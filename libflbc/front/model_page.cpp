@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "view/model_page.h"
+#include "front/model_page.h"
 
 #include <filesystem>
 #include <system_error>
 #include <variant>
 
-#include "files/movable_model.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
-#include "instantiate.h"
+#include "front/instantiate.h"
+#include "front/movable_model.h"
 
 namespace flbc::app {
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "files/bound_model.h"
+#include "front/bound_model.h"
 
 #include <iostream>
 #include <sstream>
 
-#include "files/load.h"
 #include "flbc/bounding_box.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/io/binding_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/names.h"
-#include "instantiate.h"
-#include "report/facts.h"
-#include "view/model_page.h"
+#include "front/facts.h"
+#include "front/instantiate.h"
+#include "front/load.h"
+#include "front/model_page.h"
 
 namespace flbc::app {
 namespace {
@@ -49,10 +49,6 @@ void require_reproduction(const SparseWeights& weights, const Cage<Dim>& rest,
 
 bool BindingFiles::is_one() const {
   return io::is_binding_file(weights);
-}
-
-CLI::Option* add_cage_option(CLI::App& command, std::string& cage, const char* name) {
-  return command.add_option(name, cage, "rest cage of the weights; a .npz file has it");
 }
 
 void require_cage(const BindingFiles& files, const char* option) {
