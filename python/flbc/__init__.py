@@ -25,22 +25,10 @@ from . import _core
 from ._core import Progress
 from ._binding import Binding, Page, Rig, bind, export, load_binding, view
 from ._errors import (
-    Error,
-    InputError,
-    IoError,
-    MaskConflict,
-    NotConverged,
-    OptionError,
-    SolverError,
+    Error, InputError, IoError, MaskConflict, NotConverged, OptionError, SolverError,
 )
 from ._files import (
-    read_cage,
-    read_mesh,
-    read_model,
-    read_weights,
-    write_cage,
-    write_mesh,
-    write_model,
+    read_cage, read_mesh, read_model, read_weights, write_cage, write_mesh, write_model,
     write_weights,
 )
 from ._models import Defect, Repaired, border, check, make_cage, repair

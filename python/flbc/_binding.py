@@ -11,37 +11,13 @@ import numpy as np
 from . import _core
 from ._errors import InputError, OptionError
 from ._shapes import (
-    Cage,
-    DomainMesh,
-    as_array,
-    as_cage,
-    as_mesh,
-    as_points,
-    as_polygons,
-    check_scalars,
-    each_pose,
-    frozen,
-    mesh_from,
-    parts_of,
+    Cage, DomainMesh, as_array, as_cage, as_mesh, as_points, as_polygons, check_scalars, each_pose,
+    frozen, mesh_from, parts_of,
 )
 from ._solve import (
-    RigOptions,
-    Solution,
-    Solver,
-    as_masks,
-    checked,
-    warn_unless_converged,
-    with_options,
+    RigOptions, Solution, Solver, as_masks, checked, warn_unless_converged, with_options,
 )
-from ._weights import (
-    as_matrix,
-    as_poses,
-    as_weights,
-    cage_after,
-    corners_of,
-    from_core,
-    limit_of,
-)
+from ._weights import as_matrix, as_poses, as_weights, cage_after, corners_of, from_core, limit_of
 
 if TYPE_CHECKING:
     import os
@@ -256,29 +232,12 @@ class Binding:
         max_influences: int = 8,
         name: str = "model",
     ) -> None:
-        """Writes a skin for engines: each control point is a joint that only translates.
+        """Writes a skin for engines to a file that ends in .glb or .usda: each control point is a
+        joint that only translates. Vertices have at most `max_influences`, 4 or 8.
 
-        Parameters
-        ----------
-        path : str or path
-            A file that ends in .glb or .usda.
-        faces : array_like of int
-        poses : sequence of array_like, shape (n, d)
-            An animation.
-        times : sequence of float, optional
-            Seconds of these poses, ascending. Default: 24 poses per second.
-        max_influences : int, default 8
-            Per vertex, 4 or 8.
-        name : str, default "model"
-            Of the mesh in the file.
-
-        Raises
-        ------
-        IoError
-            If the file cannot be written.
-        OptionError
-            For another extension or number of influences.
-        """
+        `poses`, arrays of shape (n, d), become an animation at `times` in seconds, ascending, or 24
+        per second. `name` is that of the mesh in the file. Raises IoError if the file cannot be
+        written, and OptionError for another extension or number of influences."""
         moved = as_poses(poses, self.cage)
         seconds = [k / 24 for k in range(len(moved))] if times is None else list(times)
         polygons = as_polygons(faces, "faces", len(self.points))
@@ -363,13 +322,6 @@ class Rig(Solver):
     Other Parameters
     ----------------
     {options}
-
-    Raises
-    ------
-    InputError
-        Naming the defect of cage or model.
-    OptionError
-        If an option is out of range.
     """
 
     _kind = RigOptions
@@ -504,14 +456,8 @@ def view(
     poses: Sequence[ArrayLike] = (),
     title: str = "model",
 ) -> Page:
-    """Makes a page by weights from elsewhere. `Binding.view` has the same `poses` and `title`.
-
-    Parameters
-    ----------
-    vertices : array_like, shape (P, d)
-    faces : array_like of int, or None to show points
-    weights : array_like or sparse matrix, shape (P, n)
-    cage : Cage, or what `Cage` accepts
+    """A page by weights from elsewhere: ``Binding(weights, cage, vertices)`` and its `view`, with
+    faces, poses, and title.
 
     Returns
     -------
@@ -520,7 +466,7 @@ def view(
     Raises
     ------
     InputError
-        If the shapes of vertices, weights, cage, and poses do not match.
+        If shapes do not match, or the weights do not reproduce the vertices.
     """
     return _given(vertices, None, weights, cage).view(faces, poses=poses, title=title)
 
@@ -533,16 +479,12 @@ def export(
     cage: CageLike,
     **options: Any,
 ) -> None:
-    """Writes a skin by weights from elsewhere. `Binding.export` keeps masks and an exact mirror.
+    """Writes a skin by weights from elsewhere: ``Binding(weights, cage, vertices, faces)`` and its
+    `export`, with path, faces, and options. Only a binding keeps masks and an exact mirror.
 
-    Parameters
-    ----------
-    path : str or path
-    vertices : array_like, shape (P, d)
-    faces : array_like of int
-    weights : array_like or sparse matrix, shape (P, n)
-    cage : Cage, or what `Cage` accepts
-    options
-        As for `Binding.export`.
+    Raises
+    ------
+    InputError
+        If shapes do not match, or the weights do not reproduce the vertices.
     """
     _given(vertices, faces, weights, cage).export(path, faces, **options)

@@ -9,15 +9,7 @@ import numpy as np
 from . import _core
 from ._errors import InputError
 from ._shapes import (
-    Cage,
-    DomainMesh,
-    Model,
-    as_array,
-    as_cage,
-    as_floats,
-    as_lists,
-    as_points,
-    as_polygons,
+    Cage, DomainMesh, Model, as_array, as_cage, as_floats, as_lists, as_points, as_polygons,
     mesh_from,
 )
 from ._weights import as_matrix, as_weights, from_core

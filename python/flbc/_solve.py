@@ -5,15 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from typing import (
-    TYPE_CHECKING,
-    Any,
-    Callable,
-    Dict,
-    NamedTuple,
-    Optional,
-    TypedDict,
-    TypeVar,
-    Union,
+    TYPE_CHECKING, Any, Callable, Dict, NamedTuple, Optional, TypedDict, TypeVar, Union,
 )
 
 import numpy as np
@@ -21,17 +13,8 @@ import numpy as np
 from . import _core
 from ._errors import Error, InputError, NotConverged, OptionError
 from ._shapes import (
-    DomainMesh,
-    as_array,
-    as_cage,
-    as_floats,
-    as_indices,
-    as_mesh,
-    as_points,
-    as_polygons,
-    check_scalars,
-    frozen,
-    mesh_from,
+    DomainMesh, as_array, as_cage, as_floats, as_indices, as_mesh, as_points, as_polygons,
+    check_scalars, frozen, mesh_from,
 )
 from ._weights import dense_of, from_core, is_sparse
 

@@ -9,14 +9,7 @@ import numpy as np
 from . import _core
 from ._errors import InputError
 from ._shapes import (
-    Cage,
-    DomainMesh,
-    as_array,
-    as_cage,
-    as_floats,
-    as_points,
-    as_polygons,
-    check_scalars,
+    Cage, DomainMesh, as_array, as_cage, as_floats, as_points, as_polygons, check_scalars,
     each_pose,
 )
 
