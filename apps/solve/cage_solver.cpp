@@ -166,8 +166,7 @@ void CageSolver<Dim>::require_inside(bool quiet) {
   try {
     placing<Dim>(settings_.model, [&] { place_points(cage_, model_, outside_); });
   } catch (const InputError& error) {
-    if (settings_.embed || !io::holds(settings_.model, {io::Content::kModel}) ||
-        !only_loose_are_outside(cage_, model_, io::read_polygons(settings_.model))) {
+    if (settings_.embed || usual_policy(cage_, model_, edges_) == OutsidePoints::kFail) {
       throw InputError(error.what() + question_about<Dim>(cage_.points, model_));
     }
     outside_ = OutsidePoints::kNearest;

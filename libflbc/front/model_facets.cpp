@@ -122,30 +122,6 @@ Index drop_unused(io::PolygonSoup& soup) {
 }  // namespace
 
 template <int Dim>
-bool only_loose_are_outside(const Cage<Dim>& cage, const PointList<Dim>& points,
-                            const io::PolygonSoup& soup) {
-  const auto edges = edges_of_polygons(points, soup.polygons, soup.polylines);
-  return !soup.polygons.empty() && usual_policy(cage, points, edges) == OutsidePoints::kNearest;
-}
-
-AnyModelFacets load_model_facets(const std::string& path) {
-  if (io::extension_of(path) == "png") return load_silhouette(path);
-  if (io::is_splat_file(path)) {
-    const auto corners = voxel_corners(io::SplatFile(path).points());
-    if (corners.cols() == 0) throw InputError(path + ": the model has no vertices");
-    return ModelFacets<3>{corners, {}};
-  }
-  auto soup = io::read_polygons(path);
-  if (soup.points.empty()) throw InputError(path + ": the model has no vertices");
-  const Index unused = drop_unused(soup);
-  if (is_flat(soup)) {
-    return ModelFacets<2>{io::to_points<2>(soup, path), flat_facets(soup), soup.points[0].z(),
-                          unused};
-  }
-  return ModelFacets<3>{io::to_points<3>(soup, path), solid_facets(soup), 0, unused};
-}
-
-template <int Dim>
 ModelElements<Dim> load_model_elements(const std::string& path) {
   const auto soup = io::read_polygons(path);
   ModelElements<Dim> model{io::to_points<Dim>(soup, path), solid_facets(soup)};
@@ -190,7 +166,6 @@ void require_cage_writable(const std::string& path) {
   require_writable(path, Dim == 2 ? Extensions{"obj"} : Extensions{"obj", "off", "ply"});
 }
 
-FLBC_INSTANTIATE_FUNCTION(only_loose_are_outside)
 FLBC_INSTANTIATE_FUNCTION(load_model_elements)
 FLBC_INSTANTIATE_FUNCTION(to_polygons)
 FLBC_INSTANTIATE_FUNCTION(write_cage)

@@ -50,12 +50,6 @@ struct Mask {
 //! \param path  for messages \throws InputError if none of the pixels is to be seen, or all are
 ModelFacets<2> outline_of(const Mask& mask, const std::string& path);
 
-//! Whether all vertices of a model with faces that are outside the cage belong to none of them, so
-//! that nobody sees them.
-template <int Dim>
-bool only_loose_are_outside(const Cage<Dim>& cage, const PointList<Dim>& points,
-                            const io::PolygonSoup& soup);
-
 //! A model as its triangles and segments, and points that belong to none of them.
 //! \throws IoError, InputError
 template <int Dim>

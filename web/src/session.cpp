@@ -231,7 +231,7 @@ class Work {
     if (name == "repairCage") return repair_cage();
     if (name == "setCage") return set_cage({pose(), matrix_in<FacetList<Dim>>(given["facets"])});
     if (name == "makeMesh") return make_mesh(options(), report);
-    if (name == "setMesh") return set_mesh(mesh(), {}, outside_points());
+    if (name == "setMesh") return set_mesh(mesh(), {});
     if (name == "setSolution") {
       return set_solution(
           mesh(), weights_in(given, cage_.size()),
@@ -347,11 +347,11 @@ class Work {
   // ----------------------------------------------------------------------------- mesh and weights
 
   val make_mesh(const Json& options, const Report& report) {
-    const auto outside = outside_points();  // refuses before the mesher starts
+    require_inside();
     report("filling the cage", 0);
     auto made = app::make_domain<Dim>({cage_, kCageFile, options.value("vertices", 0)});
     const auto note = made.note;
-    set_mesh(std::move(made), {}, outside);
+    set_mesh(std::move(made), {});
     const auto& mesh = rig_->mesh();
     // Twice the time of the native program.
     const auto estimate = app::estimate_solve(Dim, cage_.size(), mesh.num_vertices(), {});
@@ -363,10 +363,10 @@ class Work {
 
   // \param mesh  a DomainMesh or a MadeDomain \param options  of the solver
   template <class Mesh>
-  val set_mesh(Mesh mesh, const Json& options, OutsidePoints outside) {
+  val set_mesh(Mesh mesh, const Json& options) {
+    require_inside();
     BindOptions binding;
     binding.solver = solver_options(options);
-    binding.outside = outside;
     binding.observer.progress = [this](const Progress& progress) {
       show_progress(progress);
       return true;
@@ -392,18 +392,15 @@ class Work {
     return *rig_;
   }
 
-  // Refuses vertices of faces outside.
-  OutsidePoints outside_points() const {
+  // Refuses vertices of faces outside, before a mesher starts.
+  void require_inside() const {
+    if (usual_policy(cage_, points(), edges_) != OutsidePoints::kFail) return;
     try {
       place_points(cage_, points());
-      return OutsidePoints::kFail;
     } catch (const InputError& error) {
-      if (!app::only_loose_are_outside(cage_, points(), model_->model()->soup)) {
-        const std::string message = error.what();  // with advice for users of the library
-        throw InputError(name_ + ": " + message.substr(0, message.find("; choose")) +
-                         "; enlarge the cage, or make one around the model");
-      }
-      return OutsidePoints::kNearest;
+      const std::string message = error.what();  // with advice for users of the library
+      throw InputError(name_ + ": " + message.substr(0, message.find("; choose")) +
+                       "; enlarge the cage, or make one around the model");
     }
   }
 
@@ -466,7 +463,7 @@ class Work {
   }
 
   val set_solution(DomainMesh<Dim> mesh, SparseWeights weights, const Json& options) {
-    set_mesh(std::move(mesh), options, outside_points());
+    set_mesh(std::move(mesh), options);
     solver_given_ = options;
     rig_->set_solution({std::move(weights), {}});
     return val::undefined();

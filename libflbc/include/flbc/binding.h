@@ -41,9 +41,11 @@ struct BindOptions {
   WeightMatrix phi{};
   //! Of the solve; poll() also during the reduction. What it throws leaves bind().
   Observer observer{};
-  Index max_influences = 8;                      //!< per point; 0 = keep all weights
-  Reduction reduction = Reduction::kPoisson;     //!< how influences are reduced
-  OutsidePoints outside = OutsidePoints::kFail;  //!< points outside the cage
+  Index max_influences = 8;                   //!< per point; 0 = keep all weights
+  Reduction reduction = Reduction::kPoisson;  //!< how influences are reduced
+  //! Points outside the cage. With kFail, those without an edge may be there nevertheless, if
+  //! others have edges: they follow the nearest point of the cage.
+  OutsidePoints outside = OutsidePoints::kFail;
   //! Masks of the points: regions of the model that some control points must not move. Weights are
   //! exactly 0 there, also after the reduction, except on facets of masked control points, which
   //! BindReport::note counts.

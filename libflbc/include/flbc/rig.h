@@ -112,7 +112,8 @@ class Rig {
   Solution solve_at_once(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                          const Placed& placed) const;
   static Placed place(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-                      const PointList<Dim>& points, const BindOptions& options);
+                      const PointList<Dim>& points, const EdgeList& edges,
+                      const BindOptions& options);
   static void constrain(Placed& placed, const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                         const PointList<Dim>& points, const BindOptions& options);
   SparseWeights evaluated(const Placement<Dim>& placement) const;

@@ -51,11 +51,27 @@ void require_model(const PointList<Dim>& points, const EdgeList& edges) {
   validate(edges, points.cols());
 }
 
+// Points that nobody sees may be outside: they follow the nearest point of the cage.
+template <int Dim, class Place>
+Placement<Dim> unless_loose(const Cage<Dim>& cage, const PointList<Dim>& points,
+                            const EdgeList& edges, OutsidePoints policy, const Place& place) {
+  try {
+    return place(policy);
+  } catch (const InputError&) {
+    if (policy != OutsidePoints::kFail) throw;
+    const auto usual = usual_policy(cage, points, edges);
+    if (usual == policy) throw;
+    return place(usual);
+  }
+}
+
 template <int Dim>
-void require_inside(const Cage<Dim>& cage, const PointList<Dim>& points,
+void require_inside(const Cage<Dim>& cage, const PointList<Dim>& points, const EdgeList& edges,
                     const BindOptions& options) {
   const ThreadScope threads(options.solver.threads);
-  if (options.outside == OutsidePoints::kFail) place_points(cage, points);
+  if (options.outside != OutsidePoints::kFail) return;
+  unless_loose(cage, points, edges, options.outside,
+               [&](OutsidePoints policy) { return place_points(cage, points, policy); });
 }
 
 // Images of points that are inside up to a tolerance may be outside by rounding.
@@ -132,7 +148,7 @@ Rig<Dim>::Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindO
   if (!options.coordinates || !is_pointwise(*options.coordinates)) {
     throw OptionError("these coordinates need a domain mesh");
   }
-  placed_ = place(cage_, mesh_, points_, options_);
+  placed_ = place(cage_, mesh_, points_, edges_, options_);
 }
 
 template <int Dim>
@@ -144,7 +160,7 @@ Rig<Dim>::Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindO
       options_(options) {
   begin();
   require_points<Dim>(points_);
-  require_inside(cage_, points_, options_);  // before a mesher starts
+  require_inside(cage_, points_, edges_, options_);  // before a mesher starts
   const ThreadScope threads(options_.solver.threads);
   const Stopwatch watch;
   MeshingOptions<Dim> meshing;
@@ -179,20 +195,24 @@ void Rig<Dim>::take(MadeDomain<Dim> domain) {
   mesh_ = std::move(domain.mesh);
   report_.mesher = std::move(domain.mesher);
   report_.note = std::move(domain.note);
-  placed_ = place(cage_, mesh_, points_, options_);
+  placed_ = place(cage_, mesh_, points_, edges_, options_);
 }
 
 template <int Dim>
 typename Rig<Dim>::Placed Rig<Dim>::place(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
-                                          const PointList<Dim>& points,
+                                          const PointList<Dim>& points, const EdgeList& edges,
                                           const BindOptions& options) {
   const ThreadScope threads(options.solver.threads);
   const Stopwatch watch;
   Placed placed;
   if (mesh.num_cells() == 0) {
-    placed.placement = place_points(cage, points, options.outside);
+    placed.placement =
+        unless_loose(cage, points, edges, options.outside,
+                     [&](OutsidePoints policy) { return place_points(cage, points, policy); });
   } else if (points.cols() > 0) {
-    placed.placement = place_points(cage, mesh, points, options.outside);
+    placed.placement = unless_loose(
+        cage, points, edges, options.outside,
+        [&](OutsidePoints policy) { return place_points(cage, mesh, points, policy); });
   } else {
     placed.placement.points = mesh.points;
   }
@@ -291,12 +311,13 @@ const Solution& Rig<Dim>::reshape(const PointList<Dim>& control_points, const Bu
   if (has_mesh && solution().weights.num_points() == 0) solve();
   Placed placed;
   const auto place_in = [&](const Cage<Dim>& cage, const DomainMesh<Dim>& mesh) {
-    placed = place(cage, mesh, points_, options_);
+    placed = place(cage, mesh, points_, edges_, options_);
     return solver_options(options_, placed.masks);
   };
   if (solver_) {
-    solver_->reshape(control_points, budget, options_.observer,
-                  [&](const auto& cage, const auto& mesh) { return place_in(cage, mesh).masks; });
+    solver_->reshape(
+        control_points, budget, options_.observer,
+        [&](const auto& cage, const auto& mesh) { return place_in(cage, mesh).masks; });
   } else {
     Cage<Dim> moved{control_points, cage_.facets};
     validate(moved);
@@ -325,7 +346,7 @@ template <int Dim>
 void Rig<Dim>::set_model(PointList<Dim> points, EdgeList edges) {
   require_points<Dim>(points);
   require_model<Dim>(points, edges);
-  auto placed = place(cage(), mesh(), points, options_);
+  auto placed = place(cage(), mesh(), points, edges, options_);
   if (solver_ && !options_.masks.empty()) {
     solver_->set_options(solver_options(options_, placed.masks));
   }
@@ -341,7 +362,7 @@ void Rig<Dim>::set_options(const BindOptions& options) {
   std::optional<Placed> changed;
   const bool has_other_mirror = options.mirror_axis != options_.mirror_axis;
   if (options.outside != options_.outside || (has_other_mirror && placed_.mirror)) {
-    changed = place(cage(), mesh(), points_, options);
+    changed = place(cage(), mesh(), points_, edges_, options);
   } else if (has_other_mirror || options.masks != options_.masks) {
     changed = placed_;
     constrain(*changed, cage(), mesh(), points_, options);
