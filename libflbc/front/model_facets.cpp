@@ -121,6 +121,23 @@ Index drop_unused(io::PolygonSoup& soup) {
 
 }  // namespace
 
+AnyModelFacets load_model_facets(const std::string& path) {
+  if (io::extension_of(path) == "png") return load_silhouette(path);
+  if (io::is_splat_file(path)) {
+    const auto corners = voxel_corners(io::SplatFile(path).points());
+    if (corners.cols() == 0) throw InputError(path + ": the model has no vertices");
+    return ModelFacets<3>{corners, {}};
+  }
+  auto soup = io::read_polygons(path);
+  if (soup.points.empty()) throw InputError(path + ": the model has no vertices");
+  const Index unused = drop_unused(soup);
+  if (is_flat(soup)) {
+    return ModelFacets<2>{io::to_points<2>(soup, path), flat_facets(soup), soup.points[0].z(),
+                          unused};
+  }
+  return ModelFacets<3>{io::to_points<3>(soup, path), solid_facets(soup), 0, unused};
+}
+
 template <int Dim>
 ModelElements<Dim> load_model_elements(const std::string& path) {
   const auto soup = io::read_polygons(path);
