@@ -250,7 +250,7 @@ void add_export_command(CLI::App& app, int&) {
       "\n"
       "Examples:\n"
       "  flbc export model.obj --weights binding.npz -o model.glb\n"
-      "  flbc export model.obj --weights few.mtx --cage cage.obj --pose pose.obj -o posed.glb");
+      "  flbc export model.obj --weights binding.npz --pose pose.obj -o posed.glb");
   command
       ->add_option("MODEL", a.model,
                    "model (.obj .off .ply .stl .glb .gltf), or domain mesh (3D: .mesh .msh) "

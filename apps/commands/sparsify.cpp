@@ -129,7 +129,7 @@ void add_sparsify_command(CLI::App& app, int&) {
       "\n"
       "Examples:\n"
       "  flbc sparsify binding.npz -k 4 -o four.npz\n"
-      "  flbc sparsify weights.npy --cage cage.obj --points model.obj -k 8 -o few.mtx");
+      "  flbc sparsify binding.npz -k 8 --pose pose.obj -o eight.npz");
   command->add_option("WEIGHTS", a.files.weights, std::string("weights: ") + kWeightFormats)
       ->required();
   add_cage_option(*command, a.files.cage);

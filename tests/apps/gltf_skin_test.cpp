@@ -36,10 +36,9 @@ struct Example {
     surface.triangles = mesh.cells.template topRows<3>();
     surface.normals = Vector<3>(0.6, 0, 0.8).replicate(1, mesh.num_vertices());
   }
-  gltf::ExportedSkin skin(gltf::SkinOptions options = {},
+  gltf::ExportedSkin skin(const gltf::SkinOptions& options = {},
                           const gltf::Animation<Dim>& animation = {}) const {
-    options.edges = edges;
-    return gltf::export_skin<Dim>(sample.cage.points, sample.mesh.points, SparseWeights(weights),
+    return gltf::export_skin<Dim>(bound_by<Dim>(sample.cage, sample.mesh.points, weights, edges),
                                   surface, options, animation);
   }
   SparseWeights few(Index count, const std::vector<PointList<Dim>>& poses = {}) const {
@@ -300,8 +299,8 @@ struct Segments {
     surface.normals = Vector<3>::UnitZ().replicate(1, 3);
   }
   GlbFile skin() const {
-    const SparseWeights few(weights);
-    return GlbFile(gltf::export_skin<Dim>(control_points, points, few, surface).content);
+    const auto binding = bound_by<Dim>({control_points, {}}, points, weights);
+    return GlbFile(gltf::export_skin<Dim>(binding, surface).content);
   }
 
   PointList<Dim> control_points;
@@ -344,8 +343,8 @@ TEST(GltfSkin, IndicesTakeFourBytesWhereTwoAreTooFew) {
     DomainMesh<2> strip{points, CellList<2>(3, 2 * columns - 3)};
     for (Index t = 0; t < 2 * columns - 3; ++t) strip.cells.col(t) << t, t + 1, t + 2;
     const auto surface = gltf::surface_of_model<2>({io::to_polygons(strip)});
-    const SparseWeights few(weights);
-    const GlbFile file(gltf::export_skin<2>(control_points, points, few, surface).content);
+    const auto binding = bound_by<2>({control_points, {}}, points, weights);
+    const GlbFile file(gltf::export_skin<2>(binding, surface).content);
     EXPECT_EQ(
         file.json["accessors"][file.primitive()["indices"].get<std::size_t>()]["componentType"],
         component_type);

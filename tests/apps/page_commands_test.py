@@ -39,7 +39,7 @@ RESULTS = {
     "docs/tutorials/2d_cage.md": {"out/deformation.png": 5_000, "functions.pdf": 5_000, "wide.pdf": 5_000,
                                   "lizard/function.png": 5_000},
     "docs/how-to/cages.md": {"cage.obj": 500, "repaired.obj": 500},
-    "docs/how-to/weights.md": {"few.mtx": 10_000, "exact.npy": 10_000, "nearest.npy": 10_000, "weights.csv": 10_000},
+    "docs/how-to/weights.md": {"few.npz": 10_000, "exact.npz": 10_000, "nearest.npy": 10_000, "weights.csv": 10_000},
     "docs/how-to/engines.md": {"model.glb": 10_000, "moving.glb": 10_000},
 }
 MOVED = {"README.md": "meshes/3d/moved.obj", "docs/tutorials/first_deformation.md": "moved.obj"}

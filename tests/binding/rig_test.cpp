@@ -130,7 +130,7 @@ TEST_IN_2D_AND_3D(RigTest, TakesTheSolutionOfAnother) {
   EXPECT_TRUE(second.mesh().points == first.mesh().points) << "it follows the given weights";
   const Eigen::MatrixXd difference =
       second.weights_of_points().dense() - first.weights_of_points().dense();
-  EXPECT_LT(difference.squaredNorm() / difference.size(), 1e-6);
+  EXPECT_LT(difference.array().square().mean(), 1e-6);
   EXPECT_THROW(second.set_solution({}), InputError);
 }
 

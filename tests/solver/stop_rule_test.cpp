@@ -89,7 +89,9 @@ TEST(ErrorEstimate, IsNotFooledByADipLateInARun) {
     const bool dips = k > 320 && k % 40 < plan::kCircle;
     const double change = std::pow(kRate, k - 1) * (1 - kRate);
     const double ratio = estimate(change * change * (dips ? kDip : 1)) / std::pow(kRate, 2 * k);
-    if (k > 320) EXPECT_GT(ratio, 1 / kMostBelow) << k;
+    if (k > 320) {
+      EXPECT_GT(ratio, 1 / kMostBelow) << k;
+    }
   }
 }
 
