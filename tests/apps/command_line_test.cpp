@@ -198,7 +198,7 @@ TEST_F(CommandLine, WrongUsageIsStatus1) {
   expect_refused("solve " + cage + o + " --threads -1", 1, "threads must be in");
   expect_refused("solve " + cage + o + " --embed", 1, "--model");
   expect_refused("solve " + cage + o + " --domain a.obj --vertices 100", 1, "--domain");
-  expect_refused("solve " + cage + " -o w.xls", 1, ".mtx, .npy or .csv");
+  expect_refused("solve " + cage + " -o w.xls", 1, ".mtx, .npy, .csv or .npz");
   expect_refused("mesh " + cage + " -o d.mesh", 1, ".obj, .off or .vtu");
   for (const std::string count : {"0", "abc", "1e9", "99999999999"}) {
     expect_refused("solve " + cage + o + " --vertices " + count, 1, "not '" + count + "'");

@@ -45,9 +45,8 @@ std::string npy_of_shape(const std::string& shape) {
 
 std::string ply(const std::string& type, int bytes) {
   return "ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty " + type +
-         " x\nproperty " + type + " y\nproperty " + type + " z\nelement face 1\n" +
-         "property list uchar int vertex_indices\nend_header\n" + coordinates(bytes) +
-         std::string("\3\0\0\0\0\1\0\0\0\1\0\0\0", 13);
+         " x\nproperty " + type + " y\nproperty " + type +
+         " z\nelement camera 1\nproperty uchar kind\n" + "end_header\n" + coordinates(bytes) + '\3';
 }
 
 }  // namespace

@@ -225,9 +225,9 @@ TEST_F(WeightsFile, MalformedNpy) {
 TEST_F(WeightsFile, OtherExtensionsAreRefused) {
   for (const std::string name : {"weights.txt", "weights.mat", "weights", "-"}) {
     const std::string file = name == "-" ? name : path(name);
-    expect_error<OptionError>([&] { read_weights(file).dense(); }, {file, ".mtx, .npy or .csv"});
+    expect_error<OptionError>([&] { read_weights(file).dense(); }, {file, ".mtx, .npy, .csv or .npz"});
     expect_error<OptionError>([&] { write_weights(file, small_weights()); },
-                              {file, ".mtx, .npy or .csv"});
+                              {file, ".mtx, .npy, .csv or .npz"});
   }
   EXPECT_TRUE(names().empty());
 }

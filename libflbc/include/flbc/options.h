@@ -51,7 +51,8 @@ enum class Distances {
 //! solver finds, extends, and checks it. Memory then follows these pairs, except for 4 n V bytes of
 //! distances, and 16 n V bytes of harmonic coordinates at a start without a coarse mesh.
 enum class ActiveSet {
-  kAuto,  //!< in 3D if it has at most 30% of all pairs, unless `certify` or `gap` is set
+  kAuto,  //!< in 3D if it has at most 30% of all pairs, unless `certify` or `gap` is set. Without
+          //!< masks, never with `reach`
   kOn,    //!< always; an error with `certify` or `gap`, which need the duals of all pairs, and with
           //!< more than 65,000 control points
   kOff    //!< all pairs

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/plan/choices.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/instantiate.h"
@@ -23,6 +24,11 @@ bool active_set(const Sizes& sizes, const Settings& settings) {
   if (settings.method != Method::kWeights || sizes.control_points > kMostActiveControlPoints)
     return false;
   if (sizes.masked) return true;
+  // Supports that grow with reach are found too late: 5 to 11 tolerances on samples.
+  const auto& reach = settings.reach;
+  if (std::any_of(reach.begin(), reach.end(), [](double factor) { return factor != 1; })) {
+    return false;
+  }
   if (settings.active_set != ActiveSet::kAuto) return settings.active_set == ActiveSet::kOn;
   return sizes.dim == 3 && !proves(settings);
 }

@@ -127,7 +127,7 @@ class GradientAdmm {
     // The duals here lead those of the paper by a part that the G-step removes
     // (docs/explanation/method/gradient_admm.md).
     const double primal = alpha_ == 1 ? change.dual - M_ * change.lead : change.dual;
-    residuals_ = {std::sqrt(std::max(primal, 0.0)), penalty_ * std::sqrt(M_ * change.gradient)};
+    residuals_ = {std::sqrt((std::max)(primal, 0.0)), penalty_ * std::sqrt(M_ * change.gradient)};
     return residuals_;
   }
 
@@ -271,7 +271,7 @@ class GradientAdmm {
     for (int d = 1; d < kDim; ++d) squares.row(0) += squares.row(d);
     const auto radius = problem_.radius.col(cell.idx()).transpose().array();
     auto shrink = squares.row(0).array();
-    shrink = radius / shrink.max(radius.square() + kTiny).sqrt();
+    shrink = radius / (shrink.max)(radius.square() + kTiny).sqrt();
     const double quadratic = problem_.quadratic[cell.idx()];
     const auto theta = static_cast<Scalar>(quadratic / (penalty_ + quadratic));
     shrink = theta + (Scalar(1) - theta) * shrink;
