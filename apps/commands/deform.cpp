@@ -167,14 +167,13 @@ OutsidePoints outside_of(const DeformArguments& arguments, OutsidePoints of_bind
 
 // The binding of the model itself.
 template <int Dim>
-Binding<Dim> bind_model(const MovableModel<Dim>& model, const DeformArguments& arguments) {
+Binding<Dim> bind_model(const MovableModel<Dim>& model, const Pose<Dim>& pose,
+                        const DeformArguments& arguments) {
   const auto& file = arguments.file.model;
   if (!arguments.files.has_cage()) {
     auto weights = io::read_weights(arguments.files.weights);
-    const auto count = weights.num_control_points();
-    if (weights.num_points() != model.points().cols()) {
-      check_sizes(weights, count, model.points().cols(), {arguments.files.weights, "", file});
-    }
+    check_sizes(weights, pose.points.cols(), model.points().cols(),
+                {arguments.files.weights, pose.name, file});
     // Only points without weights are known to stay where they are.
     Binding<Dim> binding;
     binding.offsets = PointList<Dim>::Zero(Dim, model.points().cols());
@@ -320,7 +319,7 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
   Motion<Dim> moved = [&](const PointList<Dim>& pose) { return binding.deform(pose); };
   std::optional<PointJacobians<Dim>> jacobians;
   if (arguments.method.empty()) {
-    binding = bind_model(model, arguments);
+    binding = bind_model(model, poses.front(), arguments);
     if (needs_jacobians(arguments)) jacobians = binding.point_jacobians();
     if (!arguments.quiet && !arguments.is_relative) {
       warn_outside(binding, arguments.file.model);

@@ -60,7 +60,15 @@ Binding<Dim> load(const SparsifyArguments& arguments) {
   if (io::holds(path, kMeshFiles)) require_formats_of<Dim>(same);
   const MovableModel<Dim> model(same);
   if (model.points().cols() == 0) throw InputError(path + ": the model has no vertices");
-  return load_binding<Dim>(arguments.files, path, model.points(), model.edges(), false);
+  auto binding = load_binding<Dim>(arguments.files, path, model.points(), model.edges(), false);
+  if (arguments.files.is_one()) return binding;
+  // The result reproduces the vertices, also where the weights do not.
+  binding.points = attached_points(binding.cage, model.points(), binding.weights);
+  for (Index p = 0; p < binding.offsets.cols(); ++p) {
+    if (!binding.weights.has_weights(p)) continue;
+    binding.offsets.col(p) = model.points().col(p) - binding.points.col(p);
+  }
+  return binding;
 }
 
 std::uintmax_t size_of_file(const std::string& path) {

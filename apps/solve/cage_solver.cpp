@@ -252,7 +252,10 @@ void CageSolver<Dim>::solve(bool quiet) {
   };
   options.observer.stage = [&](Stage stage, double done) { bar.show(name_of(stage), done); };
   rig_->set_options(options);
-  naming(settings_.domain.empty() ? settings_.cage : settings_.domain, [&] { rig_->solve(); });
+  const auto& file = !settings_.phi.empty()      ? settings_.phi
+                     : !settings_.domain.empty() ? settings_.domain
+                                                 : settings_.cage;
+  naming(file, [&] { rig_->solve(); });
   binding_ = naming(settings_.model, [&] { return rig_->binding(); });
   options.observer = {};
   rig_->set_options(options);

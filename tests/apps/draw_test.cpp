@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "draw/canvas.h"
-#include "front/colormap.h"
 #include "draw/isolines.h"
 #include "draw/layout.h"
 #include "draw/plane_picture.h"
+#include "front/colormap.h"
 #include "support/png_image.h"
 #include "support/test.h"
 

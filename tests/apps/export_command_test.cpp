@@ -577,7 +577,7 @@ TEST_F(ExportCommand, FilesThatDoNotFitAndWrongUsage) {
     expect_export(words, status, message);
     EXPECT_FALSE(std::filesystem::exists("s.glb"));
   };
-  refused(model + weights + output, 1, "--cage is required");
+  refused(model + weights + output, 1, "add --cage");
   refused(arguments + output + " -k 5", 1, "4 or 8 influences");
   refused(arguments + " -o s.gltf", 1, "must end in .glb");
   refused(arguments + " -o absent/s.glb", 4, "absent");

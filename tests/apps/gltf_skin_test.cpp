@@ -441,8 +441,8 @@ TEST_IN_2D_AND_3D(GltfSkinTest, WhatDoesNotFitIsRefused) {
   const auto drop = [](auto& matrix) {
     matrix.conservativeResize(Eigen::NoChange, matrix.cols() - 1);
   };
-  expect_refusal([&](auto& e) { drop(e.sample.cage.points); }, "weights of control points");
-  expect_refusal([&](auto& e) { drop(e.sample.mesh.points); }, "weights of points");
+  expect_refusal([&](auto& e) { drop(e.sample.cage.points); }, "control points do not match");
+  expect_refusal([&](auto& e) { drop(e.sample.mesh.points); }, "points and");
   expect_refusal([&](auto& e) { drop(e.surface.normals); }, "normals of vertices");
   expect_refusal([&](auto& e) { e.surface.triangles(0, 0) = 100000; }, "surface of the skin");
   expect_refusal([&](auto& e) { e.surface.triangles(0, 0) = -1; }, "surface of the skin");

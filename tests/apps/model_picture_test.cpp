@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures of models in space: what is nearer covers what is farther, what is hidden is pale.
 #include "draw/model_picture.h"
-#include "front/colormap.h"
 #include "draw/view.h"
+#include "front/colormap.h"
 #include "support/command_line.h"
 #include "support/png_image.h"
 

@@ -66,9 +66,9 @@ class RunCommand : public CommandLineTest {
     ASSERT_EQ(result.status, 0) << result.errors;
     EXPECT_EQ(result.output, "");
     const Names expected{
-        domain,       "weights.npy", "domain_weights.npy", "sparse_weights.mtx", "deformed.obj",
-        "model.glb",  "model_8.glb", "function.png",       "deformation.png",    "model.html",
-        "report.json"};
+        domain,         "weights.npy",     "domain_weights.npy", "sparse_weights.mtx",
+        "binding.npz",  "deformed.obj",    "model.glb",          "model_8.glb",
+        "function.png", "deformation.png", "model.html",         "report.json"};
     EXPECT_EQ(names_in("out"), expected);
     for (const auto& file : expected) {
       expect_piece(result.errors, "  " + file + ' ');
@@ -137,7 +137,7 @@ TEST_F(RunCommand, MovesTheMeshIfThereIsNoModel) {
         0, "of which");
     const auto domain = "out/domain" + extension;
     EXPECT_EQ(names_in("out"),
-              (Names{"domain" + extension, "weights.npy", "sparse_weights.mtx",
+              (Names{"domain" + extension, "weights.npy", "sparse_weights.mtx", "binding.npz",
                      "deformed" + extension, "model.glb", "model_8.glb", "function.png",
                      "deformation.png", "model.html", "report.json"}));
     expect_same("deform " + domain + " --weights out/sparse_weights.mtx --pose " + pose,
@@ -177,8 +177,8 @@ TEST_F(RunCommand, SequencesAndWhatIsLeftOfThem) {
   expect_run("out", common, 0, "influences per vertex");
   EXPECT_EQ(names_in("out"),
             (Names{"domain.obj", "weights.npy", "domain_weights.npy", "sparse_weights.mtx",
-                   "model.glb", "model_8.glb", "function.png", "model.html", "report.json",
-                   "notes.txt", "deformed_009.obj"}));
+                   "binding.npz", "model.glb", "model_8.glb", "function.png", "model.html",
+                   "report.json", "notes.txt", "deformed_009.obj"}));
   EXPECT_EQ(slurp("out/notes.txt"), "mine");
 }
 
@@ -253,13 +253,13 @@ TEST_F(RunCommand, StepsThatFailAreNamedAndLeaveWhatWasDone) {
   // What needs no skin is there.
   EXPECT_EQ(names_in("busy"),
             (Names{"domain.obj", "weights.npy", "domain_weights.npy", "sparse_weights.mtx",
-                   "model.glb", "function.png", "model.html", "report.json"}));
-  EXPECT_EQ(report("busy")["files"].size(), 7U);
+                   "binding.npz", "model.glb", "function.png", "model.html", "report.json"}));
+  EXPECT_EQ(report("busy")["files"].size(), 8U);
   EXPECT_FALSE(report("busy")["seconds"].contains("export"));
   // Not converged is no failure of a step.
   expect_run("early", "2d/letter_cage.obj --max-iterations 10 --vertices 500 -q", 3,
              "not converged within 10 iterations");
-  EXPECT_EQ(names_in("early").size(), 8U);
+  EXPECT_EQ(names_in("early").size(), 9U);
   EXPECT_EQ(report("early")["solve"]["converged"], false);
 }
 
@@ -286,7 +286,7 @@ TEST_F(RunCommand, SplatsGetACageAndMoveAsByDeform) {
   const auto model = io::read_polygons("3d/limb_model.obj");
   const auto splats = random_splats(io::to_points<3>(model, ""), 1);
   const auto splat_file = file("splats.ply", splats.text());
-  expect_run("out", splat_file + " --auto-cage --vertices 800", 0, " --rest out/cage.obj");
+  expect_run("out", splat_file + " --auto-cage --vertices 800", 0, " --weights out/binding.npz");
   Eigen::Matrix3d a;
   a << 0, -2, 0, 1, 0, 0.5, 0, 0, 1;
   moved("out/cage.obj", "pose.obj", [&](const auto& point) { return a * point; });
@@ -300,8 +300,8 @@ TEST_F(RunCommand, SplatsGetACageAndMoveAsByDeform) {
     EXPECT_LT((posed.covariance(p) - expected).norm(), 1e-4 * expected.norm());
   }
   const auto command = "deform " + splat_file + " --weights posed/weights.npy --pose pose.obj";
-  expect(command + " -q -o own.ply", 1, "need --domain and --rest");
-  expect_same(command + " -q --domain posed/domain.mesh --rest out/cage.obj", "own.ply",
+  expect(command + " -q -o own.ply", 1, "need a binding");
+  expect_same("deform " + splat_file + " --weights posed/binding.npz --pose pose.obj -q", "own.ply",
               "posed/deformed.ply");
   // They have no weights of their own to mirror or to mask.
   expect_run("out", splat_file + " --auto-cage --symmetric z --vertices 800 --force", 0, "out");

@@ -62,7 +62,7 @@ TEST_F(TransferCommand, RefusesWithReason) {
   expect_transfer(weights + " --to " + far + " --from " + model + " --limit 2", 1, "--limit");
   expect_transfer(weights + " --to " + far, 1, "--from");
   expect_transfer(weights + " --to " + far + " --from " + model + " --outside nearest", 1,
-                  "--domain");
+                  "--outside");
   expect_transfer(weights + " --to " + far + " --from " + cage, 2, "has weights of 3 points");
 }
 

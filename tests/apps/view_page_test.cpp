@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pages of flbc view contain their input, as read back from the finished file.
 #include "front/base64.h"
-#include "support/command_line.h"
 #include "front/page.h"
+#include "support/command_line.h"
 
 namespace flbc::view {
 namespace {

@@ -128,10 +128,10 @@ globe >globe.obj
 check_model globe globe.obj cube.obj cube_pose.obj 8 --texture
 
 # ---- 3D: z points up. The model turns about the origin, which may be far away: feet stay on y = 0 --
-upright() { awk '$1 == "v" { y = $3; $3 = $4; $4 = -y } { print }' "$1"; }
+upright() { awk -v CONVFMT=%.17g '$1 == "v" { y = $3; $3 = $4; $4 = -y } { print }' "$1"; }
 for x in 5 500; do
   for part in globe cube cube_pose; do
-    awk -v x=$x '$1 == "v" { $2 += x; $4 += 1 } { print }' $part.obj >"standing_$part.obj"
+    awk -v CONVFMT=%.17g -v x=$x '$1 == "v" { $2 += x; $4 += 1 } { print }' $part.obj >"standing_$part.obj"
   done
   cp globe.npy standing.npy
   prepare standing standing_globe.obj standing_cube.obj standing_cube_pose.obj 4

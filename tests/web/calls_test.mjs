@@ -35,7 +35,7 @@ for (const name of ["throw", "exit"]) {
 }
 
 // Misspelled options are refused.
-for (const [name, options] of [["solve", { smoothnes: 1 }], ["makeMesh", { vertixes: 9 }], ["glb", { influence: 4 }], ["weights", { of: "mesh" }],
+for (const [name, options] of [["solve", { smoothnes: 1 }], ["makeMesh", { vertex: 9 }], ["glb", { influence: 4 }], ["weights", { of: "mesh" }],
                                ["setSolution", { points: [], options: { smoothnes: 1 } }]]) {
   await rejects(flbc[name](options), "OptionError");
 }

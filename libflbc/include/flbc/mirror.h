@@ -50,7 +50,7 @@ class MirroredModel {
   MirroredModel(const Cage<Dim>& cage, const Mirror& mirror, const PointList<Dim>& points);
 
   //! Which images were found.
-  Mirror mirror() const { return {axis_, image_, partner_}; }
+  Mirror mirror() const;
 
   //! Adds the mirror images of masks of P points.
   std::vector<Mask> symmetrized(const std::vector<Mask>& masks) const;
@@ -91,6 +91,7 @@ class MirroredModel {
       const std::function<SparseWeights(const ModelPart<Dim>& part, Index most)>& reduce) const;
 
  private:
+  void number_single_points();
   Eigen::VectorXd mirrored(const Eigen::VectorXd& weights) const { return weights(image_); }
   PointList<Dim> mirrored(const PointList<Dim>& points) const;
 

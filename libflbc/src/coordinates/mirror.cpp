@@ -104,11 +104,7 @@ MirroredModel<Dim>::MirroredModel(const Cage<Dim>& cage, int axis, const PointLi
   }
   require_mirrored_facets<Dim>(cage, mirrored(cage.points), plane_);
   partner_ = find_partners<Dim>(points, mirrored(points), tolerance);
-  for (std::size_t p = 0; p < partner_.size(); ++p) {
-    if (partner_[p] >= 0) continue;
-    partner_[p] = ~static_cast<Index>(single_.size());
-    single_.push_back(static_cast<Index>(p));
-  }
+  number_single_points();
 }
 
 template <int Dim>
@@ -135,6 +131,23 @@ MirroredModel<Dim>::MirroredModel(const Cage<Dim>& cage, const Mirror& mirror,
     throw InputError("the mirror is not one of this cage and these points");
   }
   place_ = (cage.points.row(axis_).minCoeff() + cage.points.row(axis_).maxCoeff()) / 2;
+  number_single_points();
+}
+
+template <int Dim>
+Mirror MirroredModel<Dim>::mirror() const {
+  Mirror found{axis_, image_, partner_};
+  for (Index& partner : found.partners) partner = std::max(partner, -1);
+  return found;
+}
+
+template <int Dim>
+void MirroredModel<Dim>::number_single_points() {
+  for (std::size_t p = 0; p < partner_.size(); ++p) {
+    if (partner_[p] >= 0) continue;
+    partner_[p] = ~static_cast<Index>(single_.size());
+    single_.push_back(static_cast<Index>(p));
+  }
 }
 
 template <int Dim>
