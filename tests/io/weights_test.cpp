@@ -225,7 +225,8 @@ TEST_F(WeightsFile, MalformedNpy) {
 TEST_F(WeightsFile, OtherExtensionsAreRefused) {
   for (const std::string name : {"weights.txt", "weights.mat", "weights", "-"}) {
     const std::string file = name == "-" ? name : path(name);
-    expect_error<OptionError>([&] { read_weights(file).dense(); }, {file, ".mtx, .npy, .csv or .npz"});
+    expect_error<OptionError>([&] { read_weights(file).dense(); },
+                              {file, ".mtx, .npy, .csv or .npz"});
     expect_error<OptionError>([&] { write_weights(file, small_weights()); },
                               {file, ".mtx, .npy, .csv or .npz"});
   }

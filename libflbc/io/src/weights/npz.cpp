@@ -157,7 +157,9 @@ const NpzReader::Array& NpzReader::array(const std::string& name) const {
 
 template <class Scalar>
 std::vector<Scalar> NpzReader::numbers(const std::string& name, int columns) const {
-  const auto& [header, begin, size] = array(name);
+  const auto& found = array(name);
+  const auto& header = found.header;
+  const auto begin = found.begin, size = found.size;
   const std::size_t dimensions = columns > 0 ? 2 : 1;
   if (header.shape.size() != dimensions || (columns > 0 && header.shape[1] != columns) ||
       (header.fortran_order && columns > 1)) {
