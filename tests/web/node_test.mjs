@@ -187,4 +187,33 @@ assert.deepEqual([...(await flbc.weights()).starts], [0, 4, 8, 12]);
 assert.ok(largestDifference([...(await flbc.weights()).values],
                             [0.7, 0.1, 0.1, 0.1, 0.6, 0.2, 0.1, 0.1, 0.6, 0.1, 0.2, 0.1]) < 1e-6);
 assert.ok(cage.points.length > 0);
+
+// Another cage ends what was computed with the one before.
+await flbc.reduce({ influences: 4 });
+await flbc.setCage([0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 2], [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2]);
+await assert.rejects(flbc.weights(), { name: "OptionError", message: /no mesh of the cage yet/ });
+
+// Cages replace no file of the model, whatever their names are.
+for (const name of ["cage.obj", "posed.obj"]) {
+  await flbc.readModel(name, limb);
+  await flbc.readCage(name, readFileSync(join(meshes, "3d/limb_cage.obj")));
+  await flbc.makeMesh({ vertices: 1000 });
+  await flbc.solve();
+  for (let k = 0; k < 2; ++k) {
+    assert.equal(linesOf(await flbc.modelFile((await flbc.cage()).points), "v").length, 3352, name);
+  }
+}
+
+// A refused model leaves none behind.
+await assert.rejects(flbc.readModel("one.obj", new TextEncoder().encode("v 0 0 0\n")));
+await assert.rejects(flbc.points(), { name: "OptionError", message: /there is no model yet/ });
+
+// Files in folders, and names that no file can have.
+const binary = Uint8Array.from([...new Uint8Array(Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0).buffer)]);
+const triangle = { asset: { version: "2.0" }, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }], meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }],
+                   accessors: [{ bufferView: 0, componentType: 5126, count: 3, type: "VEC3", min: [0, 0, 0], max: [1, 1, 0] }],
+                   bufferViews: [{ buffer: 0, byteLength: 36 }], buffers: [{ byteLength: 36, uri: "parts/a/points.bin" }] };
+const text = new TextEncoder().encode(JSON.stringify(triangle));
+assert.equal((await flbc.readModel("triangle.gltf", text, { "parts/a/points.bin": binary })).vertices, 3);
+await assert.rejects(flbc.addFile("parts/a", binary), { name: "InputError", message: /^parts\/a: / });
 flbc.end();
