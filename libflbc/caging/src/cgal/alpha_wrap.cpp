@@ -79,6 +79,10 @@ class Oracle {
   }
 
   Point closest_point(const Point& p) const { return point(model_.nearest_point(vector(p))); }
+  // Asked by assertions of CGAL.
+  double squared_distance(const Point& p) const {
+    return CGAL::squared_distance(p, closest_point(p));
+  }
 
   // The first point of a segment that has the offset as its distance from the model. No step is
   // longer than what remains to it, because distances change by no more than the length of the way.

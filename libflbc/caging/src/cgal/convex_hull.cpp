@@ -46,10 +46,8 @@ class Hull {
 
   // Positive outside.
   int side(const FacetCorners<3>& corners, Index point) const {
-    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-    const auto at = [&](Index v) {
-      return Kernel::Point_3(points_(0, v), points_(1, v), points_(2, v));
-    };
+    using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
+    const auto at = [&](Index v) { return Point(points_(0, v), points_(1, v), points_(2, v)); };
     return CGAL::orientation(at(corners(0)), at(corners(1)), at(corners(2)), at(point));
   }
 
