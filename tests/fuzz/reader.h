@@ -53,7 +53,6 @@ std::vector<Reader> mesh_readers();
 std::vector<Reader> weight_readers();
 std::vector<Reader> point_readers();
 std::vector<Reader> program_readers();
-std::vector<Reader> openmesh_readers();
 
 //! All of them.
 std::vector<Reader> all_readers();

@@ -4,7 +4,9 @@
 
 #include "flbc/cell_locator.h"
 #include "flbc/interpolate.h"
+#include "flbc/io/binding_file.h"
 #include "flbc/solver.h"
+#include "support/scratch.h"
 #include "support/test.h"
 #include "support/wide_meshes.h"
 
@@ -393,28 +395,32 @@ TYPED_TEST(Bind, VerticesOutsideFollowAnAffineMapIfTheyAreExtended) {
 }
 
 TYPED_TEST(Bind, FilesKeepABinding) {
+  constexpr int kDimension = TypeParam::kDim;
   this->options_.outside = openmesh::OutsidePoints::kNearest;
-  put_outside<TypeParam::kDim>(this->model_, this->sample_.cage, 3, 0);
-  for (const bool is_decided_later : {false, true}) {
-    auto model = this->model_;
-    this->options_.persistent = !is_decided_later;
-    openmesh::bind(model, this->sample_.cage, this->sample_.mesh, this->options_);
-    if (is_decided_later) openmesh::set_persistent(model);
-    std::stringstream file;
-    ASSERT_TRUE(OpenMesh::IO::write_mesh(model, file, ".om"));
-    typename TypeParam::Mesh loaded;
-    OpenMesh::IO::Options options(OpenMesh::IO::Options::Binary);
-    ASSERT_TRUE(OpenMesh::IO::read_mesh(loaded, file, ".om", options));
-    const auto pose = this->random_pose(3);
-    openmesh::deform(model, pose);
-    openmesh::deform(loaded, pose);
-    EXPECT_EQ(openmesh::points_of<TypeParam::kDim>(loaded),
-              openmesh::points_of<TypeParam::kDim>(model));
-    openmesh::restore_rest(loaded);
-    EXPECT_EQ(openmesh::points_of<TypeParam::kDim>(loaded), this->points());
-    EXPECT_NO_THROW(openmesh::sparsify(loaded, 4));
-  }
-  EXPECT_THROW(openmesh::set_persistent(this->model_), InputError);
+  put_outside<kDimension>(this->model_, this->sample_.cage, 3, 0);
+  auto model = this->model_;
+  openmesh::bind(model, this->sample_.cage, this->sample_.mesh, this->options_);
+  const std::string path = scratch_path("mesh_binding.npz");
+  io::write_binding(path, openmesh::get_binding<kDimension>(model));
+  auto loaded = this->model_;
+  openmesh::set_binding(loaded, std::get<Binding<kDimension>>(io::read_binding(path)),
+                        this->options_.max_influences);
+  const auto pose = this->random_pose(3);
+  openmesh::deform(model, pose);
+  openmesh::deform(loaded, pose);
+  EXPECT_EQ(openmesh::points_of<kDimension>(loaded), openmesh::points_of<kDimension>(model));
+  // Not at rest any more.
+  expect_refused<Error>("but the binding has it at", [&] {
+    openmesh::set_binding(loaded, openmesh::get_binding<kDimension>(model), 8);
+  });
+  openmesh::restore_rest(loaded);
+  EXPECT_EQ(openmesh::points_of<kDimension>(loaded), this->points());
+  EXPECT_NO_THROW(openmesh::sparsify(loaded, 4));
+  const auto first = model.point(OpenMesh::VertexHandle(0));
+  model.add_vertex(first);
+  expect_refused<Error>("vertices, but the binding is of", [&] {
+    openmesh::set_binding(model, openmesh::get_binding<kDimension>(loaded), 8);
+  });
 }
 
 TYPED_TEST(Bind, NormalsFollowOnRequest) {

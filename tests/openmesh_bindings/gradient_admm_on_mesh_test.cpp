@@ -369,26 +369,6 @@ TEST(MeshAdmmOnTriangles, StateFollowsGarbageCollection) {
   EXPECT_LT(largest_difference(expected, mesh, resumed), 1e-12);
 }
 
-TEST(MeshAdmmOnTriangles, StateSurvivesFiles) {
-  const auto sample = moved(make_sample<2>(Shape::kRing, 3, 0.2));
-  auto mesh = openmesh::to_mesh<DoubleTri>(sample.mesh);
-  GradientAdmmOptions options;
-  options.persistent = true;
-  Admm<DoubleTri> uninterrupted(mesh, sample.cage, options);
-  uninterrupted.iterate(25);
-  uninterrupted.recover_weights();
-  const std::string path = scratch_path("admm_state.om");
-  ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, path));
-  DoubleTri loaded;
-  ASSERT_TRUE(OpenMesh::IO::read_mesh(loaded, path));
-  EXPECT_EQ(openmesh::get_weights(loaded).dense(), openmesh::get_weights(mesh).dense());
-  Admm<DoubleTri> resumed(loaded, sample.cage);
-  EXPECT_TRUE(resumed.resumed());
-  uninterrupted.iterate(15);
-  resumed.iterate(15);
-  EXPECT_LT(largest_difference(gradients_of(mesh, uninterrupted), loaded, resumed), 1e-13);
-}
-
 TEST(MeshAdmmOnTriangles, AnotherNumberOfControlPointsReplacesTheState) {
   const auto sample = moved(make_sample<2>(Shape::kBox, 4));
   auto mesh = openmesh::to_mesh<DoubleTri>(sample.mesh);

@@ -81,48 +81,6 @@ TEST(InfluencesProperty, FollowsItsVertices) {
             mesh.property(handle, OpenMesh::VertexHandle(5)).weight(0));
 }
 
-TEST(InfluencesProperty, OmFilesKeepItToTheBit) {
-  for (const auto order : {OpenMesh::IO::Options::LSB, OpenMesh::IO::Options::MSB}) {
-    auto mesh = make_squares<DoubleTri>();
-    const auto handle = add_influences(mesh);
-    mesh.property(handle).set_persistent(true);
-    std::stringstream file;
-    ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, file, ".om", OpenMesh::IO::Options::Binary | order));
-    DoubleTri loaded;
-    OpenMesh::IO::Options options(OpenMesh::IO::Options::Binary);
-    ASSERT_TRUE(OpenMesh::IO::read_mesh(loaded, file, ".om", options));
-    expect_influences(loaded);
-  }
-}
-
-TEST(InfluencesProperty, DamagedFilesAreNamed) {
-  auto mesh = make_squares<DoubleTri>();
-  const auto& block = mesh.property(add_influences(mesh)).data_vector();
-  std::stringstream out;
-  const auto size = openmesh::store_block(out, false, "w", block);
-  const std::string bytes = out.str();
-  ASSERT_EQ(bytes.size(), size);
-  const auto restore = [&](const std::string& damaged) {
-    openmesh::InfluenceBlock read;
-    read.resize(block.size());
-    std::istringstream in(damaged);
-    EXPECT_EQ(openmesh::restore_block(in, false, "w", read), damaged.size());
-  };
-  restore(bytes);
-  for (const std::size_t length : {0, 5, 20, 60, static_cast<int>(size) - 1}) {
-    expect_refused<Error>("property 'w' cannot be read",
-                          [&] { restore(bytes.substr(0, static_cast<std::size_t>(length))); });
-  }
-  constexpr std::size_t kHeader = 40;
-  auto wrong = bytes;
-  const std::uint32_t none = kCage;
-  std::memcpy(&wrong[kHeader + 4 * 4 * kMost], &none, sizeof none);
-  expect_refused<Error>("its element 4 names control point 17 of 17", [&] { restore(wrong); });
-  wrong = bytes;
-  wrong[16] = 5;
-  expect_refused<Error>("its shape is damaged", [&] { restore(wrong); });
-}
-
 template <class Mesh>
 class MeshWeights : public ::testing::Test {
  protected:

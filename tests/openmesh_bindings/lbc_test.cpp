@@ -155,30 +155,6 @@ TYPED_TEST(LbcTriangleTest, ClockwiseTrianglesAndHoles) {
   EXPECT_GE(judgement.min_weight, 0);
 }
 
-TEST(LbcFile, WeightsAndGradientsSurvive) {
-  const auto sample = make_sample<2>(Shape::kRing, 3, 0.2);
-  auto mesh = by_hand<DoubleTri>(sample.mesh);
-  openmesh::PropertyOptions properties;
-  properties.gradients = true;
-  properties.persistent = true;
-  openmesh::solve(mesh, sample.cage, {}, properties);
-  const std::string path = scratch_path("lbc.om");
-  ASSERT_TRUE(OpenMesh::IO::write_mesh(mesh, path));
-  // What is loaded and saved again is still there.
-  DoubleTri loaded, again;
-  ASSERT_TRUE(OpenMesh::IO::read_mesh(loaded, path));
-  ASSERT_TRUE(OpenMesh::IO::write_mesh(loaded, path));
-  ASSERT_TRUE(OpenMesh::IO::read_mesh(again, path));
-  EXPECT_EQ(openmesh::get_weights(again).dense(), openmesh::get_weights(mesh).dense());
-  EXPECT_EQ(openmesh::get_rest_cage(again), sample.cage.points);
-  OpenMesh::FPropHandleT<Wide<double>> gradients, expected;
-  ASSERT_TRUE(mesh.get_property_handle(expected, openmesh::gradients_name()));
-  ASSERT_TRUE(again.get_property_handle(gradients, openmesh::gradients_name()));
-  for (const auto face : mesh.faces()) {
-    EXPECT_EQ(again.property(gradients, face).matrix(), mesh.property(expected, face).matrix());
-  }
-}
-
 TEST(LbcProperties, WhatBelongedToOlderWeightsIsRemoved) {
   const auto sample = make_sample<3>(Shape::kCorner, 3, 0.2);
   auto mesh = TetMesh::from(sample.mesh);

@@ -31,7 +31,7 @@ struct Example {
     openmesh::set_rest_cage(mesh, sample.cage.points);
   }
   void add(Index a, Index b, Index c) {
-    const openmesh::SilencedOpenMesh silence;
+    const openmesh::internal::SilencedOpenMesh silence;
     mesh.add_face(mesh.vertex_handle(a), mesh.vertex_handle(b), mesh.vertex_handle(c));
   }
   PointList<Dim> pose(int seed) const {

@@ -286,8 +286,8 @@ Binding<Dim> Binding<Dim>::composed(const SparseWeights& map, Cage<Dim> outer) c
 template <int Dim>
 void Binding<Dim>::require_points(const PointList<Dim>& given) const {
   if (given.cols() != points.cols()) {
-    throw InputError("has " + std::to_string(given.cols()) + " vertices, but the binding is of " +
-                     std::to_string(points.cols()) +
+    throw InputError("the model has " + std::to_string(given.cols()) +
+                     " vertices, but the binding is of " + std::to_string(points.cols()) +
                      "; bind this model, or transfer the binding to it (flbc transfer)");
   }
   if (given.cols() == 0) return;

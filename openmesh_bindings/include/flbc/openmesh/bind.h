@@ -31,7 +31,6 @@ using flbc::OutsidePoints;
 //! Options of bind().
 struct BindOptions : flbc::BindOptions {
   std::string weights = kWeights;  //!< name of the property
-  bool persistent = false;         //!< whether .om files store the properties
 };
 
 namespace internal {
@@ -190,9 +189,7 @@ BindReport bind_to(Mesh& model, const Cage<Dim>& cage, const DomainMesh<Dim>* do
   const auto edges = edge_list_at<Dim>(model, points);
   auto binding = domain != nullptr ? flbc::bind<Dim>(cage, *domain, points, edges, options)
                                    : flbc::bind<Dim>(cage, points, edges, options, meshers);
-  auto rows = rows_of(binding);
-  rows.rest = positions_of(model);
-  attach(model, binding.weights, rows, options.max_influences, options.weights, options.persistent);
+  set_binding(model, binding, options.max_influences, options.weights);
   return std::move(binding.report);
 }
 
@@ -259,7 +256,7 @@ Index bind_new_vertices(Model& model, const std::string& weights = kWeights) {
                        std::move(are_bound));
     property.data_vector() = std::move(block);
     internal::set_masks(rows, masks.all(), n, static_cast<Index>(model.n_vertices()));
-    internal::write_rows(model, rows, weights, false);
+    internal::write_rows(model, rows, weights);
   };
   if (internal::find_property<Influences>(model, weights)) {
     auto& property = internal::get_property<Influences>(model, weights);
@@ -269,22 +266,6 @@ Index bind_new_vertices(Model& model, const std::string& weights = kWeights) {
     bind_with(internal::get_property<Wide<double>>(model, weights), 0);
   }
   return count;
-}
-
-//! Has .om files store all that bind() has attached, or not.
-//! \throws InputError if the model was not bound
-template <class Model>
-void set_persistent(Model& model, const std::string& weights = kWeights, bool yes = true) {
-  if (internal::find_property<Influences>(model, weights)) {
-    internal::get_property<Influences>(model, weights).set_persistent(yes);
-  } else {
-    weights_property(model, weights);
-    internal::get_property<Wide<double>>(model, weights).set_persistent(yes);
-  }
-  internal::visit_rows(weights, [&](auto handle, const std::string& name, auto) {
-    if (!model.get_property_handle(handle, name)) return;
-    internal::wide_property(model, handle).set_persistent(yes);
-  });
 }
 
 //! Restores the vertex positions at the time of bind(). Vertices that were added since stay where

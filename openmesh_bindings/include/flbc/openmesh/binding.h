@@ -73,7 +73,7 @@ Binding<Dim> binding_of(const Mesh& mesh, const BindingRows& rows, const std::st
 
 //! Writes properties, and removes those without elements.
 template <class Mesh>
-void write_rows(Mesh& mesh, const BindingRows& rows, const std::string& weights, bool persistent) {
+void write_rows(Mesh& mesh, const BindingRows& rows, const std::string& weights) {
   visit_rows(weights, [&](auto handle, const std::string& name, auto member) {
     const auto& block = rows.*member;
     const bool is_there = mesh.get_property_handle(handle, name);
@@ -82,28 +82,23 @@ void write_rows(Mesh& mesh, const BindingRows& rows, const std::string& weights,
       return;
     }
     if (!is_there) mesh.add_property(handle, name);
-    auto& property = wide_property(mesh, handle);
-    property.data_vector() = block;
-    if (persistent) property.set_persistent(true);
+    wide_property(mesh, handle).data_vector() = block;
   });
 }
 
-//! Attaches a binding, in place of what has this name. What .om files store, they still do.
+//! Attaches a binding, in place of what has this name.
 //! \param influences  per vertex, in the form Influences; more if some need more. 0: Wide<double>
 template <class Mesh>
 void attach(Mesh& mesh, const SparseWeights& weights, const BindingRows& rows, Index influences,
-            const std::string& name, bool persistent) {
-  const auto is_stored = [](const auto* property) { return property && property->persistent(); };
-  persistent = persistent || is_stored(find_property<Influences>(mesh, name)) ||
-               is_stored(find_property<Wide<double>>(mesh, name));
+            const std::string& name) {
   if (influences == 0) {
-    set_weights(mesh, weights, name, persistent);
+    set_weights(mesh, weights, name);
   } else {
     Index most = (std::min)(influences, weights.num_control_points());
     for (Index v = 0; v < weights.num_points(); ++v) most = (std::max)(most, weights.count(v));
-    set_influences(mesh, weights, static_cast<std::size_t>(most), name, persistent);
+    set_influences(mesh, weights, static_cast<std::size_t>(most), name);
   }
-  write_rows(mesh, rows, name, persistent);
+  write_rows(mesh, rows, name);
 }
 
 }  // namespace flbc::openmesh::internal
@@ -111,10 +106,24 @@ void attach(Mesh& mesh, const SparseWeights& weights, const BindingRows& rows, I
 namespace flbc::openmesh {
 
 //! What bind() has attached, as a value with all functions of a Binding. It has no domain mesh.
+//! io::write_binding() writes it to a file (flbc/io/binding_file.h).
 //! \throws InputError if the mesh has no weights of this name, or of another dimension
 template <int Dim, class Mesh>
 Binding<Dim> get_binding(const Mesh& mesh, const std::string& weights = kWeights) {
   return internal::binding_of<Dim>(mesh, internal::rows_in(mesh, weights), weights);
+}
+
+//! Attaches a binding as bind() does, for example one that io::read_binding() has read.
+//! \param mesh  at rest, with the vertices of the binding in its order
+//! \param max_influences  per vertex, in the form Influences; more if some need more. 0: Wide<double>
+//! \throws InputError if the vertices are not those of the binding. The mesh is then unchanged
+template <class Mesh, int Dim>
+void set_binding(Mesh& mesh, const Binding<Dim>& binding, Index max_influences,
+                 const std::string& weights = kWeights) {
+  binding.require_points(points_of<Dim>(mesh));
+  auto rows = internal::rows_of(binding);
+  rows.rest = internal::positions_of(mesh);
+  internal::attach(mesh, binding.weights, rows, max_influences, weights);
 }
 
 }  // namespace flbc::openmesh

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
 //! Properties of OpenMesh meshes with the same number of values for every element, stored in one
-//! block. OpenMesh copies, sorts, saves, and loads them like any other property.
+//! block. OpenMesh copies and sorts them like any other property.
 #pragma once
 
 #include <cassert>
 #include <cstddef>
-#include <iosfwd>
 #include <string>
 #include <utility>
 
 #include <OpenMesh/Core/System/config.h>
 #include <OpenMesh/Core/Utils/Property.hh>
-#include <OpenMesh/Core/Utils/PropertyCreator.hh>
+#include <OpenMesh/Core/Utils/PropertyManager.hh>
+
+#include "flbc/errors.h"
 
 // Specializes PropertyT, whose interface changed in 9.0.
 #if OM_VERSION < 0x90000
@@ -22,7 +23,7 @@
 namespace flbc::openmesh {
 
 //! The storage of properties with this value type: a type `Block`, whose operator[] returns a view
-//! of an element, and the type name `kName` in .om files.
+//! of an element.
 template <class Value>
 struct BlockOf;
 
@@ -36,8 +37,7 @@ struct BlockTypes {
   using const_reference = decltype(std::declval<const vector_type&>()[0]);
 };
 
-//! Base of PropertyT<V>. Next to the block there are functions stored_size(block),
-//! store_block(out, swap, name, block) and restore_block(in, swap, name, block).
+//! Base of PropertyT<V>.
 template <class V>
 class BlockProperty : public OpenMesh::BaseProperty, public BlockTypes<V> {
  public:
@@ -78,24 +78,17 @@ class BlockProperty : public OpenMesh::BaseProperty, public BlockTypes<V> {
     return new OpenMesh::PropertyT<V>(static_cast<const OpenMesh::PropertyT<V>&>(*this));
   }
 
-  // .om files.
-  void set_persistent(bool yes) override { this->template check_and_set_persistent<V>(yes); }
-  std::string get_storage_name() const override { return BlockOf<V>::kName; }
+  // .om files cannot store them, which OpenMesh would only print.
+  void set_persistent(bool yes) override {
+    if (!yes) return;
+    throw InputError("the property '" + name() +
+                     "' is not stored in .om files; write get_binding() to a .npz file");
+  }
+  std::string get_storage_name() const override { return "<unknown>"; }
   std::size_t n_elements() const override { return block_.size(); }
-  //! Always unknown: OpenMesh calls this before it reads a property, and the shape is in the file.
   std::size_t element_size() const override { return UnknownSize; }
-  std::size_t size_of(std::size_t /*elements*/) const override { return UnknownSize; }
-  //! Bytes in an .om file.
-  std::size_t size_of() const override { return stored_size(block_); }
-  std::size_t store(std::ostream& out, bool swap_bytes) const override {
-    return store_block(out, swap_bytes, name(), block_);
-  }
-  //! A property read from a file is written into the next one.
-  std::size_t restore(std::istream& in, bool swap_bytes) override {
-    const std::size_t bytes = restore_block(in, swap_bytes, name(), block_);
-    set_persistent(true);
-    return bytes;
-  }
+  std::size_t store(std::ostream&, bool) const override { return 0; }
+  std::size_t restore(std::istream&, bool) override { return 0; }
 
  protected:
   //! Changes the shape of all elements and sets them to 0. If this throws, nothing changes.
@@ -107,27 +100,6 @@ class BlockProperty : public OpenMesh::BaseProperty, public BlockTypes<V> {
 
  private:
   vector_type block_;
-};
-
-//! Registers these properties with OpenMesh for saving, with their type name.
-template <class V>
-struct BlockBinary {
-  using value_type = V;
-  static const bool is_streamable = true;
-  static std::size_t size_of() { return OpenMesh::IO::UnknownSize; }
-  static std::size_t size_of(const value_type&) { return OpenMesh::IO::UnknownSize; }
-  static std::string type_identifier() { return BlockOf<V>::kName; }
-};
-
-//! Creates properties that a file contains but the mesh lacks. OM_REGISTER_PROPERTY_TYPE would
-//! create one variable per source file, named only by its line, which could collide with another
-//! header.
-template <class V>
-class BlockCreator : public OpenMesh::PropertyCreatorImpl<BlockCreator<V>> {
- public:
-  using type = V;
-  BlockCreator() { OpenMesh::PropertyCreationManager::instance().register_property_creator(this); }
-  std::string type_string() override { return BlockOf<V>::kName; }
 };
 
 }  // namespace flbc::openmesh

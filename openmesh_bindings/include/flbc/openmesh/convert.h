@@ -8,13 +8,13 @@
 #include <type_traits>
 #include <vector>
 
+#include <OpenMesh/Core/System/omstream.hh>
 #include <OpenMesh/Core/Utils/vector_traits.hh>
 
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/errors.h"
 #include "flbc/openmesh/domain.h"
-#include "flbc/openmesh/silenced.h"
 #include "flbc/openmesh/tet_mesh.h"
 
 namespace flbc::openmesh {
@@ -107,6 +107,25 @@ void add_vertices(Mesh& mesh, const PointList<Dim>& points) {
   for (Eigen::Index v = 0; v < points.cols(); ++v) mesh.add_vertex(origin);
   set_points(mesh, points);
 }
+
+//! Disables the message streams of OpenMesh during its lifetime. OpenMesh prints errors and byte
+//! counts to standard error, and the library must not print.
+class SilencedOpenMesh {
+ public:
+  SilencedOpenMesh() : errors_(omerr().is_enabled()), log_(omlog().is_enabled()) {
+    omerr().disable();
+    omlog().disable();
+  }
+  ~SilencedOpenMesh() {
+    if (errors_) omerr().enable();
+    if (log_) omlog().enable();
+  }
+  SilencedOpenMesh(const SilencedOpenMesh&) = delete;
+  SilencedOpenMesh& operator=(const SilencedOpenMesh&) = delete;
+
+ private:
+  bool errors_, log_;  // whether they were enabled before
+};
 
 //! \param faces  3 x F
 //! \param kind  of the faces, for messages

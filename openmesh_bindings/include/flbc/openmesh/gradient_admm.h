@@ -32,7 +32,6 @@ struct GradientAdmmOptions {
   //! penalty of the paper, instead of harmonic coordinates, least squares, and few iterations.
   bool as_published = false;
   std::string weights = kWeights;  //!< name of the property for recovered weights
-  bool persistent = false;         //!< whether .om files keep state and weights
 };
 
 //! Minimizes sum_s sum_i A (phi |g| + epsilon / 2 |g|^2), (7) plus the quadratic term, over a
@@ -158,8 +157,8 @@ class GradientAdmm {
 
   //! Writes them as a property. \throws SolverError
   void recover_weights() const {
-    set_weights(mesh_, SparseWeights(recovered_weights()), options_.weights, options_.persistent);
-    set_rest_cage(mesh_, problem_.base->cage.points, options_.weights, options_.persistent);
+    set_weights(mesh_, SparseWeights(recovered_weights()), options_.weights);
+    set_rest_cage(mesh_, problem_.base->cage.points, options_.weights);
   }
 
   bool resumed() const { return resumed_; }    //!< whether it started from a state on the mesh
@@ -351,8 +350,8 @@ class GradientAdmm {
   template <class Handle>
   bool attach(Property*& property, const char* name, std::size_t components) {
     bool is_there;
-    std::tie(property, is_there) = internal::attach_rows<Handle>(
-        mesh_, name, components, static_cast<std::size_t>(n_), options_.persistent);
+    std::tie(property, is_there) =
+        internal::attach_rows<Handle>(mesh_, name, components, static_cast<std::size_t>(n_));
     return is_there;
   }
 

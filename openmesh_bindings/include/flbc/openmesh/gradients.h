@@ -32,10 +32,10 @@ Eigen::Matrix<double, Dim, Eigen::Dynamic> gradients_on_cell(const DomainMesh<Di
 
 template <int Dim, class Mesh>
 void set_gradients(Mesh& mesh, const DomainMesh<Dim>& domain, const SparseWeights& weights,
-                   const std::string& name, bool persistent) {
+                   const std::string& name) {
   using Handle = typename Elements<Mesh>::template CellProperty<Wide<double>>;
   const auto n = static_cast<std::size_t>(weights.num_control_points());
-  auto& gradients = *attach_rows<Handle>(mesh, name, Dim, n, persistent).first;
+  auto& gradients = *attach_rows<Handle>(mesh, name, Dim, n).first;
   for (Index s = 0; s < domain.num_cells(); ++s) {
     gradients[s].matrix() = gradients_on_cell(domain, s, weights);
   }
@@ -46,12 +46,12 @@ void set_gradients(Mesh& mesh, const DomainMesh<Dim>& domain, const SparseWeight
 //! Attaches the gradients of the named weights to the cells, as Wide<double>: Dim rows of n values,
 //! in 1 / units of the current mesh. The property name is gradients_name(weights). Replacing the
 //! weights removes the gradients.
-//! \param mesh  a TriMesh in the plane, or a TetMesh \param persistent  whether .om files keep them
+//! \param mesh  a TriMesh in the plane, or a TetMesh
 //! \throws InputError if the mesh has no weights of this name, or if make_domain() throws
 template <class Mesh>
-void set_gradients(Mesh& mesh, const std::string& weights = kWeights, bool persistent = false) {
+void set_gradients(Mesh& mesh, const std::string& weights = kWeights) {
   internal::set_gradients(mesh, make_domain(mesh).mesh, get_weights(mesh, weights),
-                          gradients_name(weights), persistent);
+                          gradients_name(weights));
 }
 
 }  // namespace flbc::openmesh

@@ -8,14 +8,138 @@
 //!       use(weights[vertex].control_point(j), weights[vertex].weight(j));
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <cstddef>
-#include <iosfwd>
+#include <cstdint>
 #include <string>
+#include <type_traits>
 
+#include "flbc/errors.h"
 #include "flbc/openmesh/block_property.h"
-#include "flbc/openmesh/influence_block.h"
+#include "flbc/openmesh/wide_property.h"
 
 namespace flbc::openmesh {
+
+//! A view of the weights of one element: pairs of a control point and its weight, the same number
+//! for every element. Unused pairs come last and have weight 0. A copy of the view refers to the
+//! same values. Assigning to it copies the values, as copy_property() and copy_to() of OpenMesh
+//! expect. Valid until the property changes its number of elements or its shape.
+//! \tparam Weight  double, or const double for read-only views
+template <class Weight>
+class InfluencesView {
+ public:
+  using ControlPoint =
+      std::conditional_t<std::is_const_v<Weight>, const std::uint32_t, std::uint32_t>;
+
+  InfluencesView(ControlPoint* control_points, Weight* weights, std::size_t size)
+      : control_points_(control_points), weights_(weights), size_(size) {}
+  InfluencesView(const InfluencesView& view) = default;
+
+  //! A writable view converts to a read-only view.
+  template <class Other, class = std::enable_if_t<std::is_same_v<const Other, Weight>>>
+  InfluencesView(const InfluencesView<Other>& view)
+      : InfluencesView(view.control_points(), view.weights(), view.size()) {}
+
+  //! Copies the numbers. \throws InputError if the numbers of pairs differ
+  InfluencesView& operator=(const InfluencesView& view) {
+    if (this != &view) assign(view);
+    return *this;
+  }
+  template <class Other>
+  InfluencesView& operator=(const InfluencesView<Other>& view) {
+    assign(view);
+    return *this;
+  }
+
+  //! Number of pairs, used or not.
+  std::size_t size() const { return size_; }
+
+  //! Number of pairs whose weight is not 0.
+  std::size_t count() const {
+    return static_cast<std::size_t>(
+        std::count_if(weights_, weights_ + size_, [](double weight) { return weight != 0; }));
+  }
+
+  //! The control point of pair j < size(); used pairs are ascending.
+  ControlPoint& control_point(std::size_t j) const {
+    assert(j < size_);
+    return control_points_[j];
+  }
+  //! Its weight.
+  Weight& weight(std::size_t j) const {
+    assert(j < size_);
+    return weights_[j];
+  }
+
+  ControlPoint* control_points() const { return control_points_; }
+  Weight* weights() const { return weights_; }
+
+ private:
+  void assign(const InfluencesView<const double>& view) {
+    static_assert(!std::is_const_v<Weight>, "these numbers may only be read");
+    if (view.size() != size_) {
+      throw InputError(std::to_string(view.size()) + " influences cannot be copied to " +
+                       std::to_string(size_));
+    }
+    if (view.weights() == weights_) return;
+    std::copy_n(view.control_points(), size_, control_points_);
+    std::copy_n(view.weights(), size_, weights_);
+  }
+
+  ControlPoint* control_points_;
+  Weight* weights_;
+  std::size_t size_;
+};
+
+//! Like a std::vector whose elements are `most` pairs each. The pairs of element e start at index e
+//! * most() of control_points() and weights(). New pairs are 0.
+class InfluenceBlock {
+ public:
+  InfluenceBlock() : InfluenceBlock(0, 0) {}
+  //! No elements yet. \param num_control_points  n \param most  pairs per element
+  InfluenceBlock(std::size_t num_control_points, std::size_t most)
+      : num_control_points_(num_control_points), control_points_(1, most), weights_(1, most) {}
+
+  std::size_t size() const { return weights_.size(); }
+  std::size_t num_control_points() const { return num_control_points_; }
+  std::size_t most() const { return weights_.width(); }
+  std::uint32_t* control_points() { return control_points_.data(); }
+  const std::uint32_t* control_points() const { return control_points_.data(); }
+  double* weights() { return weights_.data(); }
+  const double* weights() const { return weights_.data(); }
+
+  InfluencesView<double> operator[](std::size_t e) {
+    return {control_points() + e * most(), weights() + e * most(), most()};
+  }
+  InfluencesView<const double> operator[](std::size_t e) const {
+    return {control_points() + e * most(), weights() + e * most(), most()};
+  }
+
+  void reserve(std::size_t elements) {
+    control_points_.reserve(elements);
+    weights_.reserve(elements);
+  }
+  void resize(std::size_t elements) {
+    control_points_.resize(elements);
+    weights_.resize(elements);
+  }
+  //! Keeps the shape, frees the memory.
+  void clear() { *this = InfluenceBlock(num_control_points_, most()); }
+  void swap(std::size_t first, std::size_t second) {
+    control_points_.swap(first, second);
+    weights_.swap(first, second);
+  }
+  void copy(std::size_t from, std::size_t to) {
+    control_points_.copy(from, to);
+    weights_.copy(from, to);
+  }
+
+ private:
+  std::size_t num_control_points_;
+  RowBlock<std::uint32_t> control_points_;
+  RowBlock<double> weights_;
+};
 
 //! Value type of a property with few weights per element, accessed as InfluencesView.
 struct Influences {};
@@ -23,33 +147,11 @@ struct Influences {};
 template <>
 struct BlockOf<Influences> {
   using Block = InfluenceBlock;
-  static constexpr const char* kName = "flbc::Influences";
 };
-
-//! Bytes that store_block() writes.
-std::size_t stored_size(const InfluenceBlock& block);
-
-//! Writes a block in the format of .om files. \return bytes written, 0 if the stream fails
-//! \throws IoError if the block exceeds the limit of .om files, 4 GiB - 1
-std::size_t store_block(std::ostream& out, bool swap, const std::string& name,
-                        const InfluenceBlock& block);
-
-//! Reads the output of store_block(); `block` is unchanged on failure. \return bytes read
-//! \throws InputError if this is not a block for block.size() elements, or is damaged
-std::size_t restore_block(std::istream& in, bool swap, const std::string& name,
-                          InfluenceBlock& block);
 
 }  // namespace flbc::openmesh
 
 namespace OpenMesh {
-
-namespace IO {
-
-template <>
-struct binary<flbc::openmesh::Influences>
-    : flbc::openmesh::BlockBinary<flbc::openmesh::Influences> {};
-
-}  // namespace IO
 
 //! The type that mesh.property(handle, element) returns.
 template <>
@@ -75,9 +177,3 @@ class PropertyT<flbc::openmesh::Influences>
 };
 
 }  // namespace OpenMesh
-
-namespace flbc::openmesh {
-
-inline BlockCreator<Influences> influences_creator;
-
-}  // namespace flbc::openmesh

@@ -18,7 +18,6 @@ namespace flbc::openmesh {
 struct PropertyOptions {
   std::string weights = kWeights;  //!< name of the weights, a row of n doubles per vertex
   bool gradients = false;          //!< also write their gradients on the cells (gradients.h)
-  bool persistent = false;         //!< whether .om files store both
 };
 
 //! solve() on a mesh of a valid type.
@@ -28,12 +27,12 @@ SolveReport solve_on(Mesh& mesh, const Cage<Dim>& cage, const SolverOptions& opt
   validate(options);
   const auto domain = snapped_domain(mesh, cage);
   auto solution = flbc::solve(cage, domain.mesh, domain.topology, options);
-  set_weights(mesh, solution.weights, properties.weights, properties.persistent);
-  set_rest_cage(mesh, cage.points, properties.weights, properties.persistent);
+  set_weights(mesh, solution.weights, properties.weights);
+  set_rest_cage(mesh, cage.points, properties.weights);
   internal::remove_property<Wide<double>>(mesh, internal::name_of_rest(properties.weights));
   if (properties.gradients) {
-    internal::set_gradients(mesh, domain.mesh, solution.weights, gradients_name(properties.weights),
-                            properties.persistent);
+    internal::set_gradients(mesh, domain.mesh, solution.weights,
+                            gradients_name(properties.weights));
   }
   return std::move(solution.report);
 }

@@ -20,8 +20,7 @@ struct ReductionOptions {
   Reduction reduction = Reduction::kPoisson;  //!< meshes without edges are reduced quadratically
   double threshold = 0;                       //!< as SparsifyOptions::threshold, in [0, 1)
   std::string weights = kWeights;             //!< the property to reduce
-  std::string into{};       //!< name of the new property; empty: replace `weights`
-  bool persistent = false;  //!< whether .om files store it
+  std::string into{};  //!< name of the new property; empty: replace `weights`
 };
 
 //! Reduces the weights to at most `most` influences per vertex, as a property of type Influences.
@@ -41,7 +40,7 @@ Quality sparsify(Mesh& mesh, const PointList<Dim>& cage, Index most,
   const auto few = internal::binding_of<Dim>(mesh, rows, options.weights)
                        .reduced({most, options.threshold}, {}, options.reduction);
   internal::attach(mesh, few.weights, rows, most,
-                   options.into.empty() ? options.weights : options.into, options.persistent);
+                   options.into.empty() ? options.weights : options.into);
   return measure_quality<Dim>(cage, few.points, few.weights);
 }
 

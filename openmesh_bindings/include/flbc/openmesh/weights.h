@@ -70,8 +70,7 @@ template <class Handle, class Mesh>
 std::pair<OpenMesh::PropertyT<typename Handle::Value>*, bool> attach_rows(Mesh& mesh,
                                                                           const std::string& name,
                                                                           std::size_t components,
-                                                                          std::size_t width,
-                                                                          bool persistent) {
+                                                                          std::size_t width) {
   Handle handle;
   bool is_there = mesh.get_property_handle(handle, name);
   if (!is_there) mesh.add_property(handle, name);
@@ -83,7 +82,6 @@ std::pair<OpenMesh::PropertyT<typename Handle::Value>*, bool> attach_rows(Mesh& 
   }
   is_there = is_there && property->components() == components && property->width() == width;
   if (!is_there) property->set_shape(components, width);
-  property->set_persistent(persistent);
   return {property, is_there};
 }
 
@@ -147,11 +145,10 @@ void make_way_for(Mesh& mesh, const std::string& name) {
 }  // namespace internal
 
 //! Attaches weights to the vertices of any mesh, such as a model, as Wide<double>.
-//! \param weights  of V points \param persistent  whether .om files store them
+//! \param weights  of V points
 //! \throws InputError if their number is not the number of vertices
 template <class Mesh>
-void set_weights(Mesh& mesh, const SparseWeights& weights, const std::string& name = kWeights,
-                 bool persistent = false) {
+void set_weights(Mesh& mesh, const SparseWeights& weights, const std::string& name = kWeights) {
   internal::require_number_of_vertices(weights.num_points(), mesh.n_vertices());
   internal::make_way_for<Wide<double>>(mesh, name);
   auto& rows = internal::get_property<Wide<double>>(mesh, name);
@@ -162,7 +159,6 @@ void set_weights(Mesh& mesh, const SparseWeights& weights, const std::string& na
     double* row = rows.data() + static_cast<std::size_t>(v) * n;
     weights.visit(v, [row](Index i, double weight) { row[i] = weight; });
   }
-  if (persistent) rows.set_persistent(true);
 }
 
 //! Attaches weights to the vertices of any mesh as Influences.
@@ -171,13 +167,11 @@ void set_weights(Mesh& mesh, const SparseWeights& weights, const std::string& na
 //! `most`
 template <class Mesh>
 void set_influences(Mesh& mesh, const SparseWeights& weights, std::size_t most = 0,
-                    const std::string& name = kWeights, bool persistent = false) {
+                    const std::string& name = kWeights) {
   internal::require_number_of_vertices(weights.num_points(), mesh.n_vertices());
   auto block = internal::to_influences(weights, most);
   internal::make_way_for<Influences>(mesh, name);
-  auto& property = internal::get_property<Influences>(mesh, name);
-  property.data_vector() = std::move(block);
-  if (persistent) property.set_persistent(true);
+  internal::get_property<Influences>(mesh, name).data_vector() = std::move(block);
 }
 
 //! The property of weights in the form Wide<double>.
@@ -206,14 +200,13 @@ SparseWeights get_weights(const Mesh& mesh, const std::string& name = kWeights) 
 //! values per control point.
 template <class Mesh, int Dim>
 void set_rest_cage(Mesh& mesh, const PointList<Dim>& control_points,
-                   const std::string& weights = kWeights, bool persistent = false) {
+                   const std::string& weights = kWeights) {
   OpenMesh::MPropHandleT<Wide<double>> handle;
   const auto name = internal::name_of_cage(weights);
   if (!mesh.get_property_handle(handle, name)) mesh.add_property(handle, name);
   auto& property = mesh.mproperty(handle);
   property.set_shape(static_cast<std::size_t>(control_points.cols()), Dim);
   property[0].matrix() = control_points.transpose();
-  if (persistent) property.set_persistent(true);
 }
 
 //! The cage stored by set_rest_cage(); empty if there is none. \return Dim x n

@@ -7,15 +7,148 @@
 //!     weights[vertex][i] = 0.5;
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <cstddef>
-#include <iosfwd>
+#include <limits>
+#include <new>
 #include <string>
 #include <type_traits>
+#include <vector>
 
+#include <Eigen/Core>
+
+#include "flbc/errors.h"
 #include "flbc/openmesh/block_property.h"
-#include "flbc/openmesh/row_block.h"
 
 namespace flbc::openmesh {
+
+//! A view of the values of one element: `components` rows of `width` values. A copy of the view
+//! refers to the same values. Assigning to it copies the values, as copy_property() and copy_to()
+//! of OpenMesh expect. Valid until the property changes its number of elements or its shape.
+//! \tparam Scalar  type of the values, const for read-only views
+template <class Scalar>
+class RowsView {
+ public:
+  RowsView(Scalar* data, std::size_t components, std::size_t width)
+      : data_(data), components_(components), width_(width) {}
+  RowsView(const RowsView& rows) = default;
+
+  //! A writable view converts to a read-only view.
+  template <class Other, class = std::enable_if_t<std::is_same_v<const Other, Scalar>>>
+  RowsView(const RowsView<Other>& rows) : RowsView(rows.data(), rows.components(), rows.width()) {}
+
+  //! Copies the numbers. \throws InputError if the views differ in shape
+  RowsView& operator=(const RowsView& rows) {
+    if (this != &rows) assign(rows);
+    return *this;
+  }
+  template <class Other>
+  RowsView& operator=(const RowsView<Other>& rows) {
+    assign(rows);
+    return *this;
+  }
+
+  std::size_t components() const { return components_; }
+  std::size_t width() const { return width_; }
+  Scalar* data() const { return data_; }
+  Scalar* row(std::size_t component) const { return data_ + component * width_; }
+
+  //! Value i < width() of a component.
+  Scalar& operator()(std::size_t component, std::size_t i) const {
+    assert(component < components_ && i < width_);
+    return row(component)[i];
+  }
+
+  //! Value i of the first component.
+  Scalar& operator[](std::size_t i) const { return (*this)(0, i); }
+
+  //! The values as an Eigen matrix, components x width.
+  auto matrix() const {
+    using Matrix =
+        Eigen::Matrix<std::remove_const_t<Scalar>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    using Mapped = std::conditional_t<std::is_const_v<Scalar>, const Matrix, Matrix>;
+    return Eigen::Map<Mapped>(data_, static_cast<Eigen::Index>(components_),
+                              static_cast<Eigen::Index>(width_));
+  }
+
+ private:
+  void assign(const RowsView<const Scalar>& rows) {
+    static_assert(!std::is_const_v<Scalar>, "these numbers may only be read");
+    if (rows.components() != components_ || rows.width() != width_) {
+      throw InputError("rows of " + std::to_string(rows.components()) + " x " +
+                       std::to_string(rows.width()) + " numbers cannot be copied to rows of " +
+                       std::to_string(components_) + " x " + std::to_string(width_));
+    }
+    if (rows.data() != data_) std::copy_n(rows.data(), components_ * width_, data_);
+  }
+
+  Scalar* data_;
+  std::size_t components_, width_;
+};
+
+//! Like a std::vector whose elements are `components` rows of `width` values each. Value i of
+//! component c of element e is at data()[(e * components() + c) * width() + i]. New values are 0.
+template <class Scalar>
+class RowBlock {
+ public:
+  RowBlock() = default;
+  //! No elements yet. \throws std::bad_alloc if one element would exceed the address space
+  RowBlock(std::size_t components, std::size_t width) : components_(components), width_(width) {
+    if (width > 0 && components > kMostNumbers / width) throw std::bad_alloc();
+  }
+
+  std::size_t size() const { return size_; }
+  std::size_t components() const { return components_; }
+  std::size_t width() const { return width_; }
+  std::size_t element_size() const { return components_ * width_; }  //!< numbers per element
+  Scalar* data() { return numbers_.data(); }
+  const Scalar* data() const { return numbers_.data(); }
+
+  RowsView<Scalar> operator[](std::size_t e) {
+    return {data() + e * element_size(), components_, width_};
+  }
+  RowsView<const Scalar> operator[](std::size_t e) const {
+    return {data() + e * element_size(), components_, width_};
+  }
+
+  void reserve(std::size_t elements) { numbers_.reserve(numbers_of(elements)); }
+  void resize(std::size_t elements) {
+    numbers_.resize(numbers_of(elements));
+    size_ = elements;
+  }
+  //! Keeps the shape, frees the memory.
+  void clear() { *this = RowBlock(components_, width_); }
+
+  //! Takes the values of all elements. \param numbers  element_size() per element
+  void assign(std::size_t elements, std::vector<Scalar> numbers) {
+    assert(numbers.size() == numbers_of(elements));
+    numbers_ = std::move(numbers);
+    size_ = elements;
+  }
+
+  void swap(std::size_t first, std::size_t second) {
+    if (first == second) return;
+    Scalar* const numbers = data() + first * element_size();
+    std::swap_ranges(numbers, numbers + element_size(), data() + second * element_size());
+  }
+  void copy(std::size_t from, std::size_t to) {
+    if (from != to) std::copy_n((*this)[from].data(), element_size(), (*this)[to].data());
+  }
+
+ private:
+  static constexpr std::size_t kMostNumbers =
+      (std::numeric_limits<std::ptrdiff_t>::max)() / sizeof(Scalar);
+
+  std::size_t numbers_of(std::size_t elements) const {
+    if (element_size() > 0 && elements > kMostNumbers / element_size()) throw std::bad_alloc();
+    return elements * element_size();
+  }
+
+  std::vector<Scalar> numbers_;
+  std::size_t size_ = 0;
+  std::size_t components_ = 1, width_ = 0;
+};
 
 //! Value type of a wide property: an element is a block of rows of Scalars, accessed as RowsView.
 template <class Scalar>
@@ -27,39 +160,11 @@ struct Wide {
 template <class Scalar>
 struct BlockOf<Wide<Scalar>> {
   using Block = RowBlock<Scalar>;
-  static constexpr const char* kName =
-      std::is_same_v<Scalar, float> ? "flbc::Wide<float>" : "flbc::Wide<double>";
 };
-
-//! Bytes that store_block() writes: the shape and the values.
-template <class Scalar>
-std::size_t stored_size(const RowBlock<Scalar>& rows);
-
-//! Writes a block in the format of .om files. \return bytes written, 0 if the stream fails
-//! \throws IoError if the block exceeds the limit of .om files, 4 GiB - 1
-template <class Scalar>
-std::size_t store_block(std::ostream& out, bool swap, const std::string& name,
-                        const RowBlock<Scalar>& rows);
-
-//! Reads the output of store_block(); `rows` is unchanged on failure. Memory is limited by the data
-//! in the stream. \return bytes read
-//! \throws InputError if this is not a block of Scalars for rows.size() elements, or is damaged.
-//! OpenMesh ignores a failed stream and would loop forever, so this throws.
-template <class Scalar>
-std::size_t restore_block(std::istream& in, bool swap, const std::string& name,
-                          RowBlock<Scalar>& rows);
 
 }  // namespace flbc::openmesh
 
 namespace OpenMesh {
-
-namespace IO {
-
-template <class Scalar>
-struct binary<flbc::openmesh::Wide<Scalar>>
-    : flbc::openmesh::BlockBinary<flbc::openmesh::Wide<Scalar>> {};
-
-}  // namespace IO
 
 //! The type that mesh.property(handle, element) returns.
 template <class Scalar>
@@ -94,10 +199,3 @@ class PropertyT<flbc::openmesh::Wide<Scalar>>
 };
 
 }  // namespace OpenMesh
-
-namespace flbc::openmesh {
-
-inline BlockCreator<Wide<float>> wide_float_creator;
-inline BlockCreator<Wide<double>> wide_double_creator;
-
-}  // namespace flbc::openmesh
