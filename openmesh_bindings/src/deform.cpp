@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/parallel.h"
-#include "coordinates/weighted_sums.h"
+#include "base/weighted_sums.h"
 #include "flbc/errors.h"
 
 namespace flbc::openmesh::internal {

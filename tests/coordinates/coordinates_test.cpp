@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "coordinates/mean_count.h"
+#include "deformation/mean_count.h"
 #include "flbc/cell_locator.h"
 #include "flbc/harmonic.h"
 #include "flbc/interpolate.h"

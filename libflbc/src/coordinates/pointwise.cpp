@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "coordinates/place_checks.h"
+#include "placement/place_checks.h"
 #include "flbc/blended.h"
 #include "flbc/cage_facts.h"
 #include "flbc/errors.h"

@@ -10,7 +10,7 @@
 #include "base/instantiate.h"
 #include "base/parallel.h"
 #include "base/shape_checks.h"
-#include "coordinates/mean_count.h"
+#include "deformation/mean_count.h"
 #include "flbc/bounding_box.h"
 #include "mesh/cell_geometry.h"
 

@@ -8,7 +8,7 @@
 #include "base/messages.h"
 #include "base/parallel.h"
 #include "base/shape_checks.h"
-#include "coordinates/nearest_simplex.h"
+#include "placement/nearest_simplex.h"
 #include "flbc/errors.h"
 #include "flbc/non_negative.h"
 #include "flbc/types.h"

@@ -6,8 +6,8 @@
 
 #include "base/parallel.h"
 #include "base/shape_checks.h"
-#include "coordinates/place_checks.h"
-#include "coordinates/place_on_cage.h"
+#include "placement/place_checks.h"
+#include "placement/place_on_cage.h"
 #include "flbc/deform.h"
 
 namespace flbc {

@@ -6,7 +6,7 @@
 #include "base/instantiate.h"
 #include "base/parallel.h"
 #include "base/shape_checks.h"
-#include "coordinates/weighted_sums.h"
+#include "base/weighted_sums.h"
 #include "flbc/errors.h"
 
 namespace flbc {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/interpolate.h"
 
-#include "coordinates/place_checks.h"
+#include "placement/place_checks.h"
 
 namespace flbc {
 
