@@ -83,7 +83,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/flbc.pc DESTINATION ${CMAKE_INSTALL_LI
   COMPONENT core_dev)
 
 # A component's own libraries, in the order of static linking, and other packages of flbc that it
-# needs. Which meshers a program links decides FLBC_LINKS_... in linked_meshers.h.
+# needs. Which meshers a program links decides FLBC_LINKS_... in make_domain.h.
 function(flbc_install_pc component package libraries)
   if(NOT TARGET flbc_${component})
     return()

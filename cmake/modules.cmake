@@ -83,7 +83,7 @@ function(flbc_add_component name)
   set_target_properties(flbc_${name} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
   target_link_libraries(flbc_${name} PUBLIC flbc::flbc ${ARGN})
   string(TOUPPER ${name} upper)
-  target_compile_definitions(flbc_${name} INTERFACE FLBC_LINKS_${upper})  # linked_meshers.h
+  target_compile_definitions(flbc_${name} INTERFACE FLBC_LINKS_${upper})  # make_domain.h
 endfunction()
 
 # Every public header except flbc.h belongs to exactly one module.

@@ -13,7 +13,6 @@
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 
 #include <flbc/cell_locator.h>
-#include <flbc/interpolate.h>
 #include <flbc/io/cage_io.h>
 #include <flbc/io/model_file.h>
 #include <flbc/meshing.h>

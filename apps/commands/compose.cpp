@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "commands/commands.h"
-#include "flbc/compose.h"
+#include "flbc/deform.h"
 #include "flbc/io/binding_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/quality.h"

@@ -12,7 +12,7 @@
 #include "flbc/green.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
-#include "flbc/names.h"
+#include "flbc/report.h"
 #include "flbc/solver.h"
 #include "flbc/sparsify_error.h"
 #include "front/instantiate.h"

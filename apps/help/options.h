@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "flbc/names.h"
+#include "flbc/report.h"
 
 namespace flbc::app {
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "flbc/names.h"
+#include "flbc/report.h"
 #include "flbc/version.h"
 
 namespace flbc::app {

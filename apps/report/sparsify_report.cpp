@@ -7,7 +7,6 @@
 #include "flbc/cage.h"
 #include "flbc/cell_locator.h"
 #include "flbc/errors.h"
-#include "flbc/interpolate.h"
 #include "flbc/poses.h"
 #include "flbc/quality.h"
 #include "flbc/sparsify.h"

@@ -5,7 +5,6 @@
 
 #include <string>
 
-#include "flbc/observer.h"
 #include "flbc/options.h"
 
 namespace flbc::app {

@@ -3,7 +3,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/formats.h"
-#include "flbc/names.h"
+#include "flbc/report.h"
 #include "help/options.h"
 
 namespace flbc::app {

@@ -23,7 +23,7 @@ struct SolveSettings {
   OutsidePoints outside = OutsidePoints::kFail;  //!< treatment of the model's vertices there
   Index vertices = 0;                            //!< wanted, 0 = as make_domain() chooses
   MesherSettings meshing{};
-  std::optional<double> penalty{};           //!< as published (flbc/published_penalty.h)
+  std::optional<double> penalty{};           //!< as published (flbc/options.h)
   SolverOptions options{};                   //!< but for the penalty, which depends on the mesh
   std::string locality{};                    //!< file of the model's masks, or else the domain's
   int mirror_axis = -1;                      //!< of the exact mirror of model weights; -1 for none

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "experiments.h"
-#include "flbc/names.h"
+#include "flbc/report.h"
 #include "problems.h"
 
 namespace flbc::bench {

@@ -11,7 +11,6 @@
 #include "flbc/lbc_problem.h"
 #include "flbc/meshing.h"
 #include "flbc/options.h"
-#include "flbc/published_penalty.h"
 #include "flbc/quality.h"
 #include "flbc/solver.h"
 #include "toolkit.h"

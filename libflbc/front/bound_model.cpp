@@ -9,7 +9,7 @@
 #include "flbc/errors.h"
 #include "flbc/io/binding_file.h"
 #include "flbc/io/weights_io.h"
-#include "flbc/names.h"
+#include "flbc/report.h"
 #include "front/facts.h"
 #include "front/instantiate.h"
 #include "front/load.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "flbc/errors.h"
-#include "flbc/linked_meshers.h"
+#include "flbc/make_domain.h"
 #include "front/load.h"
 #include "front/wording.h"
 

@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "flbc/errors.h"
-#include "flbc/names.h"
+#include "flbc/report.h"
 
 namespace flbc::python {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "arrays.h"
 #include "flbc/errors.h"
-#include "flbc/linked_meshers.h"
-#include "flbc/names.h"
+#include "flbc/make_domain.h"
+#include "flbc/report.h"
 #include "flbc/rig.h"
 #include "flbc/solver.h"
 #include "options.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/compose.h"
+#include "flbc/deform.h"
 
 #include "support/errors.h"
 #include "support/test.h"

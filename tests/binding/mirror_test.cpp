@@ -3,7 +3,7 @@
 #include "flbc/mirror.h"
 
 #include "flbc/deform.h"
-#include "flbc/mask_conflicts.h"
+#include "flbc/masks.h"
 #include "flbc/rig.h"
 #include "support/errors.h"
 #include "support/refined_sample.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Masks of a model: exact zeros at its points after each step of a bind.
-#include "flbc/mask_conflicts.h"
+#include "flbc/masks.h"
 #include "flbc/place_masks.h"
 #include "flbc/rig.h"
 #include "support/errors.h"

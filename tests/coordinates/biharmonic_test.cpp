@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/biharmonic.h"
+#include "flbc/harmonic.h"
 
 #include "flbc/coordinates.h"
 #include "support/cages_of_all_kinds.h"

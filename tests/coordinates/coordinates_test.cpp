@@ -2,7 +2,6 @@
 #include "deformation/mean_count.h"
 #include "flbc/cell_locator.h"
 #include "flbc/harmonic.h"
-#include "flbc/interpolate.h"
 #include "support/test.h"
 
 namespace flbc::testing {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/mean_value.h"
+#include "flbc/pointwise.h"
 
 #include "support/cages_of_all_kinds.h"
 

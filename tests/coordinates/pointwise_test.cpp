@@ -2,11 +2,7 @@
 #include "flbc/pointwise.h"
 
 #include "coordinates/polygon_triangulation.h"
-#include "flbc/blended.h"
 #include "flbc/cage_facts.h"
-#include "flbc/maximum_entropy.h"
-#include "flbc/maximum_likelihood.h"
-#include "flbc/mean_value.h"
 #include "support/cages_of_all_kinds.h"
 
 namespace flbc::testing {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/gradients.h"
 
+#include "flbc/cell_locator.h"
 #include "flbc/harmonic.h"
-#include "flbc/interpolate.h"
 #include "mesh/cell_geometry.h"
 #include "support/test.h"
 

@@ -5,8 +5,7 @@
 
 #include "flbc/cage_facts.h"
 #include "flbc/gradients.h"
-#include "flbc/maximum_likelihood.h"
-#include "flbc/mean_value.h"
+#include "flbc/pointwise.h"
 #include "flbc/solver.h"
 #include "fuzz/mutations.h"
 #include "support/test.h"

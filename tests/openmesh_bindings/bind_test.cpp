@@ -3,7 +3,6 @@
 #include "flbc/openmesh/bind.h"
 
 #include "flbc/cell_locator.h"
-#include "flbc/interpolate.h"
 #include "flbc/io/binding_file.h"
 #include "flbc/solver.h"
 #include "support/scratch.h"

@@ -5,7 +5,7 @@
 #include "flbc/cage_facts.h"
 #include "flbc/deform.h"
 #include "flbc/evaluator.h"
-#include "flbc/mean_value.h"
+#include "flbc/pointwise.h"
 #include "flbc/sparsify.h"
 #include "support/test.h"
 

@@ -2,8 +2,8 @@
 // Weights that go from one version of a model to another.
 #include "flbc/transfer_weights.h"
 
-#include "flbc/mean_value.h"
 #include "flbc/non_negative.h"
+#include "flbc/pointwise.h"
 #include "support/test.h"
 
 namespace flbc::testing {

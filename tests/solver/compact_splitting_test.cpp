@@ -5,7 +5,7 @@
 
 #include "flbc/harmonic.h"
 #include "flbc/non_negative.h"
-#include "flbc/published_penalty.h"
+#include "flbc/options.h"
 #include "flbc/solver.h"
 #include "support/published_problem.h"
 #include "support/refined_sample.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A solver that resumes: a solve in slices equals one in a piece, and a solver whose options change
 // equals a new one.
-#include "flbc/names.h"
-#include "flbc/published_penalty.h"
+#include "flbc/options.h"
+#include "flbc/report.h"
 #include "solver/methods/method_run.h"
 #include "support/refined_sample.h"
 #include "support/solver_options.h"

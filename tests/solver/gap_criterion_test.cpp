@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs that end because their weights are proved to be near the optimum.
-#include "flbc/names.h"
+#include "flbc/report.h"
 #include "solver/plan/constants.h"
 #include "solver/run/run.h"
 #include "support/solver_models.h"

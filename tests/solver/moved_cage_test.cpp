@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Editing a rest cage: the same optima as from scratch, for any path.
-#include "flbc/names.h"
+#include "flbc/report.h"
 #include "support/errors.h"
 #include "support/refined_sample.h"
 #include "support/solver_options.h"

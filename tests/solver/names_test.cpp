@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/names.h"
+#include "flbc/report.h"
 
 #include "support/test.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The reach of control points: a factor of their functions phi, in all ways to solve.
-#include "flbc/names.h"
 #include "flbc/quality.h"
+#include "flbc/report.h"
 #include "support/errors.h"
 #include "support/refined_sample.h"
 #include "support/solver_options.h"

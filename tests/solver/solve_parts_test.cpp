@@ -2,7 +2,7 @@
 // Cages of several parts: each part is solved as if it were alone, for any numbering.
 #include "flbc/check.h"
 #include "flbc/coordinates.h"
-#include "flbc/names.h"
+#include "flbc/report.h"
 #include "support/hollow_sample.h"
 
 namespace flbc::testing {

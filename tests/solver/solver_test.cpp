@@ -3,8 +3,8 @@
 
 #include "flbc/coordinates.h"
 #include "flbc/harmonic.h"
-#include "flbc/names.h"
-#include "flbc/published_penalty.h"
+#include "flbc/options.h"
+#include "flbc/report.h"
 #include "support/refined_sample.h"
 #include "support/solver_options.h"
 

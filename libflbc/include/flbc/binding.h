@@ -14,7 +14,6 @@
 #include "flbc/make_domain.h"
 #include "flbc/masks.h"
 #include "flbc/mirror.h"
-#include "flbc/observer.h"
 #include "flbc/options.h"
 #include "flbc/placement.h"
 #include "flbc/pointwise.h"

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Finds the cell of a mesh that contains a point.
+//! Finds the cell of a mesh that contains a point, and interpolates weights there.
 #pragma once
 
 #include <memory>
 #include <vector>
 
 #include "flbc/domain_mesh.h"
+#include "flbc/sparse_weights.h"
 
 namespace flbc {
 
@@ -49,5 +50,20 @@ class CellLocator {
 //! of its size, with the first such point and their number
 template <int Dim>
 std::vector<Location<Dim>> locate_points(const DomainMesh<Dim>& mesh, const PointList<Dim>& points);
+
+//! Interpolates weights linearly in the cell of each located point. This preserves reproduction and
+//! partition of unity exactly.
+//! \param mesh  mesh of the weights, V vertices
+//! \param weights  of V points
+//! \param places  as returned by locate_points()
+//! \return weights of the places
+template <int Dim>
+SparseWeights interpolate(const DomainMesh<Dim>& mesh, const SparseWeights& weights,
+                          const std::vector<Location<Dim>>& places);
+
+//! The same at one location: n weights.
+template <int Dim>
+Eigen::VectorXd interpolate(const DomainMesh<Dim>& mesh, const SparseWeights& weights,
+                            const Location<Dim>& place);
 
 }  // namespace flbc

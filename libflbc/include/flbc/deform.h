@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Moving a model with its cage: X = C W for any number of poses C.
+//! Moving a model with its cage: X = C W for any number of poses C. Control points may follow
+//! others.
 #pragma once
 
 #include "flbc/sparse_weights.h"
@@ -26,5 +27,15 @@ PointList<Dim> deform(const SparseWeights& weights, const PointList<Dim>& contro
 //! \throws InputError if the numbers of points differ
 template <int Dim>
 Eigen::VectorXd displacements(const PointList<Dim>& before, const PointList<Dim>& after);
+
+//! The product of weights and a map, if the n control points themselves follow m others. With
+//! weights of the map >= 0 that sum to 1 and reproduce the n control points, the result has the
+//! same properties for the P points. reduce_influences() limits the influences, which grow.
+//! \param weights  of P points for n control points
+//! \param map  weights of the n control points for m others
+//! \return weights of P points for m control points
+//! \throws InputError if sizes do not match, or naming the first control point whose weights in the
+//! map are negative, or sum to 1 with an error above 1e-9
+SparseWeights compose(const SparseWeights& weights, const SparseWeights& map);
 
 }  // namespace flbc

@@ -17,8 +17,7 @@
 //!     Eigen::MatrixXd moved = flbc::deform(solution.weights, cage.points);  // move cage.points
 //!
 //! Further headers:
-//! - other coordinates: harmonic.h, mean_value.h, maximum_entropy.h, maximum_likelihood.h,
-//!   blended.h, biharmonic.h, green.h; by their names: coordinates.h, pointwise.h
+//! - other coordinates: harmonic.h, pointwise.h, green.h; by their names: coordinates.h
 //! - fewer influences: sparsify.h
 //! - checks: check.h, cage_facts.h
 //! - the discretized problem: lbc_problem.h

@@ -4,8 +4,11 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "flbc/errors.h"
 #include "flbc/types.h"
 
 namespace flbc {
@@ -77,6 +80,16 @@ class PointMasks {
   std::vector<std::vector<Index>> kinds_;  // distinct sets of masked control points; first: none
   std::vector<Index> kind_of_;             // per point
   std::vector<Index> masked_;
+};
+
+//! Masked points that no weights >= 0 of the control points that may move them reproduce.
+class MaskConflict : public InputError {
+ public:
+  MaskConflict(const std::string& message, std::vector<Index> masked, std::vector<Index> cure)
+      : InputError(message), points(std::move(masked)), control_points(std::move(cure)) {}
+
+  std::vector<Index> points;          //!< ascending
+  std::vector<Index> control_points;  //!< ascending; without their masks, all points can obey
 };
 
 }  // namespace flbc

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Options of a solve.
+//! Options and callbacks of a solve.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
+#include "flbc/cage.h"
 #include "flbc/distance_weights.h"
+#include "flbc/domain_mesh.h"
 #include "flbc/masks.h"
 #include "flbc/types.h"
 
@@ -143,6 +146,61 @@ void validate(const SolverOptions& options);
 //! stay automatic: the penalty.
 //! \param options  valid
 SolverOptions resolve(SolverOptions options);
+
+//! Progress of a run.
+struct Progress {
+  int iteration;                    //!< counted from 1
+  double relative_primal_residual;  //!< |r_p| or estimated error, divided by its threshold
+  double relative_dual_residual;    //!< |r_d| divided by its threshold; 0 if the method has none
+  int finer_levels = 0;             //!< number of meshes or parts that follow this one
+  //! Computes the objective of the current weights, in the units of SolveReport::objective. A call
+  //! takes as long as one or two iterations. Valid only during the callback.
+  std::function<double()> objective{};
+};
+
+//! Stages of a solve, other than the iteration, that may take long.
+enum class Stage {
+  kDistances,    //!< geodesic distances for phi
+  kNonNegative,  //!< projection of the final weights
+  kCertificate   //!< lower bound at the end
+};
+
+//! Callbacks of a solve. They run on the calling thread; each may be empty.
+struct Observer {
+  //! Called every ten iterations; returning false stops the run. May throw: the
+  //! exception leaves the solve.
+  std::function<bool(const Progress&)> progress{};
+
+  //! Called before every iteration of Method::kWeights, at least every ten iterations of other
+  //! methods, and very often during stages. Throw to cancel the solve without a result.
+  std::function<void()> poll{};
+
+  //! Called repeatedly during a stage with its progress in [0, 1]. May throw, as poll().
+  std::function<void(Stage stage, double done)> stage{};
+};
+
+//! Limits the cost of one solve, for example to get one result per frame while a user drags a
+//! control point. A solve makes at least one iteration. The first one also solves the coarse
+//! mesh of a refined one to the end.
+struct Budget {
+  int iterations = 0;  //!< maximum number, >= 1; 0 = as in the options
+  double seconds = 0;  //!< no iteration starts after this time, setup included; checked every ten
+                       //!< iterations of kGradient, kPaper, and kLbc2014. 0 = no limit. Results
+                       //!< then depend on machine speed.
+};
+
+//! Converts a published penalty to the unit of SolverOptions::penalty. Publications state penalties
+//! for a domain whose farthest vertex lies at radius 250. They use 10 for Method::kLbc2014 (Zhang
+//! et al. 2014), and 100 in 2D and 10000 in 3D for Method::kPaper (section 5 of the paper).
+//!
+//! \param cage  n control points, in any unit of length
+//! \param mesh  domain mesh of the cage, in the same unit
+//! \param method  method of the penalty; the scaling with length depends on it
+//! \param penalty  as published, > 0
+//! \throws OptionError if the penalty is not positive and finite
+template <int Dim>
+double published_penalty(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh, Method method,
+                         double penalty);
 
 // CMake defines it for targets that link flbc::openmesh. Their solves have kGradient and kPaper.
 #ifdef FLBC_LINKS_OPENMESH

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The names of other coordinates, and those that need no domain mesh.
+//! Coordinates that need no domain mesh, for comparison, and the names of other coordinates.
 #pragma once
 
 #include "flbc/cage.h"
@@ -47,5 +47,59 @@ template <int Dim>
 SparseWeights pointwise_coordinates(const Cage<Dim>& cage, const Placement<Dim>& placement,
                                     Coordinates coordinates, bool non_negative,
                                     int num_threads = 0);
+
+//! Mean value coordinates (Floater 2003, equation 2.1; Hormann and Floater 2006 for arbitrary
+//! polygons; Ju, Schaefer and Warren 2005 for triangle meshes). They reproduce linear functions,
+//! are linear on cage facets, and smooth elsewhere. They are not local, and can be negative if the
+//! cage is not convex. They need no mesh and are also defined outside the cage. The result is
+//! accurate to rounding everywhere, even near facets, edges, control points, and the planes of
+//! facets. A point within 1e-12 of cage size from the cage is first moved to the nearest point of
+//! the cage. The result does not depend on the number of threads.
+//! \param cage  valid and free of self-intersections; may have holes and several parts, in any
+//! orientation
+//! \param points  Dim x P, finite
+//! \return n x P, each column sums to 1
+//! \throws InputError naming the first non-finite point
+template <int Dim>
+WeightMatrix mean_value_coordinates(const Cage<Dim>& cage, const PointList<Dim>& points);
+
+//! Maximum entropy coordinates (Hormann and Sukumar 2008) with the priors of their first kind. They
+//! are positive, reproduce linear functions, are linear on cage facets, and smooth inside, also in
+//! concave cages. They are not local. Each point needs a convex minimization in Dim unknowns, and
+//! no mesh.
+//! The result does not depend on the number of threads.
+//! \param cage  valid and free of self-intersections; may have holes, in any orientation
+//! \param points  Dim x P, finite, inside the cage or outside by at most kBoundaryTolerance
+//! \return n x P, each column sums to 1
+//! \throws InputError naming the first point that is not finite or outside the cage
+template <int Dim>
+WeightMatrix maximum_entropy_coordinates(const Cage<Dim>& cage, const PointList<Dim>& points);
+
+//! Maximum likelihood coordinates (Chang, Deng and Hormann 2023), without their optional scaling by
+//! distances. They are non-negative, reproduce linear functions, are linear on cage facets, and
+//! smooth inside, also in concave cages. They are not local. Each point needs a convex minimization
+//! in Dim unknowns, and no mesh. In 3D, the paper has no proof that the minimum exists in every
+//! concave cage.
+//! The result does not depend on the number of threads.
+//! \param cage  valid and free of self-intersections; may have holes, in any orientation
+//! \param points  Dim x P, finite, inside the cage or outside by at most kBoundaryTolerance
+//! \return n x P, each column sums to 1
+//! \throws InputError naming the first point that is not finite, is outside the cage, or has no
+//! such coordinates
+template <int Dim>
+WeightMatrix maximum_likelihood_coordinates(const Cage<Dim>& cage, const PointList<Dim>& points);
+
+//! Blended barycentric coordinates (Anisimov, Panozzo and Hormann 2017), in 2D: mean value
+//! coordinates of the quadrilaterals of a constrained Delaunay triangulation, blended in each
+//! triangle. They are non-negative, reproduce linear functions, are linear on cage edges, and have
+//! continuous first derivatives inside. At most 6 weights of a point are positive, those of
+//! neighboring triangles. They are in closed form, and depend on the triangulation.
+//! \param cage  valid and free of self-intersections; may have holes and several parts, in any
+//! orientation
+//! \param points  2 x P, finite, inside the cage or outside by at most kBoundaryTolerance
+//! \return n x P, each column sums to 1
+//! \throws InputError naming the first point that is not finite or outside the cage; also if the
+//! cage intersects itself and has no triangulation
+WeightMatrix blended_coordinates(const Cage<2>& cage, const PointList<2>& points);
 
 }  // namespace flbc

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! The report of a run.
+//! The report of a run, and names of options and statuses, as used on the command line.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "flbc/cage.h"
 #include "flbc/certificate.h"
 #include "flbc/options.h"
+#include "flbc/placement.h"
+#include "flbc/pointwise.h"
 #include "flbc/quality.h"
 #include "flbc/types.h"
 
@@ -90,5 +95,23 @@ struct SolveReport {
   std::vector<SolveReport> parts{};  //!< if the cage has several parts, ordered by first
                                      //!< control point
 };
+
+//! The name of a value, such as "weights" or "lbc2014".
+//! \tparam Enum  Method, Coordinates, NonNegative, DistanceScheme, Distances, Precision, ActiveSet,
+//! SolveStatus, Criterion, DefectKind, or OutsidePoints
+template <class Enum>
+const char* name_of(Enum value);
+
+//! All names of an enumeration, default first.
+//! \tparam Enum  as for name_of()
+template <class Enum>
+std::vector<std::string> names_of();
+
+//! The value with a name; inverse of name_of().
+//! \tparam Enum  as for name_of()
+//! \param name  as returned by name_of()
+//! \return no value if the name is unknown
+template <class Enum>
+std::optional<Enum> value_named(const std::string& name);
 
 }  // namespace flbc

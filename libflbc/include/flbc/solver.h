@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "flbc/lbc_problem.h"
-#include "flbc/observer.h"
 #include "flbc/options.h"
 #include "flbc/report.h"
 #include "flbc/sparse_weights.h"

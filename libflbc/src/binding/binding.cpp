@@ -11,12 +11,11 @@
 #include "base/messages.h"
 #include "base/shape_checks.h"
 #include "flbc/bounding_box.h"
-#include "flbc/compose.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
-#include "flbc/names.h"
 #include "flbc/non_negative.h"
 #include "flbc/place_masks.h"
+#include "flbc/report.h"
 #include "flbc/rig.h"
 
 namespace flbc {

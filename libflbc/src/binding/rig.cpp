@@ -15,8 +15,8 @@
 #include "flbc/errors.h"
 #include "flbc/lbc_problem.h"
 #include "flbc/mirror.h"
-#include "flbc/names.h"
 #include "flbc/pointwise.h"
+#include "flbc/report.h"
 #include "solver/api/moved_mesh.h"
 
 namespace flbc {

@@ -4,7 +4,7 @@
 // its up to three quadrilaterals are blended by functions of the barycentric coordinates lambda.
 // The function of a quadrilateral is 1 on its diagonal, and has no slope there, so first
 // derivatives are continuous across diagonals.
-#include "flbc/blended.h"
+#include "flbc/pointwise.h"
 
 #include <array>
 

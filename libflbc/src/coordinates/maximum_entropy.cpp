@@ -7,7 +7,7 @@
 // with areas instead of lengths for a triangle, relative to its own area, because control points
 // have different numbers of triangles. Weights at x on a facet then vanish for all other control
 // points, also in concave cages.
-#include "flbc/maximum_entropy.h"
+#include "flbc/pointwise.h"
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 // u_i = 0. By duality mu_i = 1 / (1 + psi . u_i) up to a factor, where psi minimizes -sum_i log(1 +
 // psi . u_i). Each u_i is a combination of c_j - x with positive factors, so that mu_i gives the
 // weights w_j. Next to a facet these factors grow without bounds, so only its corners keep weights.
-#include "flbc/maximum_likelihood.h"
+#include "flbc/pointwise.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/mean_value.h"
+#include "flbc/pointwise.h"
 
 #include "base/instantiate.h"
 #include "base/parallel.h"

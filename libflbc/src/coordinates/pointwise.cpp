@@ -5,14 +5,10 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "placement/place_checks.h"
-#include "flbc/blended.h"
 #include "flbc/cage_facts.h"
 #include "flbc/errors.h"
-#include "flbc/maximum_entropy.h"
-#include "flbc/maximum_likelihood.h"
-#include "flbc/mean_value.h"
 #include "flbc/non_negative.h"
+#include "placement/place_on_cage.h"
 
 namespace flbc {
 namespace {

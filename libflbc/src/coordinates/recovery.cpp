@@ -9,7 +9,6 @@
 #include "base/parallel.h"
 #include "coordinates/poisson_weights.h"
 #include "flbc/errors.h"
-#include "flbc/harmonic.h"
 #include "linear/dense.h"
 #include "mesh/cell_geometry.h"
 #include "mesh/vertex_cells.h"
@@ -115,19 +114,6 @@ WeightMatrix integrate_least_squares(const LbcProblem<Dim>& problem,
                                  DirichletProblem<Dim>(problem.mesh, problem.boundary));
 }
 
-template <int Dim>
-WeightMatrix harmonic_coordinates(const LbcProblem<Dim>& problem,
-                                  const DirichletProblem<Dim>& poisson) {
-  auto weights = poisson.solve(boundary_matrix(problem.boundary, problem.num_control_points()));
-  project_interior(problem, weights);
-  return weights;
-}
-
-template <int Dim>
-WeightMatrix harmonic_coordinates(const LbcProblem<Dim>& problem) {
-  return harmonic_coordinates(problem, DirichletProblem<Dim>(problem.mesh, problem.boundary));
-}
-
 namespace {
 
 // The nearest weights on the same control points with sum 1 that reproduce the point.
@@ -172,12 +158,7 @@ FLBC_INSTANTIATE(double, 2)
 FLBC_INSTANTIATE(double, 3)
 #undef FLBC_INSTANTIATE
 
-#define FLBC_INSTANTIATE(Dim)                                             \
-  template void project_interior(const LbcProblem<Dim>&, SparseWeights&); \
-  template WeightMatrix harmonic_coordinates(const LbcProblem<Dim>&);     \
-  template WeightMatrix harmonic_coordinates(const LbcProblem<Dim>&, const DirichletProblem<Dim>&);
-FLBC_INSTANTIATE(2)
-FLBC_INSTANTIATE(3)
-#undef FLBC_INSTANTIATE
+template void project_interior(const LbcProblem<2>&, SparseWeights&);
+template void project_interior(const LbcProblem<3>&, SparseWeights&);
 
 }  // namespace flbc

@@ -6,9 +6,9 @@
 
 #include "base/parallel.h"
 #include "base/shape_checks.h"
-#include "placement/place_checks.h"
-#include "placement/place_on_cage.h"
 #include "flbc/deform.h"
+#include "mesh/check_place.h"
+#include "placement/place_on_cage.h"
 
 namespace flbc {
 namespace {

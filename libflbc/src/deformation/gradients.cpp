@@ -6,12 +6,12 @@
 #include "base/instantiate.h"
 #include "base/parallel.h"
 #include "base/shape_checks.h"
-#include "placement/place_checks.h"
-#include "placement/place_on_cage.h"
+#include "flbc/cell_locator.h"
 #include "flbc/errors.h"
-#include "flbc/interpolate.h"
 #include "mesh/cell_geometry.h"
+#include "mesh/check_place.h"
 #include "mesh/vertex_cells.h"
+#include "placement/place_on_cage.h"
 
 namespace flbc {
 namespace {

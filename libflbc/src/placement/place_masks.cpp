@@ -11,7 +11,7 @@
 #include "cage/facet_locator.h"
 #include "flbc/bounding_box.h"
 #include "flbc/errors.h"
-#include "flbc/mask_conflicts.h"
+#include "flbc/masks.h"
 #include "flbc/mirror.h"
 #include "flbc/non_negative.h"
 #include "linear/dense.h"

@@ -17,17 +17,16 @@
 #include "base/parallel.h"
 #include "base/shape_checks.h"
 #include "cage/point_in_cage.h"
-#include "placement/nearest_simplex.h"
-#include "placement/place_checks.h"
-#include "placement/place_on_cage.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "flbc/cage_facts.h"
+#include "flbc/cell_locator.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
-#include "flbc/interpolate.h"
 #include "linear/dense.h"
 #include "mesh/cell_geometry.h"
+#include "placement/nearest_simplex.h"
+#include "placement/place_on_cage.h"
 
 namespace flbc {
 namespace {

@@ -8,7 +8,7 @@
 #include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/parallel.h"
-#include "flbc/mask_conflicts.h"
+#include "flbc/masks.h"
 #include "polytope/nearest_point_in_hull.h"
 #include "polytope/scaling.h"
 #include "polytope/small_lu.h"

@@ -8,7 +8,7 @@
 
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
-#include "flbc/names.h"
+#include "flbc/report.h"
 #include "flbc/version.h"
 #include "weights/npz.h"
 #include "weights/weights_formats.h"

@@ -7,7 +7,6 @@
 #include "base/parallel.h"
 #include "base/stage_progress.h"
 #include "base/stopwatch.h"
-#include "flbc/biharmonic.h"
 #include "flbc/errors.h"
 #include "flbc/harmonic.h"
 #include "flbc/non_negative.h"

@@ -3,7 +3,7 @@
 //! Starts a solve from the solution on the coarse mesh.
 #pragma once
 
-#include "flbc/observer.h"
+#include "flbc/options.h"
 #include "solver/methods/method_run.h"
 #include "solver/multilevel/coarse_problem.h"
 

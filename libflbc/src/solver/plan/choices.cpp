@@ -7,7 +7,7 @@
 #include "base/instantiate.h"
 #include "base/shape_checks.h"
 #include "flbc/bounding_box.h"
-#include "flbc/published_penalty.h"
+#include "flbc/options.h"
 #include "solver/plan/constants.h"
 
 namespace flbc::plan {

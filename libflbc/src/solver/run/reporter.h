@@ -8,7 +8,7 @@
 
 #include "base/stage_progress.h"
 #include "base/stopwatch.h"
-#include "flbc/observer.h"
+#include "flbc/options.h"
 
 namespace flbc {
 

@@ -15,7 +15,7 @@
 
 #include "flbc/binding.h"
 #include "flbc/bounding_box.h"
-#include "flbc/linked_meshers.h"
+#include "flbc/make_domain.h"
 #include "flbc/openmesh/binding.h"
 #include "flbc/openmesh/convert.h"
 #include "flbc/openmesh/deform.h"
@@ -199,7 +199,7 @@ BindReport bind_to(Mesh& model, const Cage<Dim>& cage, const DomainMesh<Dim>* do
 //! and reduces influences. The weights become a property, which deform() uses to move the model.
 //! The current vertex positions become the rest positions; restore_rest() restores them.
 //!
-//! The domain mesh comes from the mesher that the program links (flbc/linked_meshers.h): flbc::cgal
+//! The domain mesh comes from the mesher that the program links (flbc/make_domain.h): flbc::cgal
 //! for a cage in the plane, flbc::tetgen or flbc::netgen for a surface.
 //! \param model  a mesh of triangles or polygons, with points of floats or doubles, or a TetMesh
 //! \param cage  a Cage, or a mesh: a closed surface, or a planar mesh whose boundary is the cage

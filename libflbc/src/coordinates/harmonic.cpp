@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/biharmonic.h"
+#include "flbc/harmonic.h"
 
 #include <algorithm>
 #include <atomic>
 
 #include "base/instantiate.h"
 #include "base/parallel.h"
+#include "coordinates/poisson_weights.h"
 #include "flbc/errors.h"
 #include "problem/laplacian.h"
 
@@ -141,6 +142,19 @@ class BoxedEnergy {
 }  // namespace
 
 template <int Dim>
+WeightMatrix harmonic_coordinates(const LbcProblem<Dim>& problem,
+                                  const DirichletProblem<Dim>& poisson) {
+  auto weights = poisson.solve(boundary_matrix(problem.boundary, problem.num_control_points()));
+  project_interior(problem, weights);
+  return weights;
+}
+
+template <int Dim>
+WeightMatrix harmonic_coordinates(const LbcProblem<Dim>& problem) {
+  return harmonic_coordinates(problem, DirichletProblem<Dim>(problem.mesh, problem.boundary));
+}
+
+template <int Dim>
 WeightMatrix bounded_biharmonic_weights(const LbcProblem<Dim>& problem) {
   const Index n = problem.num_control_points();
   WeightMatrix weights = WeightMatrix::Zero(n, problem.mesh.num_vertices());
@@ -160,6 +174,12 @@ WeightMatrix bounded_biharmonic_weights(const LbcProblem<Dim>& problem) {
   return weights;
 }
 
-FLBC_INSTANTIATE_FUNCTION(bounded_biharmonic_weights)
+#define FLBC_INSTANTIATE(Dim)                                               \
+  template WeightMatrix bounded_biharmonic_weights(const LbcProblem<Dim>&); \
+  template WeightMatrix harmonic_coordinates(const LbcProblem<Dim>&);       \
+  template WeightMatrix harmonic_coordinates(const LbcProblem<Dim>&, const DirichletProblem<Dim>&);
+FLBC_INSTANTIATE(2)
+FLBC_INSTANTIATE(3)
+#undef FLBC_INSTANTIATE
 
 }  // namespace flbc

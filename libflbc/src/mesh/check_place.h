@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks that places belong to a cage and its mesh.
+// Checks that a place belongs to a mesh.
 #pragma once
 
 #include <string>
 
+#include "flbc/cell_locator.h"
 #include "flbc/errors.h"
-#include "flbc/placement.h"
 
 namespace flbc {
 
@@ -22,20 +22,6 @@ void check_place(const DomainMesh<Dim>& mesh, Index num_values, const Location<D
                    ", which does not exist or has a vertex without values; there are " +
                    std::to_string(mesh.num_cells()) + " cells, and values of " +
                    std::to_string(num_values) + " vertices");
-}
-
-//! \throws InputError if a placement is not one in this cage
-template <int Dim>
-void check_placement(const Cage<Dim>& cage, const Placement<Dim>& placement) {
-  const auto count = static_cast<Eigen::Index>(placement.places.size());
-  bool fits = placement.points.cols() == count;
-  for (const auto* points : {&placement.on_cage, &placement.outside}) {
-    for (const auto& [point, facet, coordinates, offset] : *points) {
-      fits = fits && point >= 0 && point < count && facet >= 0 && facet < cage.facets.cols();
-    }
-  }
-  if (fits) return;
-  throw InputError("the placement does not belong to this cage; place_points() makes it");
 }
 
 }  // namespace flbc
