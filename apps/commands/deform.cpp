@@ -273,8 +273,8 @@ void deform_in_batches(const io::PointLayout& layout, const std::vector<Pose<Dim
   }
   const auto bound = load_evaluated<Dim>(arguments);
   const auto wanted = outside_of(arguments, bound.policy);
-  const auto outside = wanted == OutsidePoints::kFail ? OutsidePoints::kNearest : wanted;
-  const Evaluator<Dim> evaluator(bound.cage, bound.domain, bound.domain_weights, outside);
+  const Evaluator<Dim> evaluator(bound.cage, bound.domain, bound.domain_weights,
+                                 without_failure(wanted));
   const auto start = std::chrono::steady_clock::now();
   NewFiles files;
   MovedPoints all;

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "flbc/domain_mesh.h"
 #include "flbc/io/cage_io.h"
-#include "flbc/transfer_weights.h"
 #include "flbc/types.h"
 
 namespace flbc::app {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Public functions of the core with damaged arguments.
+#include "flbc/binding.h"
 #include "flbc/boundary_values.h"
 #include "flbc/cage_facts.h"
 #include "flbc/cell_locator.h"
@@ -21,7 +22,6 @@
 #include "flbc/solver.h"
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
-#include "flbc/transfer_weights.h"
 #include "fuzz/mutations.h"
 #include "support/sample_meshes.h"
 
@@ -433,13 +433,12 @@ void connect(Mutator& mutator) {
 
 template <int Dim>
 void transfer(Mutator& mutator) {
-  PointList<Dim> control_points = valid<Dim>().sample.cage.points;
-  mutator.damage(control_points);
+  const auto cage = some_cage<Dim>(mutator);
   const auto mesh = some_mesh<Dim>(mutator);
-  const ModelElements<Dim> from{mesh.points, mesh.cells.template topRows<3>()};
   Eigen::VectorXd distances;
-  transfer_weights<Dim>(control_points, from, some_weights<Dim>(mutator), some_points<Dim>(mutator),
-                        0.1, &distances);
+  bound_by<Dim>(cage, mesh.points, some_weights<Dim>(mutator))
+      .transferred(mesh.cells.template topRows<3>(), some_points<Dim>(mutator), {}, 0.1,
+                   &distances);
 }
 
 template <int Dim>

@@ -21,7 +21,6 @@
 #include "flbc/report.h"
 #include "flbc/sparse_weights.h"
 #include "flbc/sparsify.h"
-#include "flbc/transfer_weights.h"
 #include "flbc/types.h"
 
 namespace flbc {
@@ -117,12 +116,14 @@ struct Binding {
   //! \throws InputError if the binding has no domain mesh, or as place_points()
   Binding transferred(const PointList<Dim>& to, EdgeList edges, OutsidePoints outside) const;
 
-  //! A binding of another version of the model, from the nearest place on this one
-  //! (transfer_weights()). A weight is masked where it is masked at all vertices around.
+  //! A binding of another version of the model. Weights are interpolated linearly in the nearest
+  //! element of this one, then projected so that they are non-negative, sum to 1, and reproduce the
+  //! point (project_non_negative()). A weight is masked where it is masked at all vertices around.
   //! \param corners  3 x E, elements of this model (ModelElements)
   //! \param limit  maximum distance, in units of the cage \param distances  output; may be null
   //! Points outside the cage follow the policy of the binding, or the nearest point of the cage.
-  //! \throws InputError as transfer_weights()
+  //! \throws InputError if sizes do not match, or points are farther away than the limit, naming
+  //! their number, the first, and the farthest; also as project_non_negative()
   Binding transferred(const FacetList<3>& corners, const PointList<Dim>& to, EdgeList edges,
                       double limit, Eigen::VectorXd* distances = nullptr) const;
 
@@ -138,13 +139,6 @@ struct Binding {
   //! \param given  Dim x P, within 1e-6 of the size of the cage
   //! \throws InputError naming the numbers of points, or the first point that differs
   void require_points(const PointList<Dim>& given) const;
-
-  //! The masks of other points, which are those of the nearest element of this model.
-  std::vector<Mask> masks_near(const ModelElements<Dim>& elements, const PointList<Dim>& to) const;
-
-  //! A number for the points of the model, equal for equal points in single precision. For people
-  //! and files; require_points() compares.
-  std::string digest() const;
 };
 
 //! Checks that the parts of a binding belong together.

@@ -122,6 +122,13 @@ struct EdgeList {
   std::vector<double> weights{};
 };
 
+//! A model as a set of points, segments, and triangles.
+template <int Dim>
+struct ModelElements {
+  PointList<Dim> points;  //!< Dim x P
+  FacetList<3> corners;   //!< 3 x E; repeated corners describe a segment or a point
+};
+
 //! Checks edges.
 //! \param edges  any
 //! \param num_points  P

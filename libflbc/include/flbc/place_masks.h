@@ -19,6 +19,9 @@ struct PlacedMasks {
   Index masked = 0;                //!< number of masked points
   Index on_facets = 0;             //!< those on facets of masked control points, which move them
 
+  //! of_points and of_outside.
+  std::vector<Mask> of_all() const;
+
   //! About the points on facets; empty if there are none.
   std::string note() const;
 };

@@ -26,6 +26,12 @@ enum class OutsidePoints {
              //!< cage.
 };
 
+//! The policy for points that may be outside by rounding.
+//! \return OutsidePoints::kNearest instead of kFail, any other policy as it is
+constexpr OutsidePoints without_failure(OutsidePoints policy) {
+  return policy == OutsidePoints::kFail ? OutsidePoints::kNearest : policy;
+}
+
 //! A point outside the cage and the nearest point of the cage.
 template <int Dim>
 struct NearestOnCage {

@@ -50,4 +50,9 @@ inline std::string describe_list(const std::vector<Index>& numbers) {
   return text;
 }
 
+//! Adds a note, if there is one, after "; ".
+inline void add_note(std::string& notes, const std::string& note) {
+  notes += (notes.empty() || note.empty() ? "" : "; ") + note;
+}
+
 }  // namespace flbc

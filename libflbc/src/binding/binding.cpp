@@ -2,8 +2,6 @@
 #include "flbc/binding.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -17,6 +15,7 @@
 #include "flbc/place_masks.h"
 #include "flbc/report.h"
 #include "flbc/rig.h"
+#include "placement/nearest_weights.h"
 
 namespace flbc {
 namespace {
@@ -74,6 +73,34 @@ void mirror_again(Binding<Dim>& binding, int axis,
       });
 }
 
+// The masks of other points: where all vertices of the nearest element are masked.
+template <int Dim>
+std::vector<Mask> masks_near(const Binding<Dim>& binding, const ModelElements<Dim>& elements,
+                             const PointList<Dim>& to) {
+  if (binding.masks.empty()) return {};
+  const Index n = binding.cage.size(), count = binding.weights.num_points();
+  const PointMasks masked(binding.masks, n, count);
+  const auto indicators = SparseWeights::of(n, count, [&](Index p) -> Eigen::VectorXd {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(n);
+    if (masked.at(p)) row(masked.forbidden(p)).setOnes();
+    return row;
+  });
+  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+  const auto near = nearest_weights(elements, indicators, to, kAnywhere);
+  constexpr double kRounding = 1e-12;  // of interpolated ones
+  std::vector<Mask> found(n);
+  for (Index i = 0; i < n; ++i) found[i].control_points = {i};
+  for (Index p = 0; p < near.num_points(); ++p) {
+    near.visit(p, [&](Index i, double part) {
+      if (part > 1 - kRounding) found[i].points.push_back(p);
+    });
+  }
+  found.erase(std::remove_if(found.begin(), found.end(),
+                             [](const Mask& mask) { return mask.points.empty(); }),
+              found.end());
+  return found;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -100,8 +127,8 @@ Eigen::MatrixXd Binding<Dim>::jacobians(const PointList<Dim>& control_points) co
 template <int Dim>
 PointJacobians<Dim> Binding<Dim>::point_jacobians() const {
   require_domain(domain);
-  const auto unless_outside = policy == OutsidePoints::kFail ? OutsidePoints::kNearest : policy;
-  return {cage, domain, domain_weights, place_points(cage, domain, rest(), unless_outside)};
+  return {cage, domain, domain_weights,
+          place_points(cage, domain, rest(), without_failure(policy))};
 }
 
 template <int Dim>
@@ -115,40 +142,31 @@ Binding<Dim> Binding<Dim>::reduced(const SparsifyOptions& limits,
     return reduce_influences<Dim>(cage.points, part.points, part.edges, part.weights, poses, few,
                                   reduction);
   };
-  const auto reduce_all = [&](const ModelPart<Dim>& model) {
-    if (!mirror) return reduce(model, limits.max_influences);
-    return MirroredModel<Dim>(cage, *mirror, points).reduced(model, limits.max_influences, reduce);
-  };
-  const ModelPart<Dim> model{points, edges, weights, masks};
   auto result = *this;
+  ModelPart<Dim> part{points, edges, weights, masks};
+  auto of_part = mirror;
+  std::vector<Index> number;
   const bool extends = policy == OutsidePoints::kExtend && !outside.empty();
-  if (!extends) {
-    result.weights = reduce_all(model);
-    return result;
-  }
-  std::vector<Index> inside, number;
-  for (Index p = 0; p < weights.num_points(); ++p) {
-    if (!std::binary_search(outside.begin(), outside.end(), p)) inside.push_back(p);
-  }
-  const auto part = model.taken(inside, number);
-  SparseWeights few;
-  if (mirror) {
-    // A point and its partner are inside alike.
-    auto of_part = *mirror;
-    of_part.partners.clear();
-    for (const Index p : inside) {
-      const Index partner = mirror->partners[p];
-      of_part.partners.push_back(partner < 0 ? -1 : number[partner]);
+  if (extends) {
+    std::vector<Index> inside;
+    for (Index p = 0; p < weights.num_points(); ++p) {
+      if (!std::binary_search(outside.begin(), outside.end(), p)) inside.push_back(p);
     }
-    few =
-        MirroredModel<Dim>(cage, of_part, part.points).reduced(part, limits.max_influences, reduce);
-  } else if (!inside.empty()) {
-    few = reduce(part, limits.max_influences);
+    if (inside.empty()) return result;
+    part = part.taken(inside, number);
+    if (mirror) of_part->partners.clear();
+    for (std::size_t k = 0; mirror && k < inside.size(); ++k) {
+      const Index partner = mirror->partners[inside[k]];  // inside as well
+      of_part->partners.push_back(partner < 0 ? -1 : number[partner]);
+    }
   }
-  result.weights =
-      SparseWeights::of(cage.size(), weights.num_points(), [&](Index p) -> Eigen::VectorXd {
-        return number[p] < 0 ? weights.at(p) : few.at(number[p]);
-      });
+  const Index most = limits.max_influences;
+  auto few = of_part ? MirroredModel<Dim>(cage, *of_part, part.points).reduced(part, most, reduce)
+                     : reduce(part, most);
+  result.weights = !extends ? std::move(few)
+                            : SparseWeights::of(cage.size(), weights.num_points(), [&](Index p) {
+                                return number[p] < 0 ? weights.at(p) : few.at(number[p]);
+                              });
   return result;
 }
 
@@ -160,7 +178,7 @@ Binding<Dim> Binding<Dim>::transferred(const PointList<Dim>& to, EdgeList to_edg
   BindOptions options;
   options.outside = outside_policy;
   options.coordinates = value_named<Coordinates>(report.method);
-  options.masks = masks_near({rest(), elements_of(edges, weights.num_points())}, to);
+  options.masks = masks_near<Dim>(*this, {rest(), elements_of(edges, weights.num_points())}, to);
   if (mirror) options.mirror_axis = mirror->axis;
   Rig<Dim> rig(cage, MadeDomain<Dim>{domain}, to, std::move(to_edges), options);
   rig.set_solution({domain_weights, report.solve});
@@ -169,44 +187,15 @@ Binding<Dim> Binding<Dim>::transferred(const PointList<Dim>& to, EdgeList to_edg
   return result;
 }
 
-// The masks of other points: where all vertices of the nearest element are masked.
-template <int Dim>
-std::vector<Mask> Binding<Dim>::masks_near(const ModelElements<Dim>& elements,
-                                           const PointList<Dim>& to) const {
-  if (masks.empty()) return {};
-  const Index n = cage.size(), count = weights.num_points();
-  const PointMasks masked(masks, n, count);
-  const auto indicators = SparseWeights::of(n, count, [&](Index p) -> Eigen::VectorXd {
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(n);
-    if (masked.at(p)) row(masked.forbidden(p)).setOnes();
-    return row;
-  });
-  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-  const auto near = nearest_weights(elements, indicators, to, kAnywhere);
-  constexpr double kRounding = 1e-12;  // of interpolated ones
-  std::vector<Mask> found(n);
-  for (Index i = 0; i < n; ++i) found[i].control_points = {i};
-  for (Index p = 0; p < near.num_points(); ++p) {
-    near.visit(p, [&](Index i, double part) {
-      if (part > 1 - kRounding) found[i].points.push_back(p);
-    });
-  }
-  found.erase(std::remove_if(found.begin(), found.end(),
-                             [](const Mask& mask) { return mask.points.empty(); }),
-              found.end());
-  return found;
-}
-
 template <int Dim>
 Binding<Dim> Binding<Dim>::transferred(const FacetList<3>& corners, const PointList<Dim>& to,
                                        EdgeList to_edges, double limit,
                                        Eigen::VectorXd* distances) const {
   validate(to_edges, to.cols());
   const ModelElements<Dim> from{rest(), corners};
-  const auto is_masked = masks_near(from, to);
-  const auto policy_there = policy == OutsidePoints::kFail ? OutsidePoints::kNearest : policy;
+  const auto is_masked = masks_near(*this, from, to);
   const auto placed = [&](const PointList<Dim>& places) {
-    if (cage.facets.cols() > 0) return place_points(cage, places, policy_there);
+    if (cage.facets.cols() > 0) return place_points(cage, places, without_failure(policy));
     Placement<Dim> all;
     all.points = places;
     all.places.resize(places.cols());
@@ -296,24 +285,6 @@ void Binding<Dim>::require_points(const PointList<Dim>& given) const {
   throw InputError("vertex " + std::to_string(worst) + " is at " + format_point(given.col(worst)) +
                    ", but the binding has it at " + format_point(rest().col(worst)) +
                    "; give the model at rest, or transfer the binding to this one (flbc transfer)");
-}
-
-// FNV-1a.
-template <int Dim>
-std::string Binding<Dim>::digest() const {
-  std::uint64_t hash = 14695981039346656037U;
-  const Eigen::MatrixXf all = rest().template cast<float>();
-  for (Eigen::Index k = 0; k < all.size(); ++k) {
-    std::uint32_t bits = 0;
-    const float value = all.data()[k] + 0.0F;  // no negative zeros
-    std::memcpy(&bits, &value, sizeof(bits));
-    for (int byte = 0; byte < 4; ++byte) {
-      hash = (hash ^ (bits >> (8 * byte) & 0xff)) * 1099511628211U;
-    }
-  }
-  std::string text;
-  for (int digit = 15; digit >= 0; --digit) text += "0123456789abcdef"[hash >> (4 * digit) & 0xf];
-  return text;
 }
 
 template <int Dim>

@@ -2,14 +2,11 @@
 #include "flbc/make_domain.h"
 
 #include "base/instantiate.h"
+#include "base/messages.h"
 #include "flbc/errors.h"
 
 namespace flbc {
 namespace {
-
-void add_sentence(std::string& text, const std::string& sentence) {
-  text += (text.empty() ? "" : "; ") + sentence;
-}
 
 // As few vertices as the cage takes where fewer were asked for.
 template <int Dim>
@@ -32,11 +29,11 @@ DomainMesh<Dim> fill_by_first(const Cage<Dim>& cage, const MeshingOptions<Dim>& 
     if (options.poll) options.poll();
     try {
       auto mesh = fill_or_exceed(mesher, cage, options);
-      if (!failures.empty()) add_sentence(made.note, failures + "; the mesh was made by " + name);
+      if (!failures.empty()) add_note(made.note, failures + "; the mesh was made by " + name);
       if (made.mesher.empty() || !failures.empty()) made.mesher = name;
       return mesh;
     } catch (const InputError& error) {
-      if (failures != error.what()) add_sentence(failures, error.what());
+      if (failures != error.what()) add_note(failures, error.what());
     } catch (const OptionError&) {
       if (failures.empty()) throw;  // else this mesher cannot do what the one before could not
     }
@@ -69,8 +66,7 @@ MadeDomain<Dim> make_domain(const Cage<Dim>& cage, const MeshingOptions<Dim>& op
                                  [&](const Cage<Dim>& part, const MeshingOptions<Dim>& of_part) {
                                    return fill_by_first(part, of_part, meshers, made);
                                  });
-  const auto on_count = note_on_count(options.vertices, made.mesh.num_vertices());
-  if (!on_count.empty()) add_sentence(made.note, on_count);
+  add_note(made.note, note_on_count(options.vertices, made.mesh.num_vertices()));
   return made;
 }
 

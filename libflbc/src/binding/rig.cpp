@@ -74,11 +74,6 @@ void require_inside(const Cage<Dim>& cage, const PointList<Dim>& points, const E
                [&](OutsidePoints policy) { return place_points(cage, points, policy); });
 }
 
-// Images of points that are inside up to a tolerance may be outside by rounding.
-OutsidePoints policy_of_images(const BindOptions& options) {
-  return options.outside == OutsidePoints::kFail ? OutsidePoints::kNearest : options.outside;
-}
-
 // What the weights do not reproduce.
 template <int Dim>
 PointList<Dim> offsets_of(const PointList<Dim>& points, const Placement<Dim>& placement) {
@@ -228,7 +223,7 @@ void Rig<Dim>::constrain(Placed& placed, const Cage<Dim>& cage, const DomainMesh
     if (points.cols() == 0) throw OptionError("mirror_axis is for weights of a model");
     placed.mirror.emplace(cage, options.mirror_axis, points);
     placed.mirror->symmetrize(placed.placement, [&](const PointList<Dim>& images) {
-      return place_points(cage, images, policy_of_images(options)).points;
+      return place_points(cage, images, without_failure(options.outside)).points;
     });
   }
   placed.masks = {};
@@ -250,11 +245,10 @@ template <int Dim>
 Solution Rig<Dim>::solve_at_once(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                                  const Placed& placed) const {
   const auto& observer = options_.observer;
-  const auto& [non_negative, threads] =
-      CoordinatesOptions{options_.solver.non_negative, options_.solver.threads};
   if (options_.coordinates && mesh.num_cells() > 0) {
-    return compute_coordinates(cage, mesh, *options_.coordinates, {non_negative, threads},
-                               observer);
+    const auto& solver = options_.solver;
+    return compute_coordinates(cage, mesh, *options_.coordinates,
+                               {solver.non_negative, solver.threads}, observer);
   }
   if (options_.coordinates) {
     Solution solution;  // weights_of_points() evaluates
@@ -408,7 +402,7 @@ const SparseWeights& Rig<Dim>::weights_of_points() {
   if (masks.masked > 0) weights = enforce_masks(cage(), placement, weights, masks);
   if (mirror) {
     weights = mirror->symmetrized(weights, [&](const PointList<Dim>& points) {
-      const auto policy = policy_of_images(options_);
+      const auto policy = without_failure(options_.outside);
       return evaluated(mesh().num_cells() > 0 ? place_points(cage(), mesh(), points, policy)
                                               : place_points(cage(), points, policy));
     });
@@ -432,17 +426,14 @@ Binding<Dim> Rig<Dim>::binding() {
   binding.points = placement.points;
   binding.offsets = offsets_of(points_, placement);
   binding.edges = has_model ? edges_ : edges_of_cells(mesh());
-  binding.masks = masks.of_points;
-  binding.masks.insert(binding.masks.end(), masks.of_outside.begin(), masks.of_outside.end());
+  binding.masks = masks.of_all();
   if (mirror) binding.mirror = mirror->mirror();
   binding.policy = placement.policy;
   for (const auto& vertex : placement.outside) binding.outside.push_back(vertex.point);
   binding.domain = mesh();
   binding.domain_weights = solution().weights;
   auto& report = binding.report = report_;
-  if (const auto more = note(); !more.empty()) {
-    report.note += (report.note.empty() ? "" : "; ") + more;
-  }
+  add_note(report.note, note());
   report.solve = solution().report;
   report.method =
       options_.coordinates ? name_of(*options_.coordinates) : name_of(report.solve.method);
@@ -455,8 +446,8 @@ Binding<Dim> Rig<Dim>::binding() {
 template <int Dim>
 std::string Rig<Dim>::note() const {
   auto text = placed_.masks.note();
-  const auto of_mirror = placed_.mirror ? placed_.mirror->note() : std::string();
-  return text + (text.empty() || of_mirror.empty() ? "" : "; ") + of_mirror;
+  if (placed_.mirror) add_note(text, placed_.mirror->note());
+  return text;
 }
 
 template <int Dim>

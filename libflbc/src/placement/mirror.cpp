@@ -228,9 +228,7 @@ void MirroredModel<Dim>::symmetrize(
 template <int Dim>
 void MirroredModel<Dim>::keep_common(const std::vector<Mask>& given, PlacedMasks& masks) const {
   const auto n = static_cast<Index>(image_.size()), count = static_cast<Index>(partner_.size());
-  auto all = masks.of_points;
-  all.insert(all.end(), masks.of_outside.begin(), masks.of_outside.end());
-  const PointMasks before(all, n, count), wanted(given, n, count);
+  const PointMasks before(masks.of_all(), n, count), wanted(given, n, count);
   for (auto* list : {&masks.of_points, &masks.of_outside}) {
     const PointMasks own(*list, n, count);
     std::vector<Mask> kept(n);

@@ -169,6 +169,12 @@ void require_affine_weights(const Cage<Dim>& cage, const PointList<Dim>& points,
 
 }  // namespace
 
+std::vector<Mask> PlacedMasks::of_all() const {
+  auto all = of_points;
+  all.insert(all.end(), of_outside.begin(), of_outside.end());
+  return all;
+}
+
 std::string PlacedMasks::note() const {
   if (on_facets == 0) return "";
   return std::to_string(on_facets) + " of " + std::to_string(masked) +

@@ -125,7 +125,6 @@ void write(const std::string& path, std::ostream& out, const Binding<Dim>& bindi
   nlohmann::ordered_json info{{"flbc", FLBC_VERSION},
                               {"dim", Dim},
                               {"outside", name_of(binding.policy)},
-                              {"digest", binding.digest()},
                               {"method", report.method},
                               {"options", report.options},
                               {"status", name_of(report.solve.status)},

@@ -18,7 +18,7 @@ using AnyBinding = std::variant<Binding<2>, Binding<3>>;
 //! - mask_sizes (M x 2), mask_control_points, mask_points: the M masks, one after the other
 //! - mirror_images (n), mirror_partners (P)
 //! - domain (V x Dim), cells, domain_indptr, domain_indices, domain_data
-//! - info: JSON of the rest: version, policy for points outside, digest of the points, method
+//! - info: JSON of the rest: version, policy for points outside, method
 //! \throws IoError; InputError if a weight is not finite
 template <int Dim>
 void write_binding(const std::string& path, const Binding<Dim>& binding);

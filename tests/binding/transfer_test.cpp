@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Weights that go from one version of a model to another.
-#include "flbc/transfer_weights.h"
-
+#include "flbc/binding.h"
 #include "flbc/non_negative.h"
 #include "flbc/pointwise.h"
 #include "support/test.h"
@@ -23,7 +22,13 @@ struct TransferTest {
   }
   WeightMatrix transfer(const PointList<Dim>& to, double limit,
                         Eigen::VectorXd* distances = nullptr) const {
-    return transfer_weights<Dim>(sample.cage.points, model, weights, to, limit, distances).dense();
+    return transfer_from(model.corners, to, limit, distances);
+  }
+  WeightMatrix transfer_from(const FacetList<3>& elements, const PointList<Dim>& to, double limit,
+                             Eigen::VectorXd* distances = nullptr) const {
+    return bound_by<Dim>(sample.cage, model.points, weights)
+        .transferred(elements, to, {}, limit, distances)
+        .weights.dense();
   }
   PointList<Dim> corners(Index element) const {
     return model.points(Eigen::all, model.corners.col(element));
@@ -101,21 +106,18 @@ TEST_IN_2D_AND_3D(TransferTest, UnmatchedPointsAreNamed) {
 
 TEST_IN_2D_AND_3D(TransferTest, SegmentsAndPointsAreElementsToo) {
   TransferTest<Dim> t;
-  auto segments = t.model;
-  segments.corners.row(2) = segments.corners.row(1);
+  auto segments = t.model.corners;
+  segments.row(2) = segments.row(1);
   const PointList<Dim> middle =
       (t.model.points.col(t.model.corners(0, 0)) + t.model.points.col(t.model.corners(1, 0))) / 2;
-  const auto at =
-      transfer_weights<Dim>(t.sample.cage.points, segments, t.weights, middle, 1e-12).dense();
+  const auto at = t.transfer_from(segments, middle, 1e-12);
   const Eigen::VectorXd expected =
       (t.weights.col(t.model.corners(0, 0)) + t.weights.col(t.model.corners(1, 0))) / 2;
   EXPECT_LT((at.col(0) - expected).cwiseAbs().maxCoeff(), 1e-12);
-  segments.corners(0, 0) = -1;
-  EXPECT_THROW(transfer_weights<Dim>(t.sample.cage.points, segments, t.weights, middle, 1).dense(),
-               InputError);
-  segments.corners.resize(3, 0);
-  EXPECT_THROW(transfer_weights<Dim>(t.sample.cage.points, segments, t.weights, middle, 1).dense(),
-               InputError);
+  segments(0, 0) = -1;
+  EXPECT_THROW(t.transfer_from(segments, middle, 1), InputError);
+  segments.resize(3, 0);
+  EXPECT_THROW(t.transfer_from(segments, middle, 1), InputError);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/transfer_weights.h"
+#include "placement/nearest_weights.h"
 
 #include <string>
 #include <vector>
@@ -8,10 +8,8 @@
 #include "base/messages.h"
 #include "base/parallel.h"
 #include "base/shape_checks.h"
-#include "placement/nearest_simplex.h"
 #include "flbc/errors.h"
-#include "flbc/non_negative.h"
-#include "flbc/types.h"
+#include "placement/nearest_simplex.h"
 
 namespace flbc {
 namespace {
@@ -72,16 +70,6 @@ SparseWeights nearest_weights(const ModelElements<Dim>& from, const SparseWeight
   return result;
 }
 
-template <int Dim>
-SparseWeights transfer_weights(const PointList<Dim>& control_points, const ModelElements<Dim>& from,
-                               const SparseWeights& weights, const PointList<Dim>& to, double limit,
-                               Eigen::VectorXd* distances, const PointMasks& masks) {
-  check_size(weights, control_points.cols(), from.points.cols());
-  return project_non_negative(control_points, to,
-                              nearest_weights(from, weights, to, limit, distances), {}, masks);
-}
-
 FLBC_INSTANTIATE_FUNCTION(nearest_weights)
-FLBC_INSTANTIATE_FUNCTION(transfer_weights)
 
 }  // namespace flbc
