@@ -312,7 +312,7 @@ void place(Mutator& mutator) {
   if (mutator.below(4) == 0 && !placement.places.empty()) placement.places.pop_back();
   const auto weights = some_weights<Dim>(mutator);
   weights_at(cage, mesh, weights, placement);
-  gradients_at(mesh, weights, placement.places, GradientKind::kCell);
+  gradients_at(mesh, weights, placement.places);
   const auto places = places_in_mesh(cage, mesh, placement);
   interpolate(mesh, weights, places);
   jacobians(gradients_at(mesh, weights, places), some_pose<Dim>(mutator));

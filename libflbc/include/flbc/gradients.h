@@ -14,12 +14,6 @@
 
 namespace flbc {
 
-//! How gradients are made of weights that are linear in each cell.
-enum class GradientKind {
-  kCell,   //!< the exact gradient of the cell; jumps between cells
-  kSmooth  //!< averaged at the vertices (vertex_gradients()), then linear in each cell
-};
-
 //! The means over the cells around each vertex, weighted by area or volume. They are exact where
 //! the weights are affine.
 //! \param mesh  V vertices
@@ -28,17 +22,15 @@ enum class GradientKind {
 template <int Dim>
 SparseWeights vertex_gradients(const DomainMesh<Dim>& mesh, const SparseWeights& weights);
 
-//! Gradients at located points.
+//! Smooth gradients at located points: those of the vertices, interpolated linearly in each cell.
 //! \param mesh  V vertices
 //! \param weights  of V points
 //! \param places  P locations, as returned by locate_points() or places_in_mesh(); gradients are
 //! 0 where the cell is -1
-//! \param kind  see GradientKind
 //! \return Dim n numbers per location
 template <int Dim>
 SparseWeights gradients_at(const DomainMesh<Dim>& mesh, const SparseWeights& weights,
-                           const std::vector<Location<Dim>>& places,
-                           GradientKind kind = GradientKind::kSmooth);
+                           const std::vector<Location<Dim>>& places);
 
 //! A location in a cell for every placed point that moves. Points outside the mesh get the location
 //! of the nearest point of the cage, except for OutsidePoints::kKeep: cell -1.

@@ -51,27 +51,27 @@ void require_model(const PointList<Dim>& points, const EdgeList& edges) {
   validate(edges, points.cols());
 }
 
+// \param mesh  may be empty
+template <int Dim>
+Placement<Dim> place_in(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                        const PointList<Dim>& points, OutsidePoints policy) {
+  return mesh.num_cells() > 0 ? place_points(cage, mesh, points, policy)
+                              : place_points(cage, points, policy);
+}
+
 // Points that nobody sees may be outside: they follow the nearest point of the cage.
-template <int Dim, class Place>
-Placement<Dim> unless_loose(const Cage<Dim>& cage, const PointList<Dim>& points,
-                            const EdgeList& edges, OutsidePoints policy, const Place& place) {
+template <int Dim>
+Placement<Dim> place_unless_loose(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
+                                  const PointList<Dim>& points, const EdgeList& edges,
+                                  OutsidePoints policy) {
   try {
-    return place(policy);
+    return place_in(cage, mesh, points, policy);
   } catch (const InputError&) {
     if (policy != OutsidePoints::kFail) throw;
     const auto usual = usual_policy(cage, points, edges);
     if (usual == policy) throw;
-    return place(usual);
+    return place_in(cage, mesh, points, usual);
   }
-}
-
-template <int Dim>
-void require_inside(const Cage<Dim>& cage, const PointList<Dim>& points, const EdgeList& edges,
-                    const BindOptions& options) {
-  const ThreadScope threads(options.solver.threads);
-  if (options.outside != OutsidePoints::kFail) return;
-  unless_loose(cage, points, edges, options.outside,
-               [&](OutsidePoints policy) { return place_points(cage, points, policy); });
 }
 
 // What the weights do not reproduce.
@@ -134,16 +134,8 @@ void Rig<Dim>::begin() {
 
 template <int Dim>
 Rig<Dim>::Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindOptions& options)
-    : cage_(std::move(cage)),
-      points_(std::move(points)),
-      edges_(std::move(edges)),
-      options_(options) {
-  begin();
+    : Rig(std::move(cage), MadeDomain<Dim>{}, std::move(points), std::move(edges), options) {
   require_points<Dim>(points_);
-  if (!options.coordinates || !is_pointwise(*options.coordinates)) {
-    throw OptionError("these coordinates need a domain mesh");
-  }
-  placed_ = place(cage_, mesh_, points_, edges_, options_);
 }
 
 template <int Dim>
@@ -155,8 +147,10 @@ Rig<Dim>::Rig(Cage<Dim> cage, PointList<Dim> points, EdgeList edges, const BindO
       options_(options) {
   begin();
   require_points<Dim>(points_);
-  require_inside(cage_, points_, edges_, options_);  // before a mesher starts
   const ThreadScope threads(options_.solver.threads);
+  if (options_.outside == OutsidePoints::kFail) {  // before a mesher starts
+    place_unless_loose<Dim>(cage_, {}, points_, edges_, options_.outside);
+  }
   const Stopwatch watch;
   MeshingOptions<Dim> meshing;
   meshing.vertices = options_.vertices;
@@ -190,6 +184,10 @@ void Rig<Dim>::take(MadeDomain<Dim> domain) {
   mesh_ = std::move(domain.mesh);
   report_.mesher = std::move(domain.mesher);
   report_.note = std::move(domain.note);
+  const auto& coordinates = options_.coordinates;
+  if (mesh_.num_cells() == 0 && (!coordinates || !is_pointwise(*coordinates))) {
+    throw OptionError("these coordinates need a domain mesh");
+  }
   placed_ = place(cage_, mesh_, points_, edges_, options_);
 }
 
@@ -200,14 +198,8 @@ typename Rig<Dim>::Placed Rig<Dim>::place(const Cage<Dim>& cage, const DomainMes
   const ThreadScope threads(options.solver.threads);
   const Stopwatch watch;
   Placed placed;
-  if (mesh.num_cells() == 0) {
-    placed.placement =
-        unless_loose(cage, points, edges, options.outside,
-                     [&](OutsidePoints policy) { return place_points(cage, points, policy); });
-  } else if (points.cols() > 0) {
-    placed.placement = unless_loose(
-        cage, points, edges, options.outside,
-        [&](OutsidePoints policy) { return place_points(cage, mesh, points, policy); });
+  if (points.cols() > 0) {
+    placed.placement = place_unless_loose(cage, mesh, points, edges, options.outside);
   } else {
     placed.placement.points = mesh.points;
   }
@@ -402,9 +394,7 @@ const SparseWeights& Rig<Dim>::weights_of_points() {
   if (masks.masked > 0) weights = enforce_masks(cage(), placement, weights, masks);
   if (mirror) {
     weights = mirror->symmetrized(weights, [&](const PointList<Dim>& points) {
-      const auto policy = without_failure(options_.outside);
-      return evaluated(mesh().num_cells() > 0 ? place_points(cage(), mesh(), points, policy)
-                                              : place_points(cage(), points, policy));
+      return evaluated(place_in<Dim>(cage(), mesh(), points, without_failure(options_.outside)));
     });
     if (masks.masked > 0) {
       weights = enforce_masks(cage(), placement, weights, mirror->of_single_points(masks));

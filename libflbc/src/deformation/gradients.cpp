@@ -9,22 +9,11 @@
 #include "flbc/cell_locator.h"
 #include "flbc/errors.h"
 #include "mesh/cell_geometry.h"
-#include "mesh/check_place.h"
 #include "mesh/vertex_cells.h"
 #include "placement/place_on_cage.h"
 
 namespace flbc {
 namespace {
-
-template <int Dim>
-void add_cell_gradients(const DomainMesh<Dim>& mesh, const SparseWeights& weights, Index cell,
-                        const CellGeometry<Dim>& geometry, double factor, Eigen::VectorXd& sum) {
-  for (int k = 0; k <= Dim; ++k) {
-    const Vector<Dim> g = factor * geometry.hat_gradients.col(k);
-    weights.visit(mesh.cells(k, cell),
-                  [&](Index i, double weight) { sum.segment<Dim>(Dim * i) += weight * g; });
-  }
-}
 
 template <int Dim>
 Eigen::Matrix<double, Dim, Dim> jacobian(const SparseWeights& gradients, Index point,
@@ -50,7 +39,11 @@ SparseWeights vertex_gradients(const DomainMesh<Dim>& mesh, const SparseWeights&
     double measure = 0;
     for (const Index cell : around.cells_of(v)) {
       const auto geometry = cell_geometry(mesh, cell);
-      add_cell_gradients(mesh, weights, cell, geometry, geometry.measure, sum);
+      for (int k = 0; k <= Dim; ++k) {
+        const Vector<Dim> g = geometry.measure * geometry.hat_gradients.col(k);
+        weights.visit(mesh.cells(k, cell),
+                      [&](Index i, double weight) { sum.segment<Dim>(Dim * i) += weight * g; });
+      }
       measure += geometry.measure;
     }
     sum /= measure;
@@ -60,24 +53,14 @@ SparseWeights vertex_gradients(const DomainMesh<Dim>& mesh, const SparseWeights&
 
 template <int Dim>
 SparseWeights gradients_at(const DomainMesh<Dim>& mesh, const SparseWeights& weights,
-                           const std::vector<Location<Dim>>& places, GradientKind kind) {
-  const Index rows = Dim * weights.num_control_points();
-  const auto count = static_cast<Index>(places.size());
-  if (kind == GradientKind::kSmooth) {
-    const auto at_vertices = vertex_gradients(mesh, weights);
-    return SparseWeights::of(rows, count, [&](Index p) -> Eigen::VectorXd {
-      if (places[p].cell < 0) return Eigen::VectorXd::Zero(rows);
-      return interpolate(mesh, at_vertices, places[p]);
-    });
-  }
-  return SparseWeights::of(rows, count, [&](Index p) {
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(rows);
-    if (places[p].cell < 0) return sum;
-    check_place(mesh, weights.num_points(), places[p]);
-    const Index cell = places[p].cell;
-    add_cell_gradients(mesh, weights, cell, cell_geometry(mesh, cell), 1, sum);
-    return sum;
-  });
+                           const std::vector<Location<Dim>>& places) {
+  const auto at_vertices = vertex_gradients(mesh, weights);
+  const Index rows = at_vertices.num_control_points();
+  return SparseWeights::of(rows, static_cast<Index>(places.size()),
+                           [&](Index p) -> Eigen::VectorXd {
+                             if (places[p].cell < 0) return Eigen::VectorXd::Zero(rows);
+                             return interpolate(mesh, at_vertices, places[p]);
+                           });
 }
 
 template <int Dim>

@@ -10,7 +10,6 @@
 #include "base/instantiate.h"
 #include "base/parallel.h"
 #include "base/shape_checks.h"
-#include "deformation/mean_count.h"
 #include "flbc/bounding_box.h"
 #include "mesh/cell_geometry.h"
 
@@ -87,11 +86,9 @@ Quality measure_quality(const PointList<Dim>& control_points, const PointList<Di
   const double size = bounding_box_diagonal(control_points);
   Quality quality;
   quality.min_weight = std::numeric_limits<double>::max();
-  MeanCount influences;
   for (Index p = 0; p < static_cast<Index>(points.cols()); ++p) {
     Vector<Dim> error = -points.col(p);
     double sum = 0;
-    Index count = 0;
     if (weights.count(p) < control_points.cols()) {
       quality.min_weight = std::min(quality.min_weight, 0.0);
     }
@@ -99,15 +96,14 @@ Quality measure_quality(const PointList<Dim>& control_points, const PointList<Di
       error += weight * control_points.col(i);
       sum += weight;
       quality.min_weight = std::min(quality.min_weight, weight);
-      count += std::abs(weight) > kInfluenceThreshold ? 1 : 0;
+      quality.mean_influences += std::abs(weight) > kInfluenceThreshold ? 1 : 0;
     });
-    influences.add(count);
     if (!weights.has_weights(p)) continue;
     quality.max_partition_error = std::max(quality.max_partition_error, std::abs(sum - 1));
     quality.max_reproduction_error = std::max(quality.max_reproduction_error, error.norm() / size);
   }
   if (points.cols() == 0 || control_points.cols() == 0) quality.min_weight = 0;
-  quality.mean_influences = influences.value();
+  if (points.cols() > 0) quality.mean_influences /= static_cast<double>(points.cols());
   return quality;
 }
 

@@ -33,41 +33,33 @@ std::vector<Mask> list(const Forbidden& forbidden) {
   return masks;
 }
 
-// Frees the corners of the facets on which masked points lie.
+// Frees the corners of the facet on which a masked point lies.
+// \param control_points  masked there \return whether some were freed
 template <int Dim>
-class MaskEnds {
- public:
-  // \param count  receives the number of points for which control points were freed
-  MaskEnds(const Cage<Dim>& cage, Forbidden& forbidden, Index& count)
-      : cage_(cage), forbidden_(forbidden), count_(count) {}
-
-  void end_at(Index point, Index facet, const Vector<Dim>& coordinates) {
-    const auto found = forbidden_.find(point);
-    if (found == forbidden_.end()) return;
-    auto& list = found->second;
-    const auto before = list.size();
-    for (int k = 0; k < Dim; ++k) {
-      if (coordinates[k] <= kBoundaryTolerance) continue;
-      list.erase(std::remove(list.begin(), list.end(), cage_.facets(k, facet)), list.end());
-    }
-    if (list.size() < before) ++count_;
+bool end_at(const Cage<Dim>& cage, Index facet, const Vector<Dim>& coordinates,
+            std::vector<Index>& control_points) {
+  const auto before = control_points.size();
+  for (int k = 0; k < Dim; ++k) {
+    if (coordinates[k] <= kBoundaryTolerance) continue;
+    control_points.erase(
+        std::remove(control_points.begin(), control_points.end(), cage.facets(k, facet)),
+        control_points.end());
   }
+  return control_points.size() < before;
+}
 
-  // Points that are nearly on the cage, in the mesh.
-  void end_near_cage(const PointList<Dim>& points) {
-    const FacetLocator<Dim> locator(cage_,
-                                    kBoundaryTolerance * bounding_box_diagonal(cage_.points));
-    for (const auto& [point, control_points] : forbidden_) {
-      const auto place = locator.locate(points.col(point));
-      if (place.facet >= 0) end_at(point, place.facet, place.coordinates);
-    }
+// The same for all masked points that are nearly on the cage. \return their number
+template <int Dim>
+Index end_near_cage(const Cage<Dim>& cage, const PointList<Dim>& points, Forbidden& forbidden) {
+  const FacetLocator<Dim> locator(cage, kBoundaryTolerance * bounding_box_diagonal(cage.points));
+  Index count = 0;
+  for (auto& [point, control_points] : forbidden) {
+    const auto place = locator.locate(points.col(point));
+    if (place.facet < 0) continue;
+    count += end_at<Dim>(cage, place.facet, place.coordinates, control_points) ? 1 : 0;
   }
-
- private:
-  const Cage<Dim>& cage_;
-  Forbidden& forbidden_;
-  Index& count_;
-};
+  return count;
+}
 
 Forbidden forbidden_at(const PointMasks& masks) {
   Forbidden forbidden;
@@ -185,8 +177,7 @@ template <int Dim>
 std::vector<Mask> end_at_facets(const Cage<Dim>& cage, const PointList<Dim>& points,
                                 const std::vector<Mask>& masks, Index* on_facets) {
   auto forbidden = forbidden_at(PointMasks(masks, cage.size(), static_cast<Index>(points.cols())));
-  Index count = 0;
-  MaskEnds<Dim>(cage, forbidden, count).end_near_cage(points);
+  const Index count = end_near_cage(cage, points, forbidden);
   if (on_facets != nullptr) *on_facets = count;
   return list(forbidden);
 }
@@ -230,7 +221,6 @@ PlacedMasks place_masks(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
   auto forbidden = forbidden_at(PointMasks(masks, cage.size(), num_points));
   PlacedMasks placed;
   placed.masked = static_cast<Index>(forbidden.size());
-  MaskEnds<Dim> ends(cage, forbidden, placed.on_facets);
   const bool follows = placement.policy == OutsidePoints::kNearest;
   if (!follows) {
     auto outside = take(placement.outside, forbidden);
@@ -238,13 +228,16 @@ PlacedMasks place_masks(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
   }
   for (const auto* points : {&placement.on_cage, &placement.outside}) {
     for (const auto& nearest : *points) {
-      ends.end_at(nearest.point, nearest.facet, nearest.coordinates);
+      const auto found = forbidden.find(nearest.point);
+      if (found == forbidden.end()) continue;
+      const bool ends = end_at<Dim>(cage, nearest.facet, nearest.coordinates, found->second);
+      placed.on_facets += ends ? 1 : 0;
     }
   }
   auto inside = forbidden;
   take(placement.on_cage, inside);
   take(placement.outside, inside);
-  MaskEnds<Dim>(cage, inside, placed.on_facets).end_near_cage(placement.points);
+  placed.on_facets += end_near_cage(cage, placement.points, inside);
   for (const auto& [point, control_points] : inside) forbidden[point] = control_points;
   placed.of_points = list(forbidden);
   refuse_mask_conflicts(cage.points, placement.points,

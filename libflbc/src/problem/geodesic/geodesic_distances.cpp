@@ -19,31 +19,6 @@ namespace {
 using distance::EikonalMesh;
 using distance::March;
 
-// A block of rows of a DistanceMatrix. Writing single rows directly would fetch one cache line per
-// value.
-class SourceRows {
- public:
-  // \param num_rows  rows in a block \param num_points  V
-  SourceRows(Index num_rows, Index num_points)
-      : num_rows_(num_rows), numbers_(static_cast<std::size_t>(num_rows) * num_points) {}
-
-  // The distance of one source and point. \param row  in [0, num_rows)
-  float& operator()(Index row, Index point) {
-    return numbers_[static_cast<std::size_t>(point) * num_rows_ + row];
-  }
-
-  // Copies the first rows. \param first  first row in the result
-  void write(Index first, Index count, DistanceMatrix& result) const {
-    for (Eigen::Index v = 0; v < result.cols(); ++v) {
-      std::copy_n(numbers_.data() + v * num_rows_, count, result.col(v).data() + first);
-    }
-  }
-
- private:
-  Index num_rows_;
-  std::vector<float> numbers_;  // num_rows_ of each point
-};
-
 }  // namespace
 
 template <int Dim>
@@ -62,12 +37,13 @@ DistanceMatrix geodesic_distances(const DomainMesh<Dim>& mesh, const MeshTopolog
       std::clamp<Index>(num_sources / (kPerThread * omp_get_max_threads()), 1, kMost);
   DistanceMatrix result(num_sources, mesh.num_vertices());
   LoopProgress progress(num_sources);
+  // Writing single rows of the result would fetch one cache line per value.
   struct Scratch {
-    SourceRows rows;
+    DistanceMatrix rows;
     March<Dim> march;
   };
   const auto make_scratch = [&] {
-    return Scratch{{num_rows, mesh.num_vertices()}, March<Dim>(eikonal)};
+    return Scratch{DistanceMatrix(num_rows, mesh.num_vertices()), March<Dim>(eikonal)};
   };
   const auto measure = [&](Index block, Scratch& scratch) {
     const Index first = block * num_rows;
@@ -77,7 +53,7 @@ DistanceMatrix geodesic_distances(const DomainMesh<Dim>& mesh, const MeshTopolog
       for (Index v = 0; v < mesh.num_vertices(); ++v) scratch.rows(row, v) = arrivals[v].distance;
       progress.add(1);
     }
-    scratch.rows.write(first, count, result);
+    result.middleRows(first, count) = scratch.rows.topRows(count);
   };
   parallel_for_chunks((num_sources + num_rows - 1) / num_rows, 1, make_scratch, measure);
   return result;
