@@ -5,7 +5,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <Eigen/Jacobi>
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -110,22 +109,6 @@ Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& a) {
   Eigen::Matrix3d u = svd.matrixU();
   if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) *= -1;
   return u * svd.matrixV().transpose();
-}
-
-// Two reflections: the first maps one direction to the other, the second keeps it. If the
-// directions are nearly opposite, any normal of the second works.
-Eigen::Matrix3d rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  const auto reflection = [](const Eigen::Vector3d& normal) -> Eigen::Matrix3d {
-    return Eigen::Matrix3d::Identity() - 2 * normal * normal.transpose();
-  };
-  const Eigen::Vector3d a = from.normalized();
-  const Eigen::Vector3d b = to.normalized();
-  if (a.dot(b) >= 0) return reflection((a + b).normalized()) * reflection(a);
-  Eigen::Vector3d across = a.cross(b);
-  if (across.norm() < 1e-12) across = b.unitOrthogonal();
-  across.normalize();
-  across -= across.dot(b) * b;  // cross products of nearly parallel vectors lose digits
-  return reflection(across.normalized()) * reflection((a - b).normalized());
 }
 
 }  // namespace flbc::dense

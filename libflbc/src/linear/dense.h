@@ -51,7 +51,4 @@ double least_pivot(const Eigen::MatrixXd& columns);
 //! The rotation R that maximizes trace(R^T a).
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& a);
 
-//! The smallest rotation that maps one direction to another.
-Eigen::Matrix3d rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
-
 }  // namespace flbc::dense

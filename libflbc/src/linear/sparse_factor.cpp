@@ -9,8 +9,9 @@
 #include "flbc/errors.h"
 
 #ifdef FLBC_WITH_CHOLMOD
-#include <cholmod.h>
 #include <sys/mman.h>
+
+#include <Eigen/CholmodSupport>
 #else
 #include <Eigen/SparseCholesky>
 #endif
@@ -28,53 +29,28 @@ constexpr const char* kNotDefinite =
 
 #ifdef FLBC_WITH_CHOLMOD
 
-// CHOLMOD workspace, and the factor after factorization.
-struct CholmodFactor {
-  cholmod_common common;
-  cholmod_factor* factor = nullptr;
-
+class CholmodFactor : public Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> {
+ public:
   CholmodFactor() {
-    cholmod_start(&common);
-    common.print = 0;  // otherwise CHOLMOD prints errors to standard output
-    common.supernodal = CHOLMOD_SUPERNODAL;
+    cholmod().print = 0;  // otherwise CHOLMOD prints errors to standard output
     // Solves with a dozen or more right-hand sides are fast on narrower columns than CHOLMOD
     // assumes: merging supernodes less saves a tenth of their time.
-    common.nrelax[0] = 2;
-    common.nrelax[1] = 8;
-    common.zrelax[0] = 0.5;
+    cholmod().nrelax[0] = 2;
+    cholmod().nrelax[1] = 8;
+    cholmod().zrelax[0] = 0.5;
   }
-  ~CholmodFactor() {
-    cholmod_free_factor(&factor, &common);
-    cholmod_finish(&common);
+
+  void check(Eigen::Index size) {
+    const int status = cholmod().status;
+    if (status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (status == CHOLMOD_NOT_POSDEF) fail(size, kNotDefinite);
+    if (status == CHOLMOD_TOO_LARGE) fail(size, "too large");
+    if (status < CHOLMOD_OK) fail(size, "not understood by CHOLMOD");
   }
-  CholmodFactor(const CholmodFactor&) = delete;
-  CholmodFactor& operator=(const CholmodFactor&) = delete;
+
+  const cholmod_factor& factor() const { return *m_cholmodFactor; }
+  void free_work() { cholmod_free_work(&cholmod()); }
 };
-
-// CHOLMOD reads the matrix without copying.
-cholmod_sparse view_lower_triangle(const Eigen::SparseMatrix<double>& matrix) {
-  cholmod_sparse view{};
-  view.nrow = view.ncol = static_cast<std::size_t>(matrix.rows());
-  view.nzmax = static_cast<std::size_t>(matrix.nonZeros());
-  view.p = const_cast<Index*>(matrix.outerIndexPtr());
-  view.i = const_cast<Index*>(matrix.innerIndexPtr());
-  view.nz = const_cast<Index*>(matrix.innerNonZeroPtr());
-  view.x = const_cast<double*>(matrix.valuePtr());
-  view.stype = -1;
-  view.itype = CHOLMOD_INT;
-  view.xtype = CHOLMOD_REAL;
-  view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = 1;
-  view.packed = matrix.isCompressed();
-  return view;
-}
-
-void check(const cholmod_common& common, Eigen::Index size) {
-  if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-  if (common.status == CHOLMOD_NOT_POSDEF) fail(size, kNotDefinite);
-  if (common.status == CHOLMOD_TOO_LARGE) fail(size, "too large");
-  if (common.status < CHOLMOD_OK) fail(size, "not understood by CHOLMOD");
-}
 
 // OpenBLAS takes a buffer at its first use, and tries for ever if there is no room for it.
 // One thread at a time.
@@ -95,15 +71,14 @@ SparseFactor factor_nonempty(const Eigen::SparseMatrix<double>& matrix) {
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
   const auto cholmod = std::make_shared<CholmodFactor>();
-  cholmod_sparse view = view_lower_triangle(matrix);
-  cholmod->factor = cholmod_analyze(&view, &cholmod->common);
-  check(cholmod->common, matrix.rows());
-  require_room_for_blas(cholmod->factor->xsize);
-  cholmod_factorize(&view, cholmod->factor, &cholmod->common);
-  check(cholmod->common, matrix.rows());
-  cholmod_free_work(&cholmod->common);
+  cholmod->analyzePattern(matrix);
+  cholmod->check(matrix.rows());
+  require_room_for_blas(cholmod->factor().xsize);
+  cholmod->factorize(matrix);
+  cholmod->check(matrix.rows());
+  cholmod->free_work();
 
-  const cholmod_factor& factor = *cholmod->factor;
+  const cholmod_factor& factor = cholmod->factor();
   SparseFactor result;
   result.owner = cholmod;
   result.position.resize(factor.n);

@@ -72,7 +72,8 @@ struct Motion {
     if (is_still || before.isZero(0) || after.isZero(0)) return normal;
     const Matrix3 rotation = dense::nearest_rotation(correlation);
     const Vector<3> turned_before = rotation * before;
-    return dense::rotation_between(turned_before, after) * (rotation * normal);
+    return Eigen::Quaterniond::FromTwoVectors(turned_before, after).normalized() *
+           (rotation * normal);
   }
 };
 
