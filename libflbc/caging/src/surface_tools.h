@@ -3,11 +3,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include "cage/facet_geometry.h"
 #include "flbc/cage.h"
 #include "meshing/cgal/exact_predicates.h"
 
@@ -32,24 +34,13 @@ Cage<Dim> compact(const PointList<Dim>& points, const std::vector<FacetCorners<D
   return cage;
 }
 
-//! Normal of a facet, with length equal to its measure (3D: twice that). It points to the right of
-//! an edge, or to the side from which a triangle is counterclockwise.
+//! The corners of a facet, ascending: the same for facets with the same corners.
 template <int Dim>
-Vector<Dim> facet_normal(const Eigen::Matrix<double, Dim, Dim>& corners) {
-  if constexpr (Dim == 2) {
-    const Vector<2> along = corners.col(1) - corners.col(0);
-    return {along.y(), -along.x()};
-  } else {
-    return (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
-  }
-}
-
-inline double area_of(const PointList<3>& points, const FacetList<3>& facets) {
-  double sum = 0;
-  for (const auto& facet : facets.colwise()) {
-    sum += facet_normal<3>(points(Eigen::all, facet)).norm() / 2;
-  }
-  return sum;
+std::array<Index, Dim> sorted(const FacetCorners<Dim>& corners) {
+  std::array<Index, Dim> result;
+  std::copy(corners.begin(), corners.end(), result.begin());
+  std::sort(result.begin(), result.end());
+  return result;
 }
 
 //! Finds boxes on one side of a facet without exact arithmetic. Few boxes near a cage meet the
@@ -92,19 +83,6 @@ PointList<Dim> vertex_normals(const Cage<Dim>& surface) {
     for (const Index v : facet) normals.col(v) += normal;
   }
   return normals;
-}
-
-//! Area (2D) or volume (3D) between the facets and the origin, positive for outward normals.
-template <int Dim>
-double signed_measure(const Cage<Dim>& surface, const Vector<Dim>& origin) {
-  double sum = 0;
-  for (Index f = 0; f < surface.facets.cols(); ++f) {
-    Eigen::Matrix<double, Dim, Dim> corners;
-    for (int k = 0; k < Dim; ++k)
-      corners.col(k) = surface.points.col(surface.facets(k, f)) - origin;
-    sum += corners.determinant() / (Dim == 2 ? 2 : 6);
-  }
-  return sum;
 }
 
 }  // namespace flbc

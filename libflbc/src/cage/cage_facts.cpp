@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "base/instantiate.h"
 #include "base/parallel.h"
 #include "base/shape_checks.h"
+#include "cage/box_tree.h"
 #include "cage/oriented_cage.h"
 #include "cage/point_in_cage.h"
 #include "flbc/bounding_box.h"
@@ -82,35 +82,21 @@ std::vector<std::size_t> outer_shells(const OrientedCage<Dim>& oriented) {
 template <int Dim>
 ThinPlace thinnest_place(const Cage<Dim>& cage) {
   check_elements(cage.points, cage.facets, kCageNames);
-  int axis = 0;
-  (cage.points.rowwise().maxCoeff() - cage.points.rowwise().minCoeff()).maxCoeff(&axis);
-  const auto along = [&](Index i) { return cage.points(axis, i); };
-  std::vector<Index> order(static_cast<std::size_t>(cage.size()));
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](Index i, Index j) { return along(i) < along(j); });
+  const BoxTree<Dim> tree(boxes_of<Dim, Dim>(cage.points, cage.facets));
   ThinPlace thinnest;
   thinnest.distance = std::numeric_limits<double>::infinity();
-  for (Index f = 0; f < cage.facets.cols(); ++f) {
-    const Eigen::Matrix<double, Dim, Dim> corners = cage.points(Eigen::all, cage.facets.col(f));
-    const Vector<Dim> low = corners.rowwise().minCoeff();
-    const Vector<Dim> high = corners.rowwise().maxCoeff();
-    // Only points next to the facet along the axis may be nearer.
-    const auto first = std::partition_point(order.begin(), order.end(), [&](Index i) {
-      return along(i) < low[axis] - thinnest.distance;
-    });
-    for (auto next = first; next != order.end(); ++next) {
-      const Index i = *next;
-      if (along(i) > high[axis] + thinnest.distance) break;
-      if ((cage.facets.col(f).array() == i).any()) continue;
-      const Vector<Dim> point = cage.points.col(i);
-      const Vector<Dim> outside = (low - point).cwiseMax(point - high).cwiseMax(0);
-      if (outside.norm() > thinnest.distance) continue;
-      const double distance = distance_to_facet<Dim>(point, corners);
-      const bool is_tie = distance == thinnest.distance && f == thinnest.facet;
-      if (distance < thinnest.distance || (is_tie && i < thinnest.control_point)) {
-        thinnest = {distance, i, f};
-      }
-    }
+  for (Index i = 0; i < cage.size(); ++i) {
+    const Vector<Dim> point = cage.points.col(i);
+    const auto distance_to = [&](Index f) {
+      const auto facet = cage.facets.col(f);
+      if ((facet.array() == i).any()) return std::numeric_limits<double>::infinity();
+      return distance_to_facet<Dim>(point, cage.points(Eigen::all, facet));
+    };
+    const Index f = tree.nearest(point, distance_to, thinnest.distance);
+    if (f < 0) continue;
+    const double distance = distance_to(f);
+    const bool is_tie = distance == thinnest.distance && f < thinnest.facet;
+    if (distance < thinnest.distance || is_tie) thinnest = {distance, i, f};
   }
   return thinnest;
 }

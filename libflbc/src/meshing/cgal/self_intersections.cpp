@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <CGAL/Bbox_3.h>
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/intersections.h>
@@ -33,85 +31,53 @@ std::vector<FacetPair> find_pairs(const Cage<Dim>& cage) {
   return pairs;
 }
 
-// A control point of one edge that lies on the other edge and is not shared; -1: none.
-Index vertex_on_other_edge(const Cage<2>& cage, Index e, Index f) {
-  for (const auto& [own, other] : {FacetPair{e, f}, FacetPair{f, e}}) {
-    const Simplex<2> edge{cage.points(Eigen::all, cage.facets.col(other))};
-    for (const Index vertex : cage.facets.col(own)) {
-      if (vertex == cage.facets(0, other) || vertex == cage.facets(1, other)) continue;
-      if (intersect<2>({cage.points.col(vertex).replicate(1, 2), 1}, edge)) return vertex;
-    }
-  }
-  return -1;
-}
-
-// The intersection of two crossing edges without a vertex on each other, accurate to rounding.
-Vector<2> crossing(const Cage<2>& cage, Index e, Index f) {
-  const Vector<2> a = cage.points.col(cage.facets(0, e));
-  const Vector<2> along_e = cage.points.col(cage.facets(1, e)) - a;
-  const Vector<2> c = cage.points.col(cage.facets(0, f));
-  const Vector<2> along_f = cage.points.col(cage.facets(1, f)) - c;
-  const auto cross = [](const Vector<2>& u, const Vector<2>& v) {
-    return u.x() * v.y() - u.y() * v.x();
-  };
-  const double determinant = cross(along_e, along_f);
-  const double t = determinant != 0 ? cross(c - a, along_f) / determinant : 0.5;
-  return a + std::clamp(t, 0.0, 1.0) * along_e;
-}
-
-Defect describe_pair(const Cage<2>& cage, const FacetPair& pair) {
-  const auto [e, f] = pair;
-  const Index vertex = vertex_on_other_edge(cage, e, f);
-  if (vertex < 0) {
-    return {"edges " + std::to_string(e) + " and " + std::to_string(f) +
-                " of the cage cross near " + format_point(crossing(cage, e, f)),
-            {},
-            {e, f},
-            DefectKind::kSelfIntersection};
-  }
-  const bool is_of_e = vertex == cage.facets(0, e) || vertex == cage.facets(1, e);
-  const std::string touched = std::to_string(is_of_e ? f : e),
-                    own = std::to_string(is_of_e ? e : f);
-  return {describe_control_point<2>(cage.points, vertex) + ", an end of edge " + own +
-              ", is on edge " + touched + ": the cage touches itself there",
-          {vertex},
-          {e, f},
-          DefectKind::kSelfIntersection};
-}
-
-ExactKernel::Triangle_3 exact_triangle(const Cage<3>& cage, Index triangle) {
+template <int Dim>
+auto exact_facet(const Cage<Dim>& cage, Index facet) {
   const auto corner = [&](int k) {
-    const auto p = cage.points.col(cage.facets(k, triangle));
-    return ExactKernel::Point_3(p.x(), p.y(), p.z());
+    const auto p = cage.points.col(cage.facets(k, facet));
+    if constexpr (Dim == 2) {
+      return ExactKernel::Point_2(p.x(), p.y());
+    } else {
+      return ExactKernel::Point_3(p.x(), p.y(), p.z());
+    }
   };
-  return {corner(0), corner(1), corner(2)};
+  if constexpr (Dim == 2) {
+    return ExactKernel::Segment_2(corner(0), corner(1));
+  } else {
+    return ExactKernel::Triangle_3(corner(0), corner(1), corner(2));
+  }
 }
 
-// The center of the intersection of two triangles, which may be a point, segment, or polygon.
+// The center of an intersection.
+template <int Dim>
 struct Middle {
-  CGAL::Bbox_3 box;
-  void operator()(const ExactKernel::Point_3& p) { box = p.bbox(); }
-  void operator()(const ExactKernel::Segment_3& s) { box = s.bbox(); }
-  void operator()(const ExactKernel::Triangle_3& t) { box = t.bbox(); }
-  void operator()(const std::vector<ExactKernel::Point_3>& polygon) {
-    for (const auto& p : polygon) box += p.bbox();
+  template <class Shape>
+  Vector<Dim> operator()(const Shape& shape) const {
+    return of_box(shape.bbox());
   }
-  Vector<3> place() const {
-    return {(box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2,
-            (box.zmin() + box.zmax()) / 2};
+  Vector<Dim> operator()(const std::vector<ExactKernel::Point_3>& polygon) const {
+    return of_box(CGAL::bbox_3(polygon.begin(), polygon.end()));
+  }
+
+  template <class Box>
+  static Vector<Dim> of_box(const Box& box) {
+    Vector<Dim> place;
+    for (int k = 0; k < Dim; ++k) place[k] = ((box.min)(k) + (box.max)(k)) / 2;
+    return place;
   }
 };
 
-Defect describe_pair(const Cage<3>& cage, const FacetPair& pair) {
-  const auto [s, t] = pair;
-  std::string text =
-      "triangles " + std::to_string(s) + " and " + std::to_string(t) + " of the cage intersect";
-  if (const auto common = CGAL::intersection(exact_triangle(cage, s), exact_triangle(cage, t))) {
-    Middle middle;
-    boost::apply_visitor([&](const auto& shape) { middle(shape); }, *common);
-    text += " near " + format_point(middle.place());
+template <int Dim>
+Defect describe_pair(const Cage<Dim>& cage, const FacetPair& pair) {
+  const auto [f, g] = pair;
+  std::string text = std::string(Dim == 2 ? "edges " : "triangles ") + std::to_string(f) + " and " +
+                     std::to_string(g) + " of the cage " +
+                     (Dim == 2 ? "cross or touch" : "intersect");
+  if (const auto common = CGAL::intersection(exact_facet(cage, f), exact_facet(cage, g))) {
+    const auto middle = [](const auto& shape) -> Vector<Dim> { return Middle<Dim>()(shape); };
+    text += " near " + format_point(boost::apply_visitor(middle, *common));
   }
-  return {text, {}, {s, t}, DefectKind::kSelfIntersection};
+  return {text, {}, {f, g}, DefectKind::kSelfIntersection};
 }
 
 }  // namespace

@@ -13,14 +13,13 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 namespace nglib {
 #include <nglib.h>
 }
 
 #include "base/messages.h"
 #include "base/stopwatch.h"
+#include "cage/facet_geometry.h"
 #include "cage/oriented_cage.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
@@ -196,19 +195,11 @@ struct Task {
   Patience patience;
 };
 
-double surface_area(const Cage<3>& cage) {
-  double area = 0;
-  for (Index t = 0; t < cage.facets.cols(); ++t) {
-    const Eigen::Matrix3d corners = cage.points(Eigen::all, cage.facets.col(t));
-    area += (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).norm() / 2;
-  }
-  return area;
-}
-
 // The longest edge for the expected number of vertices: 3.2 per squared edge of surface plus 1.3
 // per cubed edge of volume, measured on cages of animals.
 double guess_longest_edge(const Task& task, Index vertices) {
-  const double area = surface_area(task.oriented.cage), volume = task.oriented.measure;
+  const auto& cage = task.oriented.cage;
+  const double area = area_of(cage.points, cage.facets), volume = task.oriented.measure;
   double finest = 0, coarsest = task.size;
   for (int step = 0; step < 60; ++step) {
     const double edge = (finest + coarsest) / 2;

@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 
 #include "base/messages.h"
+#include "cage/facet_geometry.h"
 #include "cage/point_in_cage.h"
 #include "flbc/bounding_box.h"
 #include "flbc/domain_mesh.h"
@@ -227,8 +228,7 @@ void put_back(Index vertex, CellComplex& complex, std::vector<Simplex>& faces) {
 }
 
 Vector<3> unit_normal(const Cage<3>& cage, Index facet) {
-  const Eigen::Matrix3d corners = cage.points(Eigen::all, cage.facets.col(facet));
-  return (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).normalized();
+  return facet_normal<3>(cage.points(Eigen::all, cage.facets.col(facet))).normalized();
 }
 
 // The edges of the cage between coplanar facets, with a margin.

@@ -8,10 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/LU>
-
 #include "base/messages.h"
 #include "base/stopwatch.h"
+#include "cage/facet_geometry.h"
 #include "cage/point_in_cage.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage_facts.h"
@@ -40,12 +39,7 @@ constexpr double kCountExponent = 0.8;
 // vertices in the volume, and 1.2 on the surface per unit of 1 / length^2; good shapes need about
 // twice the coarsest mesh. Measured on 12 cages of 2,000 to 40,000 vertices: 87% are within 10%.
 double guess_volume_bound(const Cage<3>& cage, double volume, Index coarsest, Index vertices) {
-  double area = 0;
-  for (const auto& facet : cage.facets.colwise()) {
-    const Vector<3> a = cage.points.col(facet[0]);
-    const Vector<3> u = cage.points.col(facet[1]) - a, v = cage.points.col(facet[2]) - a;
-    area += u.cross(v).norm() / 2;
-  }
+  const double area = area_of(cage.points, cage.facets);
   const double wanted = std::max(0.25 * vertices, vertices - 2.0 * coarsest);
   double density = std::cbrt(wanted / (0.22 * volume));  // 1 / length; too large without surface
   for (int k = 0; k < 20; ++k) {                         // Newton's method
@@ -221,12 +215,8 @@ Patience ample_time(const Task& task, const Patience& patience) {
 
 // TetGen makes another mesh of a cage that is turned inward.
 Cage<3> outward(Cage<3> cage) {
-  double volume = 0;
-  for (const auto& facet : cage.facets.colwise()) {
-    const Eigen::Matrix3d corners = cage.points(Eigen::all, facet);
-    volume += (corners.colwise() - cage.points.col(0)).determinant();
-  }
-  if (volume < 0) cage.facets.row(1).swap(cage.facets.row(2));
+  const Vector<3> origin = cage.points.col(0);
+  if (signed_measure<3>(cage, origin) < 0) cage.facets.row(1).swap(cage.facets.row(2));
   return cage;
 }
 
