@@ -161,9 +161,7 @@ ExactKernel::Triangle_3 exact_triangle(const CageDraft<3>& draft, Index f) {
 }
 
 Vector<3> normal_of(const CageDraft<3>& draft, Index f) {
-  Eigen::Matrix3d corners;
-  for (int k = 0; k < 3; ++k) corners.col(k) = draft.points.col(draft.facets[f].corners(k));
-  return facet_normal<3>(corners);
+  return facet_normal<3>(draft.points(Eigen::all, draft.facets[f].corners));
 }
 
 ExactKernel::Triangle_2 flat(const Projection& projection, const ExactKernel::Triangle_3& t) {
