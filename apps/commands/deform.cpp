@@ -8,7 +8,6 @@
 
 #include "commands/commands.h"
 #include "commands/pose_options.h"
-#include "files/deform_points.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
@@ -138,18 +137,6 @@ std::vector<std::string> name_outputs(const std::vector<Pose<Dim>>& poses,
   return names;
 }
 
-// The layout of files that are moved in batches: points, and clouds of the same kind that gain
-// nothing from being in memory.
-std::optional<io::PointLayout> find_layout(const DeformArguments& arguments) {
-  const auto& [model, output, shows_displacement, is_anew] = arguments.file;
-  if (!evaluates(arguments) || arguments.is_relative || needs_jacobians(arguments) ||
-      shows_displacement || !arguments.displacement.empty() ||
-      io::extension_of(model) != io::extension_of(output)) {
-    return {};
-  }
-  return io::find_point_layout(model);
-}
-
 // A binding of the domain mesh, by which any points are evaluated.
 template <int Dim>
 Binding<Dim> load_evaluated(const DeformArguments& arguments) {
@@ -263,40 +250,6 @@ void print_summary(const MovableModel<Dim>& model, const std::vector<Pose<Dim>>&
   }
 }
 
-template <int Dim>
-void deform_in_batches(const io::PointLayout& layout, const std::vector<Pose<Dim>>& poses,
-                       const std::vector<std::string>& outputs, const DeformArguments& arguments) {
-  const auto& input = arguments.file.model;
-  if (layout.offsets.size() < Dim || (moves_points(arguments) && layout.offsets.size() > Dim)) {
-    throw InputError(input + ": has " + std::to_string(layout.offsets.size()) +
-                     " coordinates per point, but the cage is in " + std::to_string(Dim) + "D");
-  }
-  const auto bound = load_evaluated<Dim>(arguments);
-  const auto wanted = outside_of(arguments, bound.policy);
-  const Evaluator<Dim> evaluator(bound.cage, bound.domain, bound.domain_weights,
-                                 without_failure(wanted));
-  const auto start = std::chrono::steady_clock::now();
-  NewFiles files;
-  MovedPoints all;
-  for (std::size_t k = 0; k < poses.size(); ++k) {
-    files.expect(outputs[k]);
-    const PointMotion motion{input, layout, outputs[k], wanted, arguments.quiet};
-    const auto moved = deform_points(motion, evaluator, poses[k].points);
-    all = {std::max(all.largest, moved.largest), moved.outside, moved.farthest};
-  }
-  files.keep();
-  if (arguments.quiet) return;
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  std::cerr << arguments.file.output << ": " << layout.count << " vertices, " << poses.size()
-            << (poses.size() == 1 ? " pose, " : " poses, ") << seconds.count()
-            << " s; largest displacement " << all.largest;
-  if (all.outside > 0) {
-    std::cerr << "; " << all.outside << " vertices are outside the cage, by up to " << all.farthest;
-  }
-  std::cerr << '\n';
-  if (all.outside > 0 && wanted == OutsidePoints::kKeep) warn_unknown_border(input);
-}
-
 // Without a rest cage, the poses of a sequence must at least be poses of one cage.
 template <int Dim>
 RestCage<Dim> load_rest(const DeformArguments& arguments, const CageFiles& cages) {
@@ -307,12 +260,10 @@ RestCage<Dim> load_rest(const DeformArguments& arguments, const CageFiles& cages
 
 template <int Dim>
 void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
-  const auto layout = find_layout(arguments);
   if (!moves_points(arguments)) require_formats_of<Dim>(arguments.file);
   const auto poses = load_poses(arguments.poses, cages, load_rest<Dim>(arguments, cages));
   const auto outputs = name_outputs(poses, arguments.file.output);
   check_outputs(arguments, cages, outputs);
-  if (layout) return deform_in_batches<Dim>(*layout, poses, outputs, arguments);
 
   const MovableModel<Dim> model(arguments.file);
   Binding<Dim> binding;
@@ -356,10 +307,6 @@ void add_deform_command(CLI::App& app, int&) {
       "Another format receives the polygons, colors, normals, and texture coordinates that it\n"
       "supports. The program reports those that are lost.\n"
       "The results of a sequence have the numbers of --pose pose_%d.obj, or count from 0.\n"
-      "Points (.npy) and binary .ply files without faces and normals may be of any size, with a\n"
-      "binding or --domain. They are moved in batches, and everything in the file except "
-      "coordinates\n"
-      "stays the same.\n"
       "\n"
       "Examples:\n"
       "  flbc deform model.obj --weights binding.npz --pose pose.obj -o moved.obj\n"

@@ -60,18 +60,17 @@ Border<Dim>::Border(const Binding<Dim>& binding)
       crossings_(find_crossings(cage_, binding.rest(), are_still(binding.weights), binding.edges)) {
 }
 
-void warn_unknown_border(const std::string& file) {
-  std::cerr << "flbc: " << file
-            << ": the deformation jumps where a moved facet passes through a mesh of these points; "
-               "this is not checked, because points have no edges\n";
-}
-
 template <int Dim>
 void warn_border(const Binding<Dim>& binding, const std::string& file,
                  const std::vector<Pose<Dim>>& poses) {
   const auto still = are_still(binding.weights);
   if (std::find(still.begin(), still.end(), true) == still.end()) return;
-  if (binding.edges.ends.empty()) return warn_unknown_border(file);
+  if (binding.edges.ends.empty()) {
+    std::cerr << "flbc: " << file
+              << ": the deformation jumps where a moved facet passes through a mesh of these "
+                 "points; this is not checked, because points have no edges\n";
+    return;
+  }
   const auto text = Border<Dim>(binding).describe(poses);
   if (!text.empty()) std::cerr << "flbc: " << file << ' ' << text << '\n';
 }

@@ -37,11 +37,9 @@ class Border {
   std::vector<BorderCrossing<Dim>> crossings_;
 };
 
-// Prints that the deformation of points may jump where a mesh of them would cross the cage.
-void warn_unknown_border(const std::string& file);
-
 // Prints where vertices of a binding that move meet vertices without weights, and what to hold
-// still, if there is such a place. \param file  of the model
+// still, if there is such a place. Of points without edges it prints that this is not checked.
+// \param file  of the model
 template <int Dim>
 void warn_border(const Binding<Dim>& binding, const std::string& file,
                  const std::vector<Pose<Dim>>& poses);

@@ -55,8 +55,7 @@ std::string get_file(const std::string& path) {
 
 std::vector<Reader> all_readers() {
   std::vector<Reader> all;
-  for (const auto& some :
-       {model_readers(), mesh_readers(), point_readers(), weight_readers(), program_readers()}) {
+  for (const auto& some : {model_readers(), mesh_readers(), weight_readers(), program_readers()}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

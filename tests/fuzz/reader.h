@@ -51,7 +51,6 @@ struct Reader {
 std::vector<Reader> model_readers();
 std::vector<Reader> mesh_readers();
 std::vector<Reader> weight_readers();
-std::vector<Reader> point_readers();
 std::vector<Reader> program_readers();
 
 //! All of them.
