@@ -20,7 +20,6 @@
 #include "front/bound_model.h"
 #include "front/gltf_facts.h"
 #include "front/load.h"
-#include "front/model_page.h"
 #include "front/movable_model.h"
 #include "front/poses.h"
 #include "gltf/skin.h"
@@ -108,7 +107,6 @@ struct ExportArguments {
   std::string model;
   BindingFiles files;
   PoseArguments poses;
-  int bits = 0;  // 0 = float
   std::string output;
   UpAxis up = UpAxis::kAuto;
   bool quiet = false;
@@ -119,9 +117,6 @@ struct ExportArguments {
 constexpr Index kOneSet = 4;
 
 void check_arguments(ExportArguments& arguments) {
-  using gltf::WeightFormat;
-  if (arguments.bits == 16) arguments.options.weight_format = WeightFormat::kUnsignedShort;
-  if (arguments.bits == 8) arguments.options.weight_format = WeightFormat::kUnsignedByte;
   arguments.options.name = std::filesystem::path(arguments.model).stem().string();
   require_mesh_readable(arguments.model);
   const auto extension = io::extension_of(arguments.output);
@@ -137,10 +132,8 @@ void check_arguments(ExportArguments& arguments) {
     throw OptionError(arguments.output +
                       ": vertex groups do not turn the imported model; leave out --up");
   }
-  if (arguments.bits != 0 || !arguments.poses.empty()) {
-    throw OptionError(arguments.output +
-                      ": vertex groups have no quantized weights and no poses; leave out "
-                      "--quantize and --pose");
+  if (!arguments.poses.empty()) {
+    throw OptionError(arguments.output + ": vertex groups have no poses; leave out --pose");
   }
 }
 
@@ -195,7 +188,7 @@ void print_summary(const gltf::ExportedSkin& skin, const gltf::Animation<Dim>& a
               << " s that move " << skin.moving_joints << " joints";
   }
   std::cerr << "; " << skin.content.size() << " bytes";
-  if (are_reduced || arguments.bits != 0) {
+  if (are_reduced) {
     const auto& error = skin.deformation_error;
     std::cerr << "; deformation error over "
               << (animation.poses.empty() ? "random smooth poses " : "these poses ")
@@ -220,7 +213,6 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
 
   auto options = arguments.options;
   options.turn = turn_upright(up_axis(up_of(arguments.up, arguments.model), points));
-  options.cage_edges = view::as_facets(shown_cage_of(arguments.files, binding).edges);
   const auto skin = naming(arguments.model,
                            [&] { return gltf::export_skin(binding, surface, options, animation); });
   write_text(arguments.output, skin.content);
@@ -261,10 +253,6 @@ void add_export_command(CLI::App& app, int&) {
   add_rate_option(*command, a.poses, add_pose_option(*command, a.poses));
   command->add_option("-k,--max-influences", a.options.max_influences,
                       "maximum influences per vertex, 4 or 8 (default: 8)");
-  add_choice(
-      *command, "--quantize", {"8", "16"},
-      [&a](const std::string& bits) { a.bits = std::stoi(bits); },
-      "store weights with 8 or 16 bits (default: 32-bit floating point)");
   command
       ->add_option("-o,--output", a.output,
                    "skin: .glb, .usda, or .py for vertex groups in Blender")

@@ -108,7 +108,6 @@ Json write_skin(Run<Dim>& run, const std::string& name, Index max_influences) {
   options.max_influences = max_influences;
   options.name = shape.name;
   options.turn = turn_upright(up_axis(run.arguments.up, shape.points));
-  options.cage_edges = view::as_facets(shown_cage(run).edges);
   const auto skin = gltf::export_skin(run.reduced, shape.surface, options, animation);
   run.folder.add_text(name, facts_of(skin, run) + left_out_of(skin), skin.content);
   const double size = bounding_box_diagonal<Dim>(shape.points);

@@ -65,12 +65,6 @@ template <int Dim>
 std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<Index>>& polygons,
                                                 const FacetList<Dim>& facets);
 
-inline FacetList<2> as_facets(const std::vector<std::array<Index, 2>>& edges) {
-  FacetList<2> facets(2, static_cast<Eigen::Index>(edges.size()));
-  for (std::size_t e = 0; e < edges.size(); ++e) facets.col(e) << edges[e][0], edges[e][1];
-  return facets;
-}
-
 //! The content as JSON that decodeContent() of the page reads. Errors as for make_page().
 template <int Dim>
 std::string make_content(const PageContent<Dim>& content);

@@ -107,7 +107,6 @@ void export_skin(const AnyBinding& any, const std::string& path, const Polygons&
   if (extension == "usda") options.format = gltf::SkinFormat::kUsda;
   any.visit([&](const auto& binding) {
     constexpr int kDim = kDimOf<std::decay_t<decltype(binding)>>;
-    options.cage_edges = view::as_facets(view::edges_of_cage<kDim>({}, binding.cage.facets));
     const gltf::Animation<kDim> animation{times, poses_of<kDim>(poses)};
     const auto surface = surface_of<kDim>(binding, polygons);
     without_gil([&] {

@@ -154,29 +154,6 @@ TEST_F(ExportCommand, PictureOfPly) {
   EXPECT_EQ(skinned.json["materials"].size(), 1U);
 }
 
-TEST_F(ExportCommand, TheCagesWireIsInASceneThatIsNotShown) {
-  expect_export(square() + " -o s.glb", 0, "");
-  const auto skinned = skin("s.glb");
-  const auto& json = skinned.json;
-  EXPECT_EQ(json["scene"], 0);
-  const auto& wire = json["meshes"][1];
-  EXPECT_EQ(wire["name"], "cage_wire");
-  const auto& lines = wire["primitives"][0];
-  EXPECT_EQ(lines["mode"], 1);
-  EXPECT_EQ(json["accessors"][lines["indices"].get<std::size_t>()]["count"], 12);  // 6 edges
-  const auto points = skinned.accessor(lines["attributes"]["POSITION"].get<std::size_t>());
-  EXPECT_EQ(points, points_in<3>("cage.obj"));
-  std::size_t node = 0;
-  while (json["nodes"][node].value("mesh", 0) != 1) ++node;
-  EXPECT_EQ(json["nodes"][node]["skin"], 0);
-  const auto has_node = [&](std::size_t scene) {
-    const std::set<std::size_t> nodes = json["scenes"][scene]["nodes"];
-    return nodes.count(node) > 0;
-  };
-  EXPECT_FALSE(has_node(0));
-  EXPECT_TRUE(has_node(1));
-}
-
 // Where the skin of a node puts its vertices if the control points move.
 Eigen::MatrixXd skinned(const GlbChunks& file, std::size_t number, const Eigen::MatrixXd& moves) {
   const auto& json = file.json;
@@ -532,13 +509,6 @@ TEST_F(ExportCommand, WhatOnlyTheOldSkinNeededGoes) {
   // The camera needs its place.
   EXPECT_EQ(after.json["nodes"][1]["scale"], before.json["nodes"][1]["scale"]);
   EXPECT_EQ(after.json["nodes"][2], before.json["nodes"][2]);
-}
-
-TEST_F(ExportCommand, RoundedWeights) {
-  const auto arguments = square() + " -o s.glb --quantize ";
-  expect_export(arguments + "16", 0, "deformation error over random smooth poses ");
-  EXPECT_EQ(skin("s.glb").influences("WEIGHTS_", true).colwise().sum(),
-            Eigen::RowVectorXd::Constant(4, 65535));
 }
 
 TEST_F(ExportCommand, SequencesOfCages) {

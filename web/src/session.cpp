@@ -553,7 +553,6 @@ class Work {
     skin.name = title();
     const auto up = app::up_of(app::UpAxis::kAuto, file_);
     skin.turn = app::turn_upright(app::up_axis(up, points()));
-    skin.cage_edges = view::as_facets(shown_.edges);
     gltf::Animation<Dim> animation{options.value("times", std::vector<double>())};
     for (const auto& pose : options.value("poses", Json::array())) {
       animation.poses.push_back(points_in(pose));

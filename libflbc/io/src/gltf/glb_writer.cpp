@@ -180,8 +180,8 @@ class SkinBuilder {
     const auto origin = Eigen::Affine3d(Eigen::Translation3d(scene_.origin));
     edit_.node(part.node)["skin"] = skin_from(has_pose ? origin : part.frame(0));
     const auto& weights = scene_.weights;
-    auto influences = influences_of({weights.format, weights.joints(Eigen::all, part.points),
-                                     weights.numbers(Eigen::all, part.points)});
+    auto influences = influences_of(
+        {weights.joints(Eigen::all, part.points), weights.numbers(Eigen::all, part.points)});
     const auto count = static_cast<Eigen::Index>(part.points.size());
     const Eigen::RowVectorXf sources =
         Eigen::Map<const Eigen::Matrix<Index, 1, Eigen::Dynamic>>(part.points.data(), count)
@@ -253,19 +253,9 @@ class SkinBuilder {
           is_small ? document_.add_accessor<std::uint8_t>(joints, io::kVertexTarget)
                    : document_.add_accessor<std::uint16_t>(joints, io::kVertexTarget);
       attributes["WEIGHTS_" + suffix] =
-          add_numbers(weights.numbers.middleRows(4 * set, 4), weights.format);
+          document_.add_attribute(weights.numbers.middleRows(4 * set, 4));
     }
     return attributes;
-  }
-
-  template <class Matrix>
-  std::size_t add_numbers(const Matrix& numbers, WeightFormat format) {
-    if (format == WeightFormat::kFloat) return document_.add_attribute(numbers);
-    const auto accessor = format == WeightFormat::kUnsignedShort
-                              ? document_.add_accessor<std::uint16_t>(numbers, io::kVertexTarget)
-                              : document_.add_accessor<std::uint8_t>(numbers, io::kVertexTarget);
-    list("accessors")[accessor]["normalized"] = true;
-    return accessor;
   }
 
   // ---------------------------------------------------------------------------------------- a mesh
@@ -367,16 +357,8 @@ class SkinBuilder {
       document_.append("scenes", {{"name", "model"}, {"nodes", {0}}});
     }
     if (!document_.json.contains("scenes")) document_.append("scenes", {{"nodes", roots()}});
+    // Joints must be in every scene that shows their skin.
     const auto shown = io::whole(document_.json, "scene", 0);
-    add_cage_to_scenes(shown);
-    if (scene_.wire.cols() == 0) return;
-    auto nodes = list("scenes").at(shown)["nodes"];
-    nodes.push_back(add_wire());
-    document_.append("scenes", {{"name", "model and cage"}, {"nodes", nodes}});
-  }
-
-  // Joints must be in every scene that shows their skin.
-  void add_cage_to_scenes(std::size_t shown) {
     std::set<std::size_t> skinned;
     if (scene_.document) {
       for (const auto& part : scene_.document->parts) skinned.insert(part.node);
@@ -398,26 +380,6 @@ class SkinBuilder {
       if (parent_of.count(k) == 0) result.push_back(k);
     }
     return result;
-  }
-
-  // The cage edges, skinned by the control points. \return the number of the node
-  std::size_t add_wire() {
-    const auto count = scene_.joints.cols();
-    JointWeights own;
-    own.joints.setZero(4, count);
-    own.numbers.setZero(4, count);
-    for (Eigen::Index i = 0; i < count; ++i) own.joints(0, i) = static_cast<std::uint16_t>(i);
-    own.numbers.row(0).setOnes();
-    auto attributes = influences_of(own);
-    attributes["POSITION"] = document_.add_attribute(scene_.joints, true);
-    constexpr int kLines = 1;
-    const Json primitive{{"mode", kLines},
-                         {"attributes", attributes},
-                         {"indices", document_.add_indices(scene_.wire, count)}};
-    const auto mesh = document_.append(
-        "meshes", {{"name", "cage_wire"}, {"primitives", Json::array({primitive})}});
-    const auto skin = skin_from(Eigen::Affine3d(Eigen::Translation3d(scene_.origin)));
-    return document_.append("nodes", {{"name", "cage_wire"}, {"mesh", mesh}, {"skin", skin}});
   }
 
   const GlbScene& scene_;

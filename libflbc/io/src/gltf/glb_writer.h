@@ -29,7 +29,6 @@ struct GlbScene {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   JointWeights weights{};     //!< of the S vertices; with a document of the points of the model
   Eigen::Matrix3Xf joints{};  //!< 3 x n, at rest
-  FacetList<2> wire{};        //!< 2 x E, edges between joints, or no column
   //! Rotation about the origin of the cage coordinates.
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   std::vector<float> times{};                        //!< in seconds
@@ -40,9 +39,8 @@ struct GlbScene {
 //! Makes the content of a .glb file. The scene has two root nodes: the mesh, and the joint "cage"
 //! at the center of the cage. Only this joint has the offset from the origin. Its children are the
 //! joints "control_point_0" etc., and "cage_end", which moves nothing but makes programs draw short
-//! bones. A second scene, not shown by default, also has the cage edges: the skinned node
-//! "cage_wire". A document keeps all its content, except for skins of the model and animations of
-//! their joints. Positions stay in the coordinates of their nodes, which lose their transforms and
+//! bones. A document keeps all its content, except for skins of the model and animations of their
+//! joints. Positions stay in the coordinates of their nodes, which lose their transforms and
 //! parents, because those do not move skins, unless something else needs them. Triangles turn over
 //! where a mirroring is lost.
 //! \param left_out  gets what is missing, one phrase each

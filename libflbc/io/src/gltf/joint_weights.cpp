@@ -2,8 +2,6 @@
 #include "gltf/joint_weights.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <vector>
 
 namespace flbc::gltf {
@@ -30,53 +28,20 @@ std::vector<Influence> influences_by_weight(const SparseWeights& weights, Index 
 }
 
 // The largest weight gets the rounding remainder, so the sum is 1.
-std::vector<double> round_to_floats(const std::vector<double>& weights) {
-  std::vector<double> numbers(weights.size());
-  std::transform(weights.begin(), weights.end(), numbers.begin(),
-                 [](double weight) { return static_cast<float>(weight); });
-  const double others = std::accumulate(numbers.begin() + 1, numbers.end(), 0.0);
+std::vector<float> rounded(const std::vector<Influence>& influences) {
+  std::vector<float> numbers;
+  double others = 0;
+  for (const auto& influence : influences) {
+    numbers.push_back(static_cast<float>(influence.weight));
+    if (numbers.size() > 1) others += numbers.back();
+  }
   numbers[0] = static_cast<float>(1 - others);
   return numbers;
 }
 
-// The remainder goes to the weights that lost most by rounding.
-std::vector<double> round_to_integers(const std::vector<double>& weights, double unit) {
-  std::vector<double> numbers(weights.size());
-  std::vector<std::size_t> order(weights.size());
-  std::transform(weights.begin(), weights.end(), numbers.begin(),
-                 [&](double weight) { return std::floor(weight * unit); });
-  const auto remainder = [&](std::size_t k) { return weights[k] * unit - numbers[k]; };
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](auto a, auto b) { return remainder(a) > remainder(b); });
-  const double sum = std::accumulate(numbers.begin(), numbers.end(), 0.0);
-  const auto missing = static_cast<std::size_t>(unit - sum);
-  for (std::size_t k = 0; k < missing; ++k) ++numbers[order[k % order.size()]];
-  return numbers;
-}
-
-std::vector<double> numbers_of(const std::vector<Influence>& influences, WeightFormat format) {
-  std::vector<double> exact(influences.size());
-  std::transform(influences.begin(), influences.end(), exact.begin(),
-                 [](const Influence& influence) { return influence.weight; });
-  return format == WeightFormat::kFloat ? round_to_floats(exact)
-                                        : round_to_integers(exact, unit_of(format));
-}
-
 }  // namespace
 
-double unit_of(WeightFormat format) {
-  switch (format) {
-    case WeightFormat::kUnsignedShort:
-      return 65535;
-    case WeightFormat::kUnsignedByte:
-      return 255;
-    default:
-      return 1;
-  }
-}
-
-JointWeights to_joint_weights(const SparseWeights& weights, WeightFormat format) {
+JointWeights to_joint_weights(const SparseWeights& weights) {
   std::vector<std::vector<Influence>> points(weights.num_points());
   std::size_t most = 0;
   for (Index v = 0; v < weights.num_points(); ++v) {
@@ -85,12 +50,11 @@ JointWeights to_joint_weights(const SparseWeights& weights, WeightFormat format)
   }
   const auto slots = (static_cast<Index>(most) + kSlotsPerSet - 1) / kSlotsPerSet * kSlotsPerSet;
   JointWeights result;
-  result.format = format;
   result.joints.setZero(slots, weights.num_points());
   result.numbers.setZero(slots, weights.num_points());
   for (Index v = 0; v < weights.num_points(); ++v) {
     const auto& influences = points[v];
-    const auto numbers = numbers_of(influences, format);
+    const auto numbers = rounded(influences);
     Index slot = 0;
     for (std::size_t k = 0; k < influences.size(); ++k) {
       // A weight that rounds to zero is dropped.
@@ -108,7 +72,7 @@ SparseWeights to_weights(const JointWeights& stored, Eigen::Index num_joints) {
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(num_joints);
     for (Eigen::Index slot = 0; slot < stored.joints.rows(); ++slot) {
       if (stored.joints(slot, v) == num_joints) continue;
-      weights[stored.joints(slot, v)] += stored.numbers(slot, v) / unit_of(stored.format);
+      weights[stored.joints(slot, v)] += double{stored.numbers(slot, v)};
     }
     return weights;
   });

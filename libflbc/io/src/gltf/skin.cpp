@@ -52,9 +52,6 @@ void check(const PointList<Dim>& control_points, const PointList<Dim>& points,
       !is_of(surface.sources, points.cols())) {
     throw InputError("the surface of the skin is empty, or not one of these points");
   }
-  if (!is_of(options.cage_edges.reshaped(), control_points.cols())) {
-    throw InputError("an edge of the cage ends at no control point");
-  }
 }
 
 // In space, in single precision. \param owner  for messages
@@ -124,8 +121,7 @@ GlbScene make_scene(const PointList<Dim>& control_points, const PointList<Dim>& 
       const auto count = static_cast<Eigen::Index>(sources.size());
       scene.sources = Eigen::Map<const RowVector>(sources.data(), count).cast<float>();
     }
-    scene.weights = {stored.format, stored.joints(Eigen::all, sources),
-                     stored.numbers(Eigen::all, sources)};
+    scene.weights = {stored.joints(Eigen::all, sources), stored.numbers(Eigen::all, sources)};
   }
   scene.joints = to_floats<Dim>(control_points.colwise() - origin, "the cage");
   scene.times.assign(animation.times.begin(), animation.times.end());
@@ -188,13 +184,12 @@ ExportedSkin export_skin(const Binding<Dim>& binding, const Surface& surface,
   check(control_points, points, weights, surface, options);
   validate(animation, control_points.cols());
   const auto few = binding.reduced({options.max_influences}, animation.poses).weights;
-  const auto stored = to_joint_weights(few, options.weight_format);
+  const auto stored = to_joint_weights(few);
   const Vector<Dim> origin = origin_of(control_points, options.format);
   const bool is_usd = options.format == SkinFormat::kUsda;
   auto scene = make_scene(control_points, points, stored, surface, animation, origin, !is_usd);
   scene.name = options.name;
   scene.turn = options.turn;
-  scene.wire = options.cage_edges;
 
   ExportedSkin result;
   for (const auto& file : surface.missing_files) {

@@ -22,14 +22,12 @@ constexpr double kVisibleChange = 1e-5;
 enum class SkinFormat { kGlb, kUsda };
 
 struct SkinOptions {
-  Index max_influences = 8;  //!< per point, 4 or 8
-  WeightFormat weight_format = WeightFormat::kFloat;
+  Index max_influences = 8;    //!< per point, 4 or 8
   std::string name = "model";  //!< of the mesh, in .glb
   SkinFormat format = SkinFormat::kGlb;
   //! Rotation about the origin from the model to y up, for readers. The root has it; coordinates
   //! stay as they are.
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  FacetList<2> cage_edges{};  //!< 2 x E, between control points, in .glb; no column = not written
 };
 
 //! Poses of the cage, with linear interpolation between them.

@@ -101,8 +101,6 @@ void write_animation(std::ostream& text, const GlbScene& scene) {
 void write_surface(std::ostream& text, const GlbScene& scene) {
   const auto& surface = scene.surface;
   const auto slots = scene.weights.joints.rows();
-  const Eigen::MatrixXf weights =
-      (scene.weights.numbers / unit_of(scene.weights.format)).cast<float>();
   const auto num_joints = static_cast<int>(scene.joints.cols());
   const Eigen::MatrixXi joints = scene.weights.joints.cast<int>().unaryExpr(
       [num_joints](int joint) { return joint == num_joints ? 0 : joint + kRoots; });
@@ -128,7 +126,8 @@ void write_surface(std::ostream& text, const GlbScene& scene) {
          << columns(surface.colors.cast<float>().eval()) << " (interpolation = \"vertex\")\n";
   }
   text << "        int[] primvars:skel:jointIndices = " << numbers(joints) << per_vertex
-       << "        float[] primvars:skel:jointWeights = " << numbers(weights) << per_vertex
+       << "        float[] primvars:skel:jointWeights = " << numbers(scene.weights.numbers)
+       << per_vertex
        << "        matrix4d primvars:skel:geomBindTransform = ((1, 0, 0, 0), (0, 1, 0, 0), "
           "(0, 0, 1, 0), (0, 0, 0, 1))\n"
        << "        rel skel:skeleton = </model/cage>\n    }\n";
