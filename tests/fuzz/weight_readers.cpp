@@ -32,14 +32,11 @@ std::string file_of_weights(const std::string& name) {
   return written(name, [&](const std::string& path) { io::write_weights(path, weights); });
 }
 
-const char* const kMtxArray =
-    "%%MatrixMarket matrix array real general\n% by hand\n2 2\n1\n0\n0.25\n1e-3\n";
-
 }  // namespace
 
 std::vector<Reader> weight_readers() {
   return {
-      {"mtx", "input.mtx", read_weights, {file_of_weights("a.mtx"), kMtxArray}},
+      {"mtx", "input.mtx", read_weights, {file_of_weights("a.mtx")}},
       {"npy",
        "input.npy",
        read_weights,

@@ -142,8 +142,6 @@ TEST_F(WeightsFile, MtxVariants) {
       "3 2 6\n1 1 1\n2 1 +2e0\n%\n1 2 4.\n2 2 .5e1\n3 1 30E-1",
       "%%matrixmarket MATRIX Coordinate INTEGER General\r\n3 2 6\r\n"
       "1 1 1\r\n2 1 2\r\n3 1 3\r\n1 2 4\r\n2 2 5\r\n3 2 6\r\n",
-      "%%MatrixMarket matrix array real general\n% by columns\n3 2\n1\n2\n3\n4\n5\n6\n",
-      "%%MatrixMarket matrix array integer general\n3 2\n1 2 3\n4 5 6",
   };
   expect_small_weights("w.mtx", variants);
 }
@@ -166,7 +164,6 @@ TEST_F(WeightsFile, NpyVariants) {
 
 TEST_F(WeightsFile, MalformedMtx) {
   const std::string head = "%%MatrixMarket matrix coordinate real general\n";
-  const std::string array = "%%MatrixMarket matrix array real general\n";
   expect_malformed(
       "w.mtx",
       {{"", ":1: ", "%%MatrixMarket"},
@@ -180,7 +177,7 @@ TEST_F(WeightsFile, MalformedMtx) {
        {head + "-3 2 1\n1 1 1\n", ":2: ", "-3 rows are declared"},
        {head + "3 2 1000000000\n1 1 1\n", ":2: ", "too short"},
        {head + "2000000000 2000000000 1\n1 1 1\n", ":2: ", "only 1 entries"},
-       {array + "0 922347750\n", ":2: ", "not a weight matrix"},
+       {"%%MatrixMarket matrix array real general\n", ":1: ", "format \"array\""},
        {head + "3 2 2\n1 1 1\n% cut off\n", ":4: ", "the file ends after 1 of 2 entries"},
        {head + "3 2 1\n1 1 1\n2 2 1\n", ":4: ", "expected the end of the file"},
        {head + "3 2 1\n4 1 1\n", ":3: ", "rows are numbered 1 to 3"},
@@ -188,9 +185,7 @@ TEST_F(WeightsFile, MalformedMtx) {
        {head + "3 2 1\n1 1 1 1\n", ":3: ", "expected the end of the line, found \"1\""},
        {head + "3 2 1\n1 1 0x1p3\n", ":3: ", "expected a number, found \"0x1p3\""},
        {head + "3 2 1\n1 1 1e400\n", ":3: ", "\"1e400\" is too large"},
-       {head + "3 2 1\n1 1 nan\n", ":3: ", "expected a finite number, found \"nan\""},
-       {array + "3 2\n1 2 3 4 5\n", ":3: ", "the file ends after 5 of 6 numbers"},
-       {array + "300000 200000\n1 2 3\n", ":2: ", "too short"}});
+       {head + "3 2 1\n1 1 nan\n", ":3: ", "expected a finite number, found \"nan\""}});
 }
 
 TEST_F(WeightsFile, MalformedNpy) {
@@ -205,21 +200,20 @@ TEST_F(WeightsFile, MalformedNpy) {
        {npy(head).substr(0, 30), ": at byte 30: ", "ends inside its header"},
        {npy(head, 9), ": at byte 6: ", "version 9"},
        {with("{'descr': '>f8', 'fortran_order': False, 'shape': (3, 2), }"), ": ", "\">f8\""},
-       {with("{'descr': '<i8', 'fortran_order': False, 'shape': (3, 2), }"), ": ", "\"<i8\""},
        {with("{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (3, 2), }"),
         ": at byte 20: ", "structured"},
        {with("{'descr': '<f8', 'fortran_order': False, 'shape': (6,), }"), ": ", "1 dimensions"},
        {with("{'descr': '<f8', 'fortran_order': False, 'shape': (-3, 2), }"),
         ": at byte 61: ", "number of elements"},
        {with("{'descr': '<f8', 'fortran_order': False, 'shape': (9999999999, 2)}"), ": ",
-        "more than this program can handle"},
+        "not a weight matrix"},
        {with("{'descr': '<f8', 'fortran_order': Maybe, 'shape': (3, 2)}"),
         ": at byte 44: ", "True or False"},
        {with("{'descr': '<f8', 'fortran_order': False}"), ": ", "no 'shape'"},
-       {npy(head) + data.substr(0, 45), ": at byte 114: ", "after 5 of 6 numbers"},
-       {npy(head) + data + "!", ": at byte 117: ", "has 1 more bytes"},
-       {npy(head) + doubles({1, 4, 2, infinity, 3, 6}),
-        ": at byte 93: ", "control point 1 at point 1 is not finite: inf"}});
+       {npy(head) + data.substr(0, 45), ": ", "45 bytes of numbers"},
+       {npy(head) + data + "!", ": ", "49 bytes of numbers"},
+       {npy(head) + doubles({1, 4, 2, infinity, 3, 6}), ": ",
+        "number 3 is inf, which is not finite"}});
 }
 
 TEST_F(WeightsFile, OtherExtensionsAreRefused) {

@@ -3,10 +3,15 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <string_view>
 #include <system_error>
+#include <type_traits>
 
+#include "base/messages.h"
 #include "flbc/errors.h"
+#include "text/bytes.h"
 #include "text/text_reader.h"
 
 namespace flbc::io {
@@ -83,7 +88,57 @@ class Header {
   std::string_view text_;
 };
 
+template <class Stored, class Scalar>
+std::vector<Scalar> converted(const std::string& owner, std::size_t count, std::string_view bytes) {
+  if (count != bytes.size() / sizeof(Stored) || bytes.size() % sizeof(Stored) != 0) {
+    throw InputError(owner + " has " + std::to_string(bytes.size()) + " bytes of numbers, but " +
+                     std::to_string(count) + " numbers of " + std::to_string(sizeof(Stored)) +
+                     " bytes are declared");
+  }
+  std::vector<Scalar> result(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto value = number_at<Stored>(bytes.data() + k * sizeof(Stored));
+    bool fits = std::isfinite(static_cast<double>(value));
+    if constexpr (std::is_integral_v<Scalar>) {
+      fits = std::is_integral_v<Stored> &&
+             static_cast<std::int64_t>(value) >= std::numeric_limits<Scalar>::min() &&
+             static_cast<std::int64_t>(value) <= std::numeric_limits<Scalar>::max();
+    }
+    if (!fits) {
+      throw InputError(owner + ": number " + std::to_string(k) + " is " +
+                       format_number(static_cast<double>(value)) + ", which is not finite" +
+                       (std::is_integral_v<Scalar> ? ", or no index" : ""));
+    }
+    result[k] = static_cast<Scalar>(value);
+  }
+  return result;
+}
+
 }  // namespace
+
+template <class Scalar>
+std::vector<Scalar> npy_numbers(const std::string& owner, const NpyHeader& header,
+                                std::string_view bytes) {
+  std::size_t count = 1;
+  for (const auto length : header.shape) {
+    if (length > 0 && count > bytes.size() / static_cast<std::size_t>(length)) {
+      throw InputError(owner + ": the file ends early");
+    }
+    count *= static_cast<std::size_t>(length);
+  }
+  if (header.type == "<f8") return converted<double, Scalar>(owner, count, bytes);
+  if (header.type == "<f4") return converted<float, Scalar>(owner, count, bytes);
+  if (header.type == "<i4") return converted<std::int32_t, Scalar>(owner, count, bytes);
+  if (header.type == "<i8") return converted<std::int64_t, Scalar>(owner, count, bytes);
+  throw InputError(owner + " has the type " + in_quotes(header.type) +
+                   ", which is not supported; save the array with astype('<f8')");
+}
+
+template std::vector<double> npy_numbers(const std::string&, const NpyHeader&, std::string_view);
+template std::vector<std::int32_t> npy_numbers(const std::string&, const NpyHeader&,
+                                               std::string_view);
+template std::vector<std::int64_t> npy_numbers(const std::string&, const NpyHeader&,
+                                               std::string_view);
 
 NpyHeader read_npy_header(const std::string& path, const std::string& content) {
   return Header(path, content).parse();

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The header of NumPy array files.
+// NumPy array files.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace flbc::io {
@@ -19,6 +20,14 @@ struct NpyHeader {
 //! Parses the header of a file of version 1 to 3.
 //! \throws InputError naming file and byte
 NpyHeader read_npy_header(const std::string& path, const std::string& content);
+
+//! Converts the numbers that follow a header: float32, float64, int32, or int64.
+//! \param owner  for messages \tparam Scalar  double, std::int32_t, or std::int64_t
+//! \throws InputError for other types, if there are too few or too many bytes, or if a number is not
+//! finite or does not fit
+template <class Scalar>
+std::vector<Scalar> npy_numbers(const std::string& owner, const NpyHeader& header,
+                                std::string_view bytes);
 
 //! The header of an array in C order: version 1, padded to 64 bytes. Inline for programs, to which
 //! shared libraries do not export it.

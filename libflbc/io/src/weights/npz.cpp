@@ -2,7 +2,6 @@
 #include "weights/npz.h"
 
 #include <array>
-#include <cstring>
 #include <limits>
 #include <ostream>
 
@@ -47,22 +46,6 @@ void put(std::string& text, const std::vector<Number>& numbers) {
   for (const auto& [value, bytes] : numbers) {
     for (int k = 0; k < bytes; ++k) text += static_cast<char>(value >> (8 * k) & 0xff);
   }
-}
-
-template <class Stored, class Scalar>
-std::vector<Scalar> converted(const char* bytes, std::size_t count, bool& fits) {
-  std::vector<Scalar> result(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    Stored value;
-    std::memcpy(&value, bytes + k * sizeof(Stored), sizeof(Stored));
-    if constexpr (std::is_integral_v<Scalar>) {
-      fits = fits && std::is_integral_v<Stored> &&
-             static_cast<std::int64_t>(value) >= std::numeric_limits<Scalar>::min() &&
-             static_cast<std::int64_t>(value) <= std::numeric_limits<Scalar>::max();
-    }
-    if (fits) result[k] = static_cast<Scalar>(value);
-  }
-  return result;
 }
 
 }  // namespace
@@ -165,26 +148,8 @@ std::vector<Scalar> NpzReader::numbers(const std::string& name, int columns) con
       (header.fortran_order && columns > 1)) {
     fail("array '" + name + "' has another shape than bindings have");
   }
-  const char* bytes = content_.data() + begin;
-  bool fits = true;
-  const auto take = [&](auto stored) {
-    using Stored = decltype(stored);
-    std::size_t count = 1;
-    for (const auto length : header.shape) {
-      if (length > 0 && count > size / static_cast<std::size_t>(length))
-        fail("the file ends early");
-      count *= static_cast<std::size_t>(length);
-    }
-    if (count > size / sizeof(Stored)) fail("array '" + name + "' ends early");
-    auto list = converted<Stored, Scalar>(bytes, count, fits);
-    if (!fits) fail("array '" + name + "' has numbers that are no indices");
-    return list;
-  };
-  if (header.type == "<f8") return take(double());
-  if (header.type == "<f4") return take(float());
-  if (header.type == "<i4") return take(std::int32_t());
-  if (header.type == "<i8") return take(std::int64_t());
-  fail("array '" + name + "' has the type " + header.type + ", which is not supported");
+  return npy_numbers<Scalar>(path_ + ": array '" + name + "'", header,
+                             std::string_view(content_).substr(begin, size));
 }
 
 template std::vector<double> NpzReader::numbers(const std::string&, int) const;

@@ -14,26 +14,29 @@
 namespace flbc::io {
 namespace {
 
-// Reads "%%MatrixMarket matrix FORMAT FIELD SYMMETRY". \return whether the format is coordinate
-bool read_header(TextReader& reader) {
+// Reads "%%MatrixMarket matrix coordinate FIELD SYMMETRY".
+void read_header(TextReader& reader) {
   if (!reader.next_line() || lower_case(reader.word()) != "%%matrixmarket") {
     reader.fail("not a Matrix Market file: the first line must start with %%MatrixMarket");
   }
   const auto choose = [&reader](const char* what, std::initializer_list<const char*> supported) {
-    std::string found = lower_case(reader.word());
-    if (std::find(supported.begin(), supported.end(), found) != supported.end()) return found;
+    const std::string found = lower_case(reader.word());
+    if (std::find(supported.begin(), supported.end(), found) != supported.end()) return;
     std::string list;
     for (const char* word : supported) list += (list.empty() ? "" : " or ") + std::string(word);
     reader.fail("the " + std::string(what) + " " + in_quotes(found) + " is not supported, only " +
                 list);
   };
   choose("object", {"matrix"});
-  const std::string format = choose("format", {"coordinate", "array"});
+  choose("format", {"coordinate"});
   choose("field", {"real", "double", "integer"});
   choose("symmetry", {"general"});
   reader.expect_end_of_line();
-  return format == "coordinate";
 }
+
+// Maximum number of matrix elements (8 MiB) that a file may declare without storing. In a larger
+// matrix, each row and column must have an element, because weights sum to 1.
+constexpr std::int64_t kHarmlessElements = std::int64_t{1} << 20;
 
 struct Size {
   Index points = 0;
@@ -44,7 +47,8 @@ struct Size {
 // header from exhausting memory.
 void check_size(const TextReader& reader, const Size& size, Index num_entries) {
   const std::int64_t elements = std::int64_t{size.points} * size.controls;
-  const bool is_large = elements > kHarmlessElements || is_absurd(size.points, size.controls);
+  const bool is_large = elements > kHarmlessElements ||
+                        (elements == 0 && std::max(size.points, size.controls) > kHarmlessElements);
   if (is_large && num_entries < std::max(size.points, size.controls)) {
     reader.fail(std::to_string(size.points) + " x " + std::to_string(size.controls) +
                 " elements are declared with only " + std::to_string(num_entries) + " entries");
@@ -108,16 +112,14 @@ SparseWeights read_coordinate(TextReader& reader, const Size& size) {
 
 SparseWeights read_mtx(const std::string& path, std::string content) {
   TextReader reader(path, std::move(content), {});
-  const bool is_coordinate = read_header(reader);
+  read_header(reader);
   reader.set_comment('%');
   if (!reader.next_line()) reader.fail("the file ends before the size of the matrix");
   // The file length does not bound sizes here, because a sparse matrix may have empty rows.
   Size size;
   size.points = reader.count("rows", 0);
   size.controls = reader.count("columns", 0);
-  if (is_coordinate) return read_coordinate(reader, size);
-  reader.expect_end_of_line();
-  return SparseWeights(read_columns(reader, size.points, size.controls));
+  return read_coordinate(reader, size);
 }
 
 void write_mtx(std::ostream& out, const SparseWeights& weights) {

@@ -2,9 +2,13 @@
 // The NumPy array format: magic, version, length of the header, header (a Python dictionary in
 // text, padded so that the numbers start at a multiple of 64 bytes), numbers.
 
+#include <algorithm>
+#include <limits>
 #include <ostream>
+#include <string_view>
+#include <utility>
 
-#include "text/text_reader.h"
+#include "flbc/errors.h"
 #include "weights/npy_header.h"
 #include "weights/weights_formats.h"
 
@@ -13,20 +17,25 @@ namespace flbc::io {
 // Signature required by the format table. NOLINTNEXTLINE(performance-unnecessary-value-param)
 SparseWeights read_npy(const std::string& path, std::string content) {
   const NpyHeader header = read_npy_header(path, content);
-  const BinaryBlock block{path, content, header.size};
-  const bool by_point = !header.fortran_order;
   if (header.shape.size() != 2) {
-    block.fail(0, "the array has " + std::to_string(header.shape.size()) +
-                      " dimensions; weights need 2, points x control points");
+    throw InputError(path + ": the array has " + std::to_string(header.shape.size()) +
+                     " dimensions; weights need 2, points x control points");
   }
-  if (header.type == "<f8") return block.read<double>(header.shape[0], header.shape[1], by_point);
-  if (header.type == "<f4") return block.read<float>(header.shape[0], header.shape[1], by_point);
-  if (header.type == ">f8" || header.type == ">f4") {
-    block.fail(0, "big-endian numbers (" + in_quotes(header.type) +
-                      ") are not supported; save the array with astype('<f8')");
+  const auto [num_points, num_controls] = std::pair(header.shape[0], header.shape[1]);
+  constexpr std::int64_t kMaxIndex = std::numeric_limits<Index>::max();
+  constexpr std::int64_t kHarmless = std::int64_t{1} << 20;  // empty arrays have no more
+  const auto most = std::max(num_points, num_controls);
+  if (most > kMaxIndex || (num_points * num_controls == 0 && most > kHarmless)) {
+    throw InputError(path + ": " + std::to_string(num_points) + " x " +
+                     std::to_string(num_controls) + " numbers are not a weight matrix");
   }
-  block.fail(0, "the type " + in_quotes(header.type) +
-                    " is not supported, only \"<f8\" (float64) and \"<f4\" (float32)");
+  const auto numbers = npy_numbers<double>(path + ": the array", header,
+                                           std::string_view(content).substr(header.size));
+  using ByControlPoint = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  if (header.fortran_order) {
+    return WeightMatrix(Eigen::Map<const ByControlPoint>(numbers.data(), num_controls, num_points));
+  }
+  return WeightMatrix(Eigen::Map<const WeightMatrix>(numbers.data(), num_controls, num_points));
 }
 
 void write_npy(std::ostream& out, const SparseWeights& sparse) {

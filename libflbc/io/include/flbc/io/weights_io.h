@@ -11,7 +11,7 @@
 
 namespace flbc::io {
 
-//! Reads Matrix Market (.mtx: coordinate or array, real or integer, general), NumPy (.npy: version
+//! Reads Matrix Market (.mtx: coordinate, real or integer, general), NumPy (.npy: version
 //! 1 to 3, float32 or float64, C or Fortran order, two dimensions), or .csv.
 //! \return weights of the points; for .mtx, no dense matrix is allocated
 //! \throws IoError if the file cannot be read; InputError naming file and line or byte if it is
