@@ -23,7 +23,6 @@
 #include "flbc/io/binding_file.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/model_file.h"
-#include "flbc/io/same_vertices.h"
 
 namespace flbc::foam {
 namespace {

@@ -11,7 +11,7 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/formats.h"
-#include "flbc/io/vertex_attribute.h"
+#include "flbc/io/model_file.h"
 #include "flbc/options.h"
 #include "flbc/place_masks.h"
 #include "front/instantiate.h"

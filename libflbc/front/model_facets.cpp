@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "flbc/bounding_box.h"
-#include "flbc/io/cut_polygon.h"
+#include "flbc/io/cage_io.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/splat_file.h"

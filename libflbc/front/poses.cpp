@@ -10,7 +10,6 @@
 #include "flbc/green.h"
 #include "flbc/io/cage_io.h"
 #include "flbc/io/model_file.h"
-#include "flbc/io/same_vertices.h"
 #include "front/instantiate.h"
 #include "front/model_facets.h"
 

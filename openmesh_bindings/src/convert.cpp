@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "flbc/io/cut_polygon.h"
+#include "flbc/io/cage_io.h"
 
 namespace flbc::openmesh::internal {
 

@@ -11,7 +11,7 @@
 #include "flbc/check.h"
 #include "flbc/errors.h"
 #include "flbc/gradients.h"
-#include "flbc/io/cut_polygon.h"
+#include "flbc/io/cage_io.h"
 #include "flbc/masks.h"
 #include "flbc/meshing.h"
 #include "flbc/placement.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/io/model_file.h"
 
-#include "flbc/io/cut_polygon.h"
+#include "flbc/io/cage_io.h"
 #include "support/io_files.h"
 
 namespace flbc::testing {

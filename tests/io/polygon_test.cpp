@@ -99,8 +99,7 @@ TEST_F(PolygonFile, MalformedObj) {
       "soup.obj", read_polygons,
       {
           {"", ":1: ", "without a vertex"},
-          {std::string("\0\xff\xfe\x01 v\0 garbage\n\x80\n", 18), ": ",
-           "it looks like a binary file"},
+          {std::string("\0\xff\xfe\x01 v\0 garbage\n\x80\n", 18), ": ", "without a vertex"},
           {"v 0 0 0\nv abc 0 0\n", ":2: ", "expected a number, found \"abc\""},
           {"v 0 0 nan\n", ":1: ", "expected a finite number, found \"nan\""},
           {"v 0 0 1e999\n", ":1: ", "the number \"1e999\" is too large"},
@@ -151,7 +150,7 @@ TEST_F(PolygonFile, MalformedOff) {
       "soup.off", read_polygons,
       {
           {"", ":1: ", "it is empty"},
-          {std::string("\0\xff\xfe\x01 garbage\n", 13), ": ", "it looks like a binary file"},
+          {std::string("\0\xff\xfe\x01 garbage\n", 13), ": ", "not an OFF file"},
           {"ON\n", ":1: ", "expected OFF, found \"ON\""},
           {"OFFX 3 1 0\n", ":1: ", "expected OFF, found \"OFFX\""},
           {"4OFF\n", ":1: ", "\"4OFF\" is not supported"},

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/io/same_vertices.h"
 
 #include "flbc/io/cage_io.h"
 #include "support/cages_of_all_kinds.h"

@@ -163,11 +163,9 @@ TEST_F(SvgFile, ErrorsNameTheFile) {
   const auto read = [&](const std::string& text) { read_polygons(make("drawing.svg", text)); };
   const std::string head = R"svg(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">)svg";
   expect_error<InputError>([&] { read("<svg"); }, {path("drawing.svg"), "not a drawing"});
-  expect_error<InputError>([&] { read("v 0 0 0\n"); }, {path("drawing.svg"), "looks like OBJ"});
+  expect_error<InputError>([&] { read("v 0 0 0\n"); }, {path("drawing.svg"), "not a drawing"});
   expect_error<InputError>([&] { read(head + "<defs><path d='M0 0h9v9z'/></defs></svg>"); },
                            {path("drawing.svg"), "nothing is to be seen"});
-  expect_error<InputError>([&] { read_polygons(make("a.obj", head + "</svg>")); },
-                           {path("a.obj"), "looks like SVG; let its name end in .svg"});
   const ModelFile file(make("b.svg", head + "<path d='M0 0h9v9z'/></svg>"));
   expect_error<OptionError>([&] { write_model(path("c.svg"), file.model()); },
                             {"write .glb, .ply, or .obj"});

@@ -9,7 +9,6 @@
 
 #include "base/messages.h"
 #include "flbc/errors.h"
-#include "flbc/io/cut_polygon.h"
 
 namespace flbc::io {
 namespace {

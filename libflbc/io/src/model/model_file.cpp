@@ -2,7 +2,6 @@
 #include "flbc/io/model_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -21,95 +20,12 @@
 namespace flbc::io {
 namespace {
 
-bool begins_with(std::string_view text, std::string_view prefix) {
-  return text.substr(0, prefix.size()) == prefix;
-}
-
-bool is_binary_stl(const std::string& content) {
-  constexpr std::size_t kHeader = 84, kTriangle = 50;
-  if (content.size() < kHeader) return false;
-  const auto count = number_at<std::uint32_t>(content.data() + kHeader - sizeof(std::uint32_t));
-  return count > 0 && content.size() == kHeader + kTriangle * std::size_t{count};
-}
-
-// The first line that is neither empty nor a comment.
-std::string_view first_line(std::string_view text) {
-  while (!text.empty()) {
-    auto line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(text.size(), line.size() + 1));
-    const auto begin = line.find_first_not_of(" \t\r");
-    if (begin == std::string_view::npos || line[begin] == '#') continue;
-    return line.substr(begin);
-  }
-  return {};
-}
-
-bool is_off_header(std::string_view line) {
-  const auto word = line.substr(0, line.find_first_of(" \t\r"));
-  constexpr std::string_view kEnd = "OFF";
-  return word.size() >= kEnd.size() && word.size() <= 6 &&
-         word.substr(word.size() - kEnd.size()) == kEnd;
-}
-
-bool is_obj_line(std::string_view line) {
-  for (const char* keyword : {"v ", "vn ", "vt ", "f ", "l ", "o ", "g ", "mtllib ", "usemtl "}) {
-    if (begins_with(line, keyword)) return true;
-  }
-  return false;
-}
-
-// The extension of the model format that a content looks like, or of another format that users
-// have (glb, fbx, png, vtu); "binary" for other bytes that are no text; empty if unknown.
-std::string likely_format(const std::string& content) {
-  using Signature = std::pair<std::string_view, const char*>;
-  constexpr Signature kSignatures[] = {{"glTF", "glb"},   {"Kaydara FBX", "fbx"}, {"; FBX", "fbx"},
-                                       {"ply\n", "ply"},  {"ply\r\n", "ply"},     {"OM", "om"},
-                                       {"\x89PNG", "png"}};
-  const std::string_view text = content;
-  for (const auto& [signature, format] : kSignatures) {
-    if (begins_with(text, signature)) return format;
-  }
-  if (is_binary_stl(content)) return "stl";
-  if (text.find('\0') != std::string_view::npos) return "binary";
-  if (text.find("<VTKFile") != std::string_view::npos) return "vtu";
-  if (text.find("<svg") != std::string_view::npos) return "svg";
-  const auto line = first_line(text);
-  if (is_off_header(line)) return "off";
-  if (begins_with(line, "solid")) return "stl";
-  return is_obj_line(line) ? "obj" : "";
-}
-
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
-
-// What a file that cannot be read is instead; empty if that is not known.
-std::string describe_mistake(const std::string& path, const std::string& content) {
-  const auto likely = likely_format(content);
-  const auto extension = extension_of(path);
-  if (path == "-" || likely.empty() || likely == extension) return {};
-  const auto start = path + ": not " + upper(extension) + "; it looks like ";
-  if (likely == "binary") {
-    return extension == "obj" || extension == "off" ? start + "a binary file" : std::string();
-  }
-  const auto hint = conversion_hint("a." + likely);
-  return start + upper(likely) + (hint.empty() ? "; let its name end in ." + likely : hint);
-}
-
-ModelScan scan(const std::string& path, Extent extent) {
+ModelScan scan(const std::string& path) {
   // Standard input has no extension.
   const auto& format = format_of(path == "-" ? "-.obj" : path, Content::kModel, "read a model as");
   ModelScan scan;
   scan.text = read_file(path);
-  try {
-    format.model.read(path, extent, scan);
-  } catch (const InputError&) {
-    const auto mistake = describe_mistake(path, scan.text);
-    if (mistake.empty()) throw;
-    throw InputError(mistake);
-  }
+  format.model.read(path, scan);
   return scan;
 }
 
@@ -182,12 +98,12 @@ bool are_levels(const PointList<3>& colors) {
 }  // namespace
 
 PolygonSoup read_polygons(const std::string& path) {
-  return scan(path, Extent::kGeometry).model.soup;
+  return scan(path).model.soup;
 }
 
 struct ModelFile::Content {
   explicit Content(const std::string& path)
-      : file(scan(path, Extent::kEverything)), normals(file.model, file.face_normals) {}
+      : file(scan(path)), normals(file.model, file.face_normals) {}
 
   FollowingNormals::Turned turned(const PointList<3>& points,
                                   const Eigen::MatrixXd& jacobians) const {

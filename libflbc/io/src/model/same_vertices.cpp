@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/io/same_vertices.h"
+#include "flbc/io/cage_io.h"
 
 #include <algorithm>
 #include <map>

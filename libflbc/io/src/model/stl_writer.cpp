@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "flbc/errors.h"
-#include "flbc/io/cut_polygon.h"
+#include "flbc/io/cage_io.h"
 #include "model/model_scan.h"
 #include "text/text_writer.h"
 
@@ -39,22 +39,6 @@ std::vector<Triangle> triangles_of(const PolygonSoup& soup) {
   return triangles;
 }
 
-void write_text(TextWriter& writer, const std::vector<Triangle>& triangles) {
-  const auto write_three = [&writer](const char* before, const auto& numbers) {
-    writer << before;
-    for (const float number : numbers) writer << " " << double{number};
-    writer << "\n";
-  };
-  writer << "solid model\n";
-  for (const auto& triangle : triangles) {
-    write_three("facet normal", triangle.col(0));
-    writer << "outer loop\n";
-    for (int k = 1; k <= 3; ++k) write_three("vertex", triangle.col(k));
-    writer << "endloop\nendfacet\n";
-  }
-  writer << "endsolid model\n";
-}
-
 template <class T>
 void put(TextWriter& writer, const T* values, std::size_t count) {
   char bytes[sizeof(Triangle)];
@@ -62,7 +46,11 @@ void put(TextWriter& writer, const T* values, std::size_t count) {
   writer << std::string_view(bytes, count * sizeof(T));
 }
 
-void write_binary(TextWriter& writer, const std::vector<Triangle>& triangles) {
+}  // namespace
+
+void write_stl(std::ostream& out, const Model& model) {
+  const auto triangles = triangles_of(model.soup);
+  TextWriter writer(out);
   const auto count = static_cast<std::uint32_t>(triangles.size());
   const std::uint16_t no_attributes = 0;
   writer << std::string(80, '\0');
@@ -70,18 +58,6 @@ void write_binary(TextWriter& writer, const std::vector<Triangle>& triangles) {
   for (const auto& triangle : triangles) {
     put(writer, triangle.data(), 12);
     put(writer, &no_attributes, 1);
-  }
-}
-
-}  // namespace
-
-void write_stl(std::ostream& out, const Model& model) {
-  const auto triangles = triangles_of(model.soup);
-  TextWriter writer(out);
-  if (model.is_text) {
-    write_text(writer, triangles);
-  } else {
-    write_binary(writer, triangles);
   }
   writer.flush();
 }

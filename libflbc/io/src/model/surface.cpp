@@ -9,7 +9,7 @@
 
 #include "base/first_equals.h"
 #include "flbc/errors.h"
-#include "flbc/io/cut_polygon.h"
+#include "flbc/io/cage_io.h"
 #include "model/srgb.h"
 
 namespace flbc::gltf {

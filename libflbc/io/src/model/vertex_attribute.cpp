@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "flbc/io/vertex_attribute.h"
 
 #include <algorithm>
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Makes a cage from the points, polylines, and polygons of a file.
+//! Makes a cage from the points, polylines, and polygons of a file, and compares two files.
 #pragma once
 
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "flbc/cage.h"
 #include "flbc/io/model.h"
@@ -33,5 +34,26 @@ PolygonSoup control_polygons(const PolygonSoup& soup);
 //! the points are not in a plane z = const
 template <int Dim>
 PointList<Dim> to_points(const PolygonSoup& soup, const std::string& name);
+
+//! Triangulates a polygon in space. A convex quadrilateral is cut along its shorter diagonal,
+//! another convex polygon into a fan, and any other by ear clipping. Triangles keep the orientation
+//! of the polygon. The cut depends on the places and numbers of the vertices, but neither on which
+//! corner comes first nor on the orientation. Of two equal diagonals, the one at the lowest number
+//! is taken.
+//! \param points  coordinates of all vertices \param polygon  at least 3 vertices
+//! \return 3 x (number of corners - 2), vertex indices
+FacetList<3> cut_polygon(const std::vector<Vector<3>>& points, const std::vector<Index>& polygon);
+
+//! The same for a polygon given by the coordinates of its corners, at least 3.
+//! \return 3 x (number of corners - 2), corner indices
+FacetList<3> cut_polygon(const std::vector<Vector<3>>& corners);
+
+//! Checks that vertices with equal numbers are the same in both files, by the polygons that join
+//! them. Both files have the same polygons, or divide them in other ways, such as quadrangles into
+//! triangles. A pose without polygons passes.
+//! \param rest_name, pose_name  of the files, for messages
+//! \throws InputError if the numbers of vertices differ, or the polygons, naming the first one
+void check_same_vertices(const PolygonSoup& rest, const std::string& rest_name,
+                         const PolygonSoup& pose, const std::string& pose_name);
 
 }  // namespace flbc::io

@@ -13,7 +13,6 @@
 namespace flbc::io {
 
 //! Reads points, polygons, and polylines of a model file exactly, which is all a cage needs.
-//! Attributes are skipped, so defects in them are not errors.
 //! \param path  a file that ModelFile can read; "-" is standard input in .obj format
 //! \throws IoError; InputError naming file and line, byte or element; OptionError for another
 //! extension
@@ -67,11 +66,19 @@ class ModelFile {
   std::unique_ptr<const Content> content_;
 };
 
+//! Reads a custom attribute of vertices, such as a painted region, of a .ply, .glb, .vrm, or .gltf
+//! file: a property of the element "vertex", or an attribute such as "_BELT". Where several
+//! vertices of a glTF file are one vertex of the model, the largest number counts; vertices of
+//! meshes without it have 0.
+//! \return a number for each vertex, in the order of ModelFile
+//! \throws IoError; InputError naming the file if there is no such attribute
+Eigen::VectorXd vertex_attribute(const std::string& path, const std::string& name);
+
 //! Lists the attributes of a model that the format of `path` would lose, one phrase each.
 std::vector<std::string> losses(const Model& model, const std::string& path);
 
-//! Writes .obj, .off, .ply, .stl, or .glb, by extension. .ply and .stl are text if Model::is_text,
-//! otherwise binary. Coordinates have full double precision, in .stl and .glb single precision.
+//! Writes .obj, .off, .ply, .stl, or .glb, by extension. .stl is binary, and .ply unless
+//! Model::is_text. Coordinates have full double precision, in .stl and .glb single precision.
 //! Attributes listed by losses() are not written.
 //! \throws IoError; InputError if a number is not finite; OptionError for another extension
 void write_model(const std::string& path, const Model& model);
