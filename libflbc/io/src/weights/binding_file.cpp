@@ -25,6 +25,14 @@ void add_weights(NpzWriter& file, const std::string& prefix, const SparseWeights
   file.add_list(prefix + "data", weights.values());
 }
 
+// A matrix as scipy.sparse.load_npz() reads it.
+void add_matrix(NpzWriter& file, const SparseWeights& weights) {
+  file.add_text("format", "csr");
+  const std::int64_t shape[] = {weights.num_points(), weights.num_control_points()};
+  file.add("shape", shape, {2});
+  add_weights(file, "", weights);
+}
+
 SparseWeights weights_in(const NpzReader& file, const std::string& prefix, Index control_points) {
   const auto columns = file.numbers<std::int32_t>(prefix + "indices");
   try {
@@ -132,11 +140,7 @@ void write(const std::string& path, std::ostream& out, const Binding<Dim>& bindi
                               {"mesher", report.mesher},
                               {"note", report.note}};
   NpzWriter file(path, out);
-  const auto& weights = binding.weights;
-  file.add_text("format", "csr");
-  const std::int64_t shape[] = {weights.num_points(), weights.num_control_points()};
-  file.add("shape", shape, {2});
-  add_weights(file, "", weights);
+  add_matrix(file, binding.weights);
   file.add_columns("cage", binding.cage.points);
   file.add_columns("facets", binding.cage.facets);
   file.add_columns("points", binding.points);
@@ -209,11 +213,8 @@ SparseWeights read_npz(const std::string& path, std::string) {
 }
 
 void write_npz(std::ostream& out, const SparseWeights& weights) {
-  NpzWriter file("", out);
-  file.add_text("format", "csr");
-  const std::int64_t shape[] = {weights.num_points(), weights.num_control_points()};
-  file.add("shape", shape, {2});
-  add_weights(file, "", weights);
+  NpzWriter file("the weights", out);
+  add_matrix(file, weights);
   file.finish();
 }
 
