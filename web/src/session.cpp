@@ -17,7 +17,6 @@
 #include "flbc/cage_facts.h"
 #include "flbc/coordinates.h"
 #include "flbc/deform.h"
-#include "flbc/io/binding_file.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/masks.h"
@@ -25,6 +24,7 @@
 #include "flbc/rig.h"
 #include "flbc/sparsify.h"
 #include "flbc/version.h"
+#include "front/bound_model.h"
 #include "front/estimate.h"
 #include "front/load.h"
 #include "front/locality_file.h"
@@ -562,8 +562,8 @@ class Work {
 
   val weight_file(const std::string& of, const std::string& format) {
     return bytes_of("weights." + format, [&](const auto& file) {
-      if (io::is_binding_file(file) && of != "mesh") return io::write_binding(file, binding());
-      io::write_weights(file, of == "mesh" ? rig().solution().weights : weights());
+      if (of == "mesh") return io::write_weights(file, rig().solution().weights);
+      app::write_binding(file, binding());
     });
   }
 
