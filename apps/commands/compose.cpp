@@ -16,13 +16,14 @@ namespace flbc::app {
 namespace {
 
 struct ComposeArguments {
-  std::string weights, map, cage, output;
+  BindingFiles files;  // weights
+  std::string map, cage, output;
   bool quiet = false;
 };
 
 void compose_files(const ComposeArguments& arguments) {
   require_writable(arguments.output, {io::Content::kWeights});
-  require_distinct({arguments.weights, arguments.map, arguments.cage}, {arguments.output});
+  require_distinct({arguments.files.weights, arguments.map, arguments.cage}, {arguments.output});
   const auto map = io::read_weights(arguments.map);
   const auto compose_binding = [&](const auto& binding) {
     constexpr int kDim = std::decay_t<decltype(binding.cage.points)>::RowsAtCompileTime;
@@ -34,9 +35,9 @@ void compose_files(const ComposeArguments& arguments) {
   SparseWeights composed;
   if (io::is_binding_file(arguments.output)) {
     if (arguments.cage.empty()) throw OptionError("a binding needs --cage, the outer cage");
-    composed = std::visit(compose_binding, io::read_binding(arguments.weights));
+    composed = std::visit(compose_binding, arguments.files.content());
   } else {
-    const auto weights = io::read_weights(arguments.weights);
+    const auto weights = io::read_weights(arguments.files.weights);
     composed = naming(arguments.map, [&] { return compose(weights, map); });
     io::write_weights(arguments.output, composed);
   }
@@ -55,7 +56,8 @@ void add_compose_command(CLI::App& app, int&) {
   command->footer(
       "If the control points of WEIGHTS follow others by the weights in MAP, the product of both\n"
       "moves the model by those others. Limit its influences by flbc sparsify.");
-  command->add_option("WEIGHTS", a.weights, std::string("weights: ") + kWeightFormats)->required();
+  command->add_option("WEIGHTS", a.files.weights, std::string("weights: ") + kWeightFormats)
+      ->required();
   command
       ->add_option("MAP", a.map,
                    "weights of the control points of WEIGHTS: a row for each, at least 0, sum 1")

@@ -33,7 +33,6 @@ struct DeformArguments {
   std::string method;  // instead of weights
   bool is_relative = false;
   PoseArguments poses;
-  std::string domain;
   OutsidePoints outside = OutsidePoints::kFail;
   std::string normals = kPolygons;
   std::string displacement;
@@ -47,7 +46,7 @@ bool moves_points(const DeformArguments& arguments) {
 // Whether points that the binding does not have are evaluated on its domain mesh.
 bool evaluates(const DeformArguments& arguments) {
   const bool is_free = moves_points(arguments) || moves_splats(arguments.file);
-  return !arguments.domain.empty() || (is_free && arguments.files.is_one());
+  return !arguments.files.domain.empty() || (is_free && arguments.files.is_one());
 }
 
 bool needs_jacobians(const DeformArguments& arguments) {
@@ -57,7 +56,7 @@ bool needs_jacobians(const DeformArguments& arguments) {
 void check_arguments(const DeformArguments& arguments) {
   const bool has_rest = arguments.files.has_cage();
   if (arguments.files.is_one()) require_cage(arguments.files, "--rest");
-  if (arguments.files.is_one() && !arguments.domain.empty()) {
+  if (arguments.files.is_one() && !arguments.files.domain.empty()) {
     throw OptionError("--domain: " + arguments.files.weights +
                       " has the domain mesh; leave out this option");
   }
@@ -79,7 +78,7 @@ void check_arguments(const DeformArguments& arguments) {
   if (!has_rest && arguments.file.shows_displacement) {
     throw OptionError("--show-displacement needs --rest, from which displacements are measured");
   }
-  if (!has_rest && !arguments.domain.empty()) {
+  if (!has_rest && !arguments.files.domain.empty()) {
     throw OptionError("--domain needs --rest, the cage of this mesh");
   }
   if (!evaluates(arguments) && !arguments.files.is_one() && arguments.normals == kJacobian) {
@@ -113,7 +112,7 @@ void check_arguments(const DeformArguments& arguments) {
 void check_outputs(const DeformArguments& arguments, const CageFiles& cages,
                    const std::vector<std::string>& outputs) {
   std::vector<std::string> inputs{arguments.file.model, arguments.files.weights,
-                                  arguments.files.cage, arguments.domain};
+                                  arguments.files.cage, arguments.files.domain};
   inputs.insert(inputs.end(), cages.paths.begin(), cages.paths.end());
   require_distinct(inputs, {arguments.displacement});
   for (const auto& output : outputs) {
@@ -137,15 +136,6 @@ std::vector<std::string> name_outputs(const std::vector<Pose<Dim>>& poses,
   return names;
 }
 
-// A binding of the domain mesh, by which any points are evaluated.
-template <int Dim>
-Binding<Dim> load_evaluated(const DeformArguments& arguments) {
-  if (arguments.files.is_one()) return load_binding<Dim>(arguments.files.weights);
-  auto domain = io::read_domain<Dim>(arguments.domain);
-  auto binding = load_binding<Dim>(arguments.files, arguments.domain, domain.points, {});
-  binding.domain = std::move(domain);
-  binding.domain_weights = binding.weights;
-  return binding;
 }
 
 OutsidePoints outside_of(const DeformArguments& arguments, OutsidePoints of_binding) {
@@ -174,7 +164,7 @@ Binding<Dim> bind_model(const MovableModel<Dim>& model, const Pose<Dim>& pose,
     return load_binding<Dim>(arguments.files, file, model.points(), model.edges(),
                              !arguments.is_relative);
   }
-  const auto bound = load_evaluated<Dim>(arguments);
+  const auto bound = load_domain_binding<Dim>(arguments.files);
   return placing<Dim>(file, [&] {
     return bound.transferred(model.points(), model.edges(), outside_of(arguments, bound.policy));
   });
@@ -254,7 +244,7 @@ void print_summary(const MovableModel<Dim>& model, const std::vector<Pose<Dim>>&
 template <int Dim>
 RestCage<Dim> load_rest(const DeformArguments& arguments, const CageFiles& cages) {
   const auto& files = arguments.files;
-  if (files.is_one()) return RestCage<Dim>(load_binding<Dim>(files.weights).cage, files.weights);
+  if (files.is_one()) return RestCage<Dim>(load_binding<Dim>(files).cage, files.weights);
   return RestCage<Dim>(files.cage.empty() ? cages.paths.front() : files.cage);
 }
 
@@ -303,7 +293,7 @@ void add_deform_command(CLI::App& app, int&) {
   auto* command = app.add_subcommand("deform", "deform a model or a domain mesh with its cage");
   command->footer(
       "If MODEL and the result have the same format, only coordinates and normals change. In\n"
-      "2D, z does not change. Gaussian splats (.ply) also rotate and stretch, with --domain.\n"
+      "2D, z does not change. Gaussian splats (.ply) also rotate and stretch.\n"
       "Another format receives the polygons, colors, normals, and texture coordinates that it\n"
       "supports. The program reports those that are lost.\n"
       "The results of a sequence have the numbers of --pose pose_%d.obj, or count from 0.\n"
@@ -334,7 +324,7 @@ void add_deform_command(CLI::App& app, int&) {
       "--relative", a.is_relative,
       "add weighted displacements to MODEL, for weights that do not reproduce it (method bbw)");
   auto* domain = command->add_option(
-      "--domain", a.domain,
+      "--domain", a.files.domain,
       "domain mesh that has these weights (domain_weights.npy of flbc run), instead of MODEL");
   domain->excludes(method)->excludes(relative);
   relative->excludes(method);
@@ -355,10 +345,9 @@ void add_deform_command(CLI::App& app, int&) {
   command->callback([arguments] {
     check_arguments(*arguments);
     const auto cages = find_cages(arguments->poses.cages);
-    auto files = arguments->files;
-    if (!files.has_cage()) files.cage = cages.paths.front();
-    dimension_of(files) == 2 ? deform_model<2>(*arguments, cages)
-                             : deform_model<3>(*arguments, cages);
+    const auto& files = arguments->files;
+    const int dim = files.has_cage() ? dimension_of(files) : dimension_of_cage(cages.paths.front());
+    dim == 2 ? deform_model<2>(*arguments, cages) : deform_model<3>(*arguments, cages);
   });
 }
 

@@ -55,7 +55,7 @@ void check_files(const SparsifyArguments& arguments) {
 template <int Dim>
 Binding<Dim> load(const SparsifyArguments& arguments) {
   const auto& path = arguments.points;
-  if (path.empty()) return load_binding<Dim>(arguments.files.weights);
+  if (path.empty()) return load_binding<Dim>(arguments.files);
   const MovedFile same{path, path};
   if (io::holds(path, kMeshFiles)) require_formats_of<Dim>(same);
   const MovableModel<Dim> model(same);

@@ -6,7 +6,6 @@
 
 #include "commands/commands.h"
 #include "flbc/bounding_box.h"
-#include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/quality.h"
 #include "front/bound_model.h"
@@ -23,7 +22,6 @@ namespace {
 struct TransferArguments {
   BindingFiles files;
   std::string from;
-  std::string domain;
   std::string to;
   std::string output;
   double limit = 0.02;  // of the size of the model
@@ -33,12 +31,12 @@ struct TransferArguments {
 
 void check_arguments(const TransferArguments& arguments) {
   require_cage(arguments.files);
-  if (arguments.from.empty() && arguments.domain.empty() && !arguments.files.is_one()) {
+  if (arguments.from.empty() && arguments.files.domain.empty() && !arguments.files.is_one()) {
     throw OptionError("give --from (a model that has these weights) or --domain (a mesh)");
   }
   require_writable(arguments.output, {io::Content::kWeights});
-  require_distinct({arguments.files.weights, arguments.files.cage, arguments.from, arguments.domain,
-                    arguments.to},
+  require_distinct({arguments.files.weights, arguments.files.cage, arguments.files.domain,
+                    arguments.from, arguments.to},
                    {arguments.output});
 }
 
@@ -50,18 +48,9 @@ MovableModel<Dim> load_target(const std::string& path) {
   return model;
 }
 
-// From the domain mesh: of the binding, or with weights of its vertices.
 template <int Dim>
 Binding<Dim> from_domain(const TransferArguments& arguments, const MovableModel<Dim>& to) {
-  Binding<Dim> binding;
-  if (arguments.domain.empty()) {
-    binding = load_binding<Dim>(arguments.files.weights);
-  } else {
-    const auto domain = io::read_domain<Dim>(arguments.domain);
-    binding = load_binding<Dim>(arguments.files, arguments.domain, domain.points, {});
-    binding.domain = domain;
-    binding.domain_weights = binding.weights;
-  }
+  const auto binding = load_domain_binding<Dim>(arguments.files);
   return placing<Dim>(arguments.to, [&] {
     return binding.transferred(to.points(), to.edges(), arguments.outside);
   });
@@ -110,19 +99,18 @@ void add_transfer_command(CLI::App& app, int&) {
   auto& a = *arguments;
   auto* command = app.add_subcommand("transfer", "transfer weights to another version of a model");
   command->footer(
-      "A binding (.npz) is evaluated on its domain mesh, and the result is what flbc solve "
-      "computes\n"
-      "for the model. With --domain, WEIGHTS belong to this mesh (domain_weights.npy of flbc "
-      "run).\n"
-      "With --from, WEIGHTS belong to another\n"
-      "model. Each vertex gets the weights of the nearest point on that model, with the smallest\n"
-      "change that makes them >= 0 and reproduces the vertex.");
+      "A binding (.npz) is evaluated on its domain mesh, and the result is what flbc solve\n"
+      "computes for the model. With --domain, WEIGHTS belong to this mesh (domain_weights.npy of\n"
+      "flbc run). With --from, WEIGHTS belong to another model. Each vertex gets the weights of\n"
+      "the nearest point on that model, with the smallest change that makes them >= 0 and\n"
+      "reproduces the vertex.");
   command
       ->add_option("WEIGHTS", a.files.weights, std::string("existing weights: ") + kWeightFormats)
       ->required();
   add_cage_option(*command, a.files.cage);
   auto* from = command->add_option("--from", a.from, "model that has these weights");
-  auto* domain = command->add_option("--domain", a.domain, "domain mesh that has these weights");
+  auto* domain =
+      command->add_option("--domain", a.files.domain, "domain mesh that has these weights");
   domain->excludes(from);
   command->add_option("--to", a.to, "model that needs weights")->required();
   command

@@ -7,7 +7,7 @@
 #include "flbc/bounding_box.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
-#include "flbc/io/binding_file.h"
+#include "flbc/io/mesh_io.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/report.h"
 #include "front/facts.h"
@@ -62,24 +62,38 @@ void require_cage(const BindingFiles& files, const char* option) {
   }
 }
 
+const io::AnyBinding& BindingFiles::content() const {
+  if (!content_) content_ = std::make_shared<const io::AnyBinding>(io::read_binding(weights));
+  return *content_;
+}
+
 int dimension_of(const BindingFiles& files) {
   if (!files.is_one()) return dimension_of_cage(files.cage);
-  return io::read_binding(files.weights).index() == 0 ? 2 : 3;
+  return files.content().index() == 0 ? 2 : 3;
 }
 
 template <int Dim>
-Binding<Dim> load_binding(const std::string& path) {
-  auto binding = io::read_binding(path);
-  if (auto* found = std::get_if<Binding<Dim>>(&binding)) return std::move(*found);
-  throw InputError(path + ": is a binding in another dimension, not in " + std::to_string(Dim) +
-                   "D");
+const Binding<Dim>& load_binding(const BindingFiles& files) {
+  if (const auto* found = std::get_if<Binding<Dim>>(&files.content())) return *found;
+  throw InputError(files.weights + ": is a binding in another dimension, not in " +
+                   std::to_string(Dim) + "D");
+}
+
+template <int Dim>
+Binding<Dim> load_domain_binding(const BindingFiles& files) {
+  if (files.domain.empty()) return load_binding<Dim>(files);
+  auto domain = io::read_domain<Dim>(files.domain);
+  auto binding = load_binding<Dim>(files, files.domain, domain.points, {});
+  binding.domain = std::move(domain);
+  binding.domain_weights = binding.weights;
+  return binding;
 }
 
 template <int Dim>
 Binding<Dim> load_binding(const BindingFiles& files, const std::string& model,
                           const PointList<Dim>& points, EdgeList edges, bool reproduces) {
   if (files.is_one()) {
-    auto binding = load_binding<Dim>(files.weights);
+    const auto& binding = load_binding<Dim>(files);
     naming(model, [&] { binding.require_points(points); });
     return binding;
   }
@@ -164,7 +178,8 @@ Index count_without_weights(const SparseWeights& weights) {
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                            \
-  template Binding<Dim> load_binding(const std::string&);                                \
+  template const Binding<Dim>& load_binding(const BindingFiles&);                        \
+  template Binding<Dim> load_domain_binding(const BindingFiles&);                        \
   template Binding<Dim> load_binding(const BindingFiles&, const std::string&,            \
                                      const PointList<Dim>&, EdgeList, bool);             \
   template RestCage<Dim> rest_cage_of(const BindingFiles&, const Binding<Dim>&);         \

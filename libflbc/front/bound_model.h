@@ -3,9 +3,11 @@
 //! Bindings as commands read and write them: one file, or weights with the files of the rest.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "flbc/binding.h"
+#include "flbc/io/binding_file.h"
 #include "front/page.h"
 #include "front/poses.h"
 
@@ -15,12 +17,18 @@ namespace flbc::app {
 struct BindingFiles {
   std::string weights;
   std::string cage;
+  std::string domain;  //!< mesh that has these weights instead of a model; a .npz file has it
 
   bool is_one() const;
   //! Whether the rest cage is known.
   bool has_cage() const { return is_one() || !cage.empty(); }
   //! The file that has the cage, for messages.
   const std::string& cage_file() const { return cage.empty() ? weights : cage; }
+  //! The content of a .npz file, which is read once. \throws IoError, InputError
+  const io::AnyBinding& content() const;
+
+ private:
+  mutable std::shared_ptr<const io::AnyBinding> content_;
 };
 
 //! \throws OptionError if there is no cage, or a second one
@@ -31,7 +39,12 @@ int dimension_of(const BindingFiles& files);
 
 //! A binding of a .npz file. \throws IoError; InputError if its dimension is another one
 template <int Dim>
-Binding<Dim> load_binding(const std::string& path);
+const Binding<Dim>& load_binding(const BindingFiles& files);
+
+//! The same, or a binding of the domain mesh by weights and cage: it can be transferred to any
+//! points.
+template <int Dim>
+Binding<Dim> load_domain_binding(const BindingFiles& files);
 
 //! The binding of a model: of the file, or by weights and cage.
 //! \param model  for messages \param points  Dim x P, at rest
