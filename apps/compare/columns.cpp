@@ -146,7 +146,7 @@ void solve_column(const Comparison<Dim>& all, Column<Dim>& column) {
     return measure(all, mesh, seconds, column);
   }
   const auto& settings = column.settings;
-  ProgressBar bar(all.arguments.quiet, "setting up: boundary values, distances", settings.options);
+  ProgressBar bar(all.arguments.quiet, "setting up: boundary values, distances");
   auto options = bind_options(all.cage, all.domain, settings);
   options.outside = OutsidePoints::kNearest;
   options.observer.progress = [&](const Progress& progress) {

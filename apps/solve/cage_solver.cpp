@@ -244,7 +244,7 @@ void CageSolver<Dim>::announce() const {
 template <int Dim>
 void CageSolver<Dim>::solve(bool quiet) {
   if (!quiet && !is_meshless(settings_)) announce();
-  ProgressBar bar(quiet, "setting up: boundary values, distances", rig_->options().solver);
+  ProgressBar bar(quiet, "setting up: boundary values, distances");
   auto options = rig_->options();
   options.observer.progress = [&](const Progress& progress) {
     bar.show(progress);

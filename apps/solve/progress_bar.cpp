@@ -15,8 +15,7 @@ std::string meshing_stage(double limit) {
   return text.str();
 }
 
-ProgressBar::ProgressBar(bool quiet, std::string stage, const SolverOptions& options)
-    : stage_(std::move(stage)), estimate_(options) {
+ProgressBar::ProgressBar(bool quiet, std::string stage) : text_(std::move(stage)) {
   if (quiet || !is_terminal()) return;
   drawer_ = std::thread([this] {
     try {
@@ -38,15 +37,17 @@ ProgressBar::~ProgressBar() {
 }
 
 void ProgressBar::show(const Progress& progress) {
-  if (!drawer_.joinable()) return;
-  const std::lock_guard lock(mutex_);
-  estimate_.update(progress, std::chrono::duration<double>(Clock::now() - start_).count());
+  replace("solving: iteration " + std::to_string(progress.iteration));
 }
 
 void ProgressBar::show(const std::string& stage, double done) {
+  replace(stage + " " + std::to_string(static_cast<int>(100 * done)) + "%");
+}
+
+void ProgressBar::replace(std::string text) {
   if (!drawer_.joinable()) return;
   const std::lock_guard lock(mutex_);
-  estimate_.update_stage(stage, done, std::chrono::duration<double>(Clock::now() - start_).count());
+  text_ = std::move(text);
 }
 
 void ProgressBar::draw_until_ended() {
@@ -54,15 +55,12 @@ void ProgressBar::draw_until_ended() {
   std::unique_lock lock(mutex_);
   auto pause = kPatience;
   while (!changed_.wait_for(lock, pause, [this] { return ended_; })) {
-    draw();
+    const auto time = std::chrono::steady_clock::now() - start_;
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(time).count();
+    write_to_terminal("\r" + text_ + ", " + std::to_string(seconds) + " s\033[K");
+    drawn_ = true;
     pause = kInterval;
   }
-}
-
-void ProgressBar::draw() {
-  const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-  write_to_terminal("\r" + estimate_.line(stage_, seconds) + "\033[K");
-  drawn_ = true;
 }
 
 }  // namespace flbc::app

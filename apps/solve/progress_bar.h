@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! A line on standard error that shows what is being done and how far it is.
+//! A line on standard error that shows what is being done, and for how long.
 #pragma once
 
 #include <chrono>
 #include <condition_variable>
-#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
 
-#include "flbc/options.h"
-#include "solve/progress_estimate.h"
+#include "flbc/observer.h"
 
 namespace flbc::app {
 
@@ -24,27 +22,23 @@ std::string meshing_stage(double limit);
 //! there is no progress to show.
 class ProgressBar {
  public:
-  //! \param stage  as "meshing"; once show() is called, the iteration takes its place
-  //! \param options  of the solve that show() is called for
-  ProgressBar(bool quiet, std::string stage, const SolverOptions& options = {});
+  ProgressBar(bool quiet, std::string stage);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
+  //! Of the iteration.
   void show(const Progress& progress);
 
-  //! Of a stage besides the iteration. \param done  the part of it, in [0, 1]
+  //! \param done  the part of the stage, in [0, 1]
   void show(const std::string& stage, double done);
 
  private:
-  using Clock = std::chrono::steady_clock;
-
+  void replace(std::string text);
   void draw_until_ended();
-  void draw();
 
-  std::string stage_;
-  ProgressEstimate estimate_;
-  Clock::time_point start_ = Clock::now();
+  std::string text_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   bool ended_ = false;
   bool drawn_ = false;
   std::mutex mutex_;
