@@ -71,39 +71,6 @@ std::string version() {
          "\nlicense of this program: " FLBC_LICENSE;
 }
 
-// Number of letters to change, insert, drop or swap with their neighbours.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) {
-    for (std::size_t j = 0; j <= b.size(); ++j) {
-      auto& least = cost[i][j];
-      least = i + j;
-      if (i > 0 && j > 0) {
-        least = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1,
-                          cost[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      }
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-        least = std::min(least, cost[i - 2][j - 2] + 1);
-      }
-    }
-  }
-  return cost[a.size()][b.size()];
-}
-
-// The command that was meant, if one is near enough.
-std::string suggestion(const CLI::App& app, const std::string& name) {
-  constexpr std::size_t kMostEdits = 2;
-  std::string nearest;
-  std::size_t fewest = kMostEdits + 1;
-  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    const auto edits = edit_distance(name, command->get_name());
-    if (edits >= fewest) continue;
-    fewest = edits;
-    nearest = command->get_name();
-  }
-  return nearest.empty() ? "; " : "; did you mean " + nearest + "? Otherwise ";
-}
-
 // Where CLI11 is brief or unclear.
 std::string in_our_words(std::string message) {
   constexpr std::pair<const char*, const char*> kPhrases[] = {
@@ -155,8 +122,7 @@ int run(int argc, char** argv) {
   }
   refuse_empty_values(app);
   if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
-    throw flbc::OptionError("unknown command '" + std::string(argv[1]) + "'" +
-                            suggestion(app, argv[1]) + "see flbc --help");
+    throw flbc::OptionError("unknown command '" + std::string(argv[1]) + "'; see flbc --help");
   }
   try {
     app.parse(arguments_of(argc, argv));

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc draw: coordinate functions and deformations as pictures.
 #include <memory>
-#include <numeric>
 
 #include "commands/commands.h"
 #include "draw/model_picture.h"
 #include "draw/plane_picture.h"
 #include "files/upright.h"
-#include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
@@ -25,31 +23,17 @@ struct DrawArguments {
   BindingFiles files;
   std::string pose;
   std::string output;
-  std::string color;
   ModelView view;
   Index control_point = 0;
   bool all = false;
   draw::WeightPictureOptions options;
 };
 
-constexpr const char* kDisplacement = "displacement";
-constexpr const char* kWeight = "weight";
-constexpr const char* kPlain = "plain";
-
 void check_arguments(DrawArguments& arguments) {
   draw::validate(arguments.options);
   arguments.options.format = draw::picture_format(arguments.output);
   require_writable(arguments.output, io::extension_of(arguments.output).c_str());
   if (arguments.model.empty()) throw OptionError("give MODEL, a model or a domain mesh");
-  if (arguments.color == kDisplacement && arguments.pose.empty()) {
-    throw OptionError("--color displacement needs --pose, the deformed cage");
-  }
-}
-
-std::vector<Index> all_of(Index count) {
-  std::vector<Index> control_points(count);
-  std::iota(control_points.begin(), control_points.end(), 0);
-  return control_points;
 }
 
 // A model at rest and, with a pose, also there.
@@ -78,46 +62,51 @@ PosedModel<Dim> load_posed(const DrawArguments& arguments) {
   return posed;
 }
 
+std::string label_of(Index control_point) {
+  return "w" + std::to_string(control_point);
+}
+
 std::string picture_2d(const DrawArguments& arguments) {
-  const bool has_squares = !arguments.pose.empty() && !arguments.all && arguments.color != kWeight;
-  if (arguments.color == kDisplacement || (arguments.color == kPlain && !has_squares)) {
-    throw OptionError("--color " + arguments.color + " is for models in 3D");
-  }
   const auto posed = load_posed<2>(arguments);
   const auto& cage = posed.cage;
   up_axis(arguments.view.up, posed.model.points);
   const DomainMesh<2> shape{posed.model.points, gltf::triangles_of_points(posed.model.surface)};
-  const auto& weights = posed.weights;
   const Index i = arguments.control_point;
+  const draw::DrawnShape rest{cage.points, shape.points};
   if (arguments.all) {
-    return draw::draw_all(cage, shape, weights.dense(), all_of(cage.size()), arguments.options);
+    const auto place = std::make_shared<const draw::DrawnShape>(rest);
+    std::vector<draw::PlanePanel> panels;
+    for (Index k = 0; k < cage.size(); ++k) {
+      panels.push_back({label_of(k), place, posed.weights.of_control_point(k), k});
+    }
+    return draw::draw_panels(cage.facets, shape.cells, panels, shape.points, arguments.options);
   }
-  const auto values = weights.of_control_point(i);
-  if (arguments.pose.empty()) return draw::draw_weights(cage, shape, values, i, arguments.options);
-  return draw::draw_deformation(cage.facets, shape.cells, {cage.points, shape.points},
-                                {posed.pose, posed.moved}, has_squares ? Eigen::VectorXd() : values,
-                                i, arguments.options);
-}
-
-draw::ShownValues shown_values(const PosedModel<3>& posed, const DrawArguments& arguments) {
-  const bool has_moved = posed.moved.cols() > 0;
-  const auto color = !arguments.color.empty() ? arguments.color : has_moved ? kPlain : kWeight;
-  if (color == kPlain) return {};
-  if (color == kDisplacement) return {displacements<3>(posed.model.points, posed.moved)};
-  return {posed.weights.of_control_point(arguments.control_point), arguments.control_point};
+  if (!arguments.pose.empty()) {
+    return draw::draw_poses(cage.facets, shape.cells, rest, {posed.pose, posed.moved},
+                            arguments.options);
+  }
+  return draw::draw_weights(cage, shape, posed.weights.of_control_point(i), i, arguments.options);
 }
 
 std::string picture_3d(const DrawArguments& arguments) {
   const auto posed = load_posed<3>(arguments);
-  const auto& cage = posed.cage;
   const auto view = view_of(arguments.view, posed.model.points);
   const draw::DrawnModel model{gltf::triangles_of_points(posed.model.surface), posed.edges};
-  std::vector<draw::ModelPlace> places{{cage.points, posed.model.points}};
+  const draw::ModelPlace rest{posed.cage.points, posed.model.points};
   if (arguments.all) {
-    return draw::draw_model_sheet(model, places[0], posed.weights.dense(), view, arguments.options);
+    const auto place = std::make_shared<const draw::ModelPlace>(rest);
+    std::vector<draw::ModelPanel> panels;
+    for (Index k = 0; k < posed.cage.size(); ++k) {
+      panels.push_back({label_of(k), place, posed.weights.of_control_point(k), k});
+    }
+    return draw::draw_panels(model, panels, view, arguments.options);
   }
-  if (posed.moved.cols() > 0) places.push_back({posed.pose, posed.moved});
-  return draw::draw_model(model, places, shown_values(posed, arguments), view, arguments.options);
+  const Index i = arguments.control_point;
+  if (arguments.pose.empty()) {
+    return draw::draw_weights(model, rest, posed.weights.of_control_point(i), i, view,
+                              arguments.options);
+  }
+  return draw::draw_poses(model, rest, {posed.pose, posed.moved}, view, arguments.options);
 }
 
 void add_options(CLI::App& command, DrawArguments& a) {
@@ -132,8 +121,6 @@ void add_options(CLI::App& command, DrawArguments& a) {
       command.add_option("--control-point", a.control_point,
                          "control point whose function is drawn, counted from 0 (default: 0)");
   command.add_option("--pose", a.pose, "deformed cage: draw the model at rest and in this pose");
-  add_choice(command, "--color", {kDisplacement, kWeight, kPlain}, a.color,
-             "what the colors of the model show (default: weight, or plain with --pose)");
   add_view_options(command, a.view);
   command.add_flag("--all", a.all, "draw all functions on one sheet")->excludes(point);
   command.add_option("--width", a.options.width, "width in pixels (default: 1200)");

@@ -24,7 +24,7 @@
 #include "front/poses.h"
 #include "gltf/skin.h"
 #include "help/options.h"
-#include "poses/outside.h"
+#include "report/skin_facts.h"
 
 namespace flbc::app {
 namespace {
@@ -113,9 +113,6 @@ struct ExportArguments {
   gltf::SkinOptions options;
 };
 
-// Influences that every reader knows.
-constexpr Index kOneSet = 4;
-
 void check_arguments(ExportArguments& arguments) {
   arguments.options.name = std::filesystem::path(arguments.model).stem().string();
   require_mesh_readable(arguments.model);
@@ -162,40 +159,8 @@ gltf::Animation<Dim> load_motion(const ExportArguments& arguments, const CageFil
                                  const RestCage<Dim>& rest) {
   // One pose does not move: it begins at rest.
   const bool is_alone = poses.paths.size() == 1;
-  auto animation = animation_of(load_poses(arguments.poses, poses, rest, is_alone ? 1 : 0));
-  if (is_alone) {
-    animation.times.insert(animation.times.begin(), 0);
-    animation.poses.insert(animation.poses.begin(), rest.points());
-  }
-  return animation;
-}
-
-// \param size  of the model
-template <int Dim>
-void print_summary(const gltf::ExportedSkin& skin, const gltf::Animation<Dim>& animation,
-                   double size, const ExportArguments& arguments) {
-  std::cerr << arguments.output << ": " << skin.vertices << " vertices, " << skin.triangles
-            << " triangles, " << skin.joints << " joints, at most " << skin.influences
-            << " influences per vertex";
-  const bool are_reduced = skin.given_influences > skin.influences;
-  if (are_reduced) std::cerr << " (before " << skin.given_influences << ')';
-  if (skin.influences > kOneSet) {
-    std::cerr << "; readers of one set, such as three.js, use the largest " << kOneSet
-              << " (-k 4 suits all readers)";
-  }
-  if (!animation.poses.empty()) {
-    std::cerr << ", " << animation.poses.size() << " poses in " << animation.times.back()
-              << " s that move " << skin.moving_joints << " joints";
-  }
-  std::cerr << "; " << skin.content.size() << " bytes";
-  if (are_reduced) {
-    const auto& error = skin.deformation_error;
-    std::cerr << "; deformation error over "
-              << (animation.poses.empty() ? "random smooth poses " : "these poses ")
-              << 100 * error.rms / size << "% of the size rms, " << 100 * error.max / size
-              << "% max";
-  }
-  std::cerr << '\n';
+  return animation_of(load_poses(arguments.poses, poses, rest, is_alone ? 1 : 0),
+                      is_alone ? &rest.points() : nullptr);
 }
 
 template <int Dim>
@@ -217,15 +182,11 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
                            [&] { return gltf::export_skin(binding, surface, options, animation); });
   write_text(arguments.output, skin.content);
   const double size = bounding_box_diagonal<Dim>(points);
-  if (!arguments.quiet) print_summary(skin, animation, size, arguments);
-  warn_left_out(arguments.output, arguments.model, skin.left_out);
-  const double change = skin.position_change / size;
-  if (change > gltf::kVisibleChange) {
-    const bool is_usd = arguments.options.format == gltf::SkinFormat::kUsda;
-    std::cerr << "flbc: " << arguments.output << ": single precision, which "
-              << (is_usd ? "USD" : "glTF") << " uses, moves vertices by up to " << change
-              << " of the model size; move the cage and the model closer to the origin\n";
+  if (!arguments.quiet) {
+    std::cerr << arguments.output << ": " << facts_of(skin, animation, size) << "; "
+              << skin.content.size() << " bytes\n";
   }
+  warn_left_out(arguments.output, arguments.model, skin.left_out);
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include "flbc/meshing.h"
 #include "flbc/quality.h"
 #include "front/estimate.h"
-#include "front/facts.h"
 #include "front/gltf_facts.h"
 #include "front/make_domain.h"
 #include "front/movable_model.h"
@@ -23,8 +22,8 @@ namespace {
 void print_box(const Eigen::MatrixXd& points) {
   const Eigen::RowVectorXd low = points.rowwise().minCoeff().transpose();
   const Eigen::RowVectorXd high = points.rowwise().maxCoeff().transpose();
-  const Eigen::IOFormat row(digits_of_box(low, high), Eigen::DontAlignCols, ", ", ", ", "", "", "(",
-                            ")");
+  constexpr int kDigits = 10;  // corners far from the origin need them
+  const Eigen::IOFormat row(kDigits, Eigen::DontAlignCols, ", ", ", ", "", "", "(", ")");
   std::cout << "  from " << low.format(row) << " to " << high.format(row) << '\n';
 }
 

@@ -12,11 +12,6 @@
 namespace flbc::app {
 namespace {
 
-template <int Dim>
-PointList<Dim> posed_points(const Comparison<Dim>& all, const Column<Dim>& column) {
-  return column.moved(all.pose);
-}
-
 draw::WeightPictureOptions options_of(const CompareArguments& arguments) {
   draw::WeightPictureOptions options;
   options.width = 1800;
@@ -26,43 +21,47 @@ draw::WeightPictureOptions options_of(const CompareArguments& arguments) {
 
 // \param posed  in the pose instead of one function
 std::string grid(const Comparison<2>& all, bool posed) {
-  const auto triangles = gltf::triangles_of_points(all.shape.surface);
+  const auto rest = std::make_shared<const draw::DrawnShape>(
+      draw::DrawnShape{all.cage.points, all.domain.points});
   std::vector<draw::PlanePanel> panels;
   for (const auto* column : all.succeeded()) {
     if (posed) {
-      panels.push_back({column->title, {all.pose, posed_points(all, *column)}, {}});
+      const draw::DrawnShape pose{all.pose, column->moved(all.pose)};
+      panels.push_back({column->title, std::make_shared<const draw::DrawnShape>(pose)});
     } else {
-      panels.push_back({column->title,
-                        {all.cage.points, all.domain.points},
-                        column->of_mesh.of_control_point(all.control_point)});
+      panels.push_back({column->title, rest, column->of_mesh.of_control_point(all.control_point),
+                        all.control_point});
     }
   }
-  return draw::draw_panels(all.cage.facets, posed ? triangles : all.domain.cells, panels,
-                           all.shape.points, all.control_point, options_of(all.arguments));
+  const auto triangles =
+      posed ? gltf::triangles_of_points(all.shape.surface) : CellList<2>(all.domain.cells);
+  return draw::draw_panels(all.cage.facets, triangles, panels, all.shape.points,
+                           options_of(all.arguments));
 }
 
 // The poses are colored by how far they are from rest, relative to the farthest of all.
 std::string grid(const Comparison<3>& all, bool posed) {
+  const auto rest =
+      std::make_shared<const draw::ModelPlace>(draw::ModelPlace{all.cage.points, all.points()});
   std::vector<draw::ModelPanel> panels;
   double farthest = 0;
   for (const auto* column : all.succeeded()) {
-    draw::ModelPanel panel{column->title,
-                           {all.cage.points, all.points()},
-                           column->rows.of_control_point(all.control_point)};
     if (posed) {
-      panel.place = {all.pose, posed_points(all, *column)};
-      panel.values = displacements<3>(all.points(), panel.place.points);
-      farthest = std::max(farthest, panel.values.maxCoeff());
+      const draw::ModelPlace pose{all.pose, column->moved(all.pose)};
+      const Eigen::VectorXd lengths = displacements<3>(all.points(), pose.points);
+      farthest = std::max(farthest, lengths.maxCoeff());
+      panels.push_back({column->title, std::make_shared<const draw::ModelPlace>(pose), lengths});
+    } else {
+      panels.push_back({column->title, rest, column->rows.of_control_point(all.control_point),
+                        all.control_point});
     }
-    panels.push_back(std::move(panel));
   }
-  if (farthest > 0) {
+  if (farthest > 0) {  // in poses
     for (auto& panel : panels) panel.values /= farthest;
   }
   return draw::draw_panels(
       {gltf::triangles_of_points(all.shape.surface), load_shown_cage<3>(all.arguments.cage).edges},
-      panels, posed ? -1 : all.control_point, view_of(all.arguments.view, all.points()),
-      options_of(all.arguments));
+      panels, view_of(all.arguments.view, all.points()), options_of(all.arguments));
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "draw/weight_painter.h"
 #include "flbc/errors.h"
 
 namespace flbc::draw {
@@ -32,31 +31,6 @@ Box bounding_box(const PointList<2>& points) {
   return box;
 }
 
-PictureLayout plan_picture(const Box& content, const WeightPictureOptions& options) {
-  const double unit = pixel_unit(options);
-  const double margin = 44 * unit;
-  const double gap = 44 * unit;
-  const double bar_width = 26 * unit;
-  const double label_width = 60 * unit;
-  const double right =
-      options.width - margin - (options.color_bar ? gap + bar_width + label_width : 0);
-  const double width = right - margin;
-  const Vector<2> size = content.size();
-  const double wanted = size.x() > 0 ? width * size.y() / size.x() : 1e9;
-  const double height = std::clamp(wanted, 0.27 * options.width, 1.3 * options.width);
-
-  PictureLayout layout;
-  layout.width = options.width;
-  layout.height = static_cast<int>(std::lround(height + 2 * margin));
-  layout.frame = {{margin, margin}, {margin + width, margin + height}};
-
-  // Above and below the bar there is room for its title and the colors of defects.
-  const double bar_height = std::min(layout.height - 240 * unit, 620 * unit);
-  const double top = (layout.height - bar_height) / 2 + 16 * unit;
-  layout.color_bar = {{right + gap, top}, {right + gap + bar_width, top + bar_height}};
-  return layout;
-}
-
 namespace {
 
 // For a sheet of about 4:3; one more or less if that leaves fewer gaps in the last row.
@@ -72,24 +46,32 @@ int columns_of_sheet(double aspect, int count) {
 
 }  // namespace
 
-SheetLayout plan_sheet(const Box& content, int count, const WeightPictureOptions& options) {
-  const double aspect = std::clamp(content.size().y() / content.size().x(), 0.2, 5.0);
+SheetLayout plan_sheet(const Box& content, int count, const WeightPictureOptions& options,
+                       bool has_bar) {
+  const Vector<2> size = content.size();
+  const double most = count < 3 ? 1.3 : 5;
+  const double aspect = size.x() > 0 ? std::clamp(size.y() / size.x(), 0.27, most) : most;
   const int columns = columns_of_sheet(aspect, count);
   const int rows = (count + columns - 1) / columns;
   const double unit = pixel_unit(options);
-  const double margin = 26 * unit;
-  const double label = 44 * unit;
-  const double width = (options.width - margin) / columns - margin;
+  const double margin = 26 * unit, label = 44 * unit;
+  const double gap = 44 * unit, bar_width = 26 * unit, numbers = 60 * unit;
+  const double right = options.width - margin - (has_bar ? gap + bar_width + numbers : 0);
+  const double width = right / columns - margin;
   const double height = aspect * width;
   const double row_height = label + height + margin;
-  SheetLayout sheet{
-      options.width, static_cast<int>(std::lround(rows * row_height + margin / 2)), {}, 18 * unit};
+  SheetLayout sheet{options.width, static_cast<int>(std::lround(rows * row_height + margin / 2)),
+                    std::max(0.6, (count < 3 ? 1 : 0.7) * unit)};
   for (int k = 0; k < count; ++k) {
     const int row = k / columns;
     const int column = k % columns;
     const Vector<2> corner(margin + column * (width + margin), label + row * row_height);
     sheet.frames.push_back({corner, corner + Vector<2>(width, height)});
   }
+  // Above and below the bar there is room for its title and the colors of defects.
+  const double bar_height = std::min(sheet.height - 240 * unit, 620 * unit);
+  const double top = (sheet.height - bar_height) / 2 + 16 * unit;
+  sheet.color_bar = {{right + gap, top}, {right + gap + bar_width, top + bar_height}};
   return sheet;
 }
 

@@ -31,43 +31,19 @@ class PixelMap {
 //! The smallest box with all points. \throws InputError if it has no extent or is not finite
 Box bounding_box(const PointList<2>& points);
 
-struct PoseLayout {
-  bool in_a_row;  //!< from left to right, else from top to bottom
-  double gap;     //!< between two poses
-};
-
-//! \param size  of a box that any of the poses fits in
-inline PoseLayout arrange_poses(const Vector<2>& size) {
-  return {size.x() < 1.6 * size.y(), 0.06 * size.maxCoeff()};
-}
-
-//! A picture with one drawing and, if wanted, a color bar at the right.
-struct PictureLayout {
-  int width;      //!< of the picture in pixels
-  int height;     //!< of the picture in pixels
-  Box frame;      //!< for the drawing
-  Box color_bar;  //!< for the colored part of the bar
-};
-
-//! The width is as demanded. The height of the drawing follows from the content, but is no less
-//! than 0.27 times and no more than 1.3 times the width.
-PictureLayout plan_picture(const Box& content, const WeightPictureOptions& options);
-
-//! A sheet of small pictures in rows, with a label above each.
+//! A picture of panels in rows, with a label above each and, if wanted, a color bar at the right.
 struct SheetLayout {
   int width;                  //!< of the sheet in pixels
   int height;                 //!< of the sheet in pixels
-  std::vector<Box> frames{};  //!< of the pictures
-  double label_height;        //!< of a digit
-  //! Middle of the baseline of a picture's label.
-  Vector<2> label(int k) const {
-    return {frames[k].center().x(), frames[k].low.y() - label_height};
-  }
+  double unit;                //!< size of what is 1 pixel wide in a picture of the usual width
+  std::vector<Box> frames{};  //!< of the panels
+  Box color_bar{};            //!< for the colored part of the bar
 };
 
-//! Pictures are as wide as the content demands, their number per row makes the sheet about 4:3,
-//! with few gaps in the last row.
-//! \param count  of pictures, >= 1
-SheetLayout plan_sheet(const Box& content, int count, const WeightPictureOptions& options);
+//! Panels are as high as the content demands. One or two of them are at most 1.3 times as high as
+//! wide; the number of others per row makes the sheet about 4:3, with few gaps in the last row.
+//! \param count  of panels, >= 1 \param has_bar  whether to leave room for the color bar
+SheetLayout plan_sheet(const Box& content, int count, const WeightPictureOptions& options,
+                       bool has_bar = false);
 
 }  // namespace flbc::draw

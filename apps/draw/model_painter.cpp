@@ -17,7 +17,7 @@ constexpr Color kGhost{0.93F, 0.94F, 0.95F};
 constexpr float kHiddenOpacity = 0.22F;
 
 Vector<2> pixel_of(const ModelScene& scene, const Vector<3>& place) {
-  return scene.map(Vector<2>(scene.view.project(place) + scene.shift));
+  return scene.map(scene.view.project(place));
 }
 
 // A normal for each corner of each triangle, in the coordinates of the view: of the triangles at

@@ -28,9 +28,8 @@ struct ModelScene {
   const Eigen::VectorXd& values;  //!< P, shown as weights are; empty for a plain model
   Index control_point;            //!< in red; -1 = none
   ObliqueView view;
-  PixelMap map;     //!< of the view's plane
-  Vector<2> shift;  //!< in the view's plane
-  double unit;      //!< size of what is 1 pixel wide in a picture of the usual width
+  PixelMap map;  //!< of the view's plane
+  double unit;   //!< size of what is 1 pixel wide in a picture of the usual width
 };
 
 //! Paints the surface alone, pale and whatever the values: where a model was before.

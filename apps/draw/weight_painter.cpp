@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "draw/isolines.h"
-#include "flbc/errors.h"
 #include "front/colormap.h"
 
 namespace flbc::draw {
@@ -102,17 +101,6 @@ void paint_dots(Canvas& canvas, const std::vector<Vector<2>>& centers, double ra
   canvas.fill_discs(centers, radius, color);
 }
 
-void paint_symbol(Canvas& canvas, const Vector<2>& position, Index control_point, double height) {
-  const std::string subscript = std::to_string(control_point);
-  const double small = 0.62 * height;
-  const double gap = 0.03 * height;
-  const double symbol_width = text_width("w", height);
-  const double width = symbol_width + gap + text_width(subscript, small);
-  const Vector<2> start(position.x() - width / 2, position.y());
-  canvas.draw_text(start, "w", height, kInk);
-  canvas.draw_text(start + Vector<2>(symbol_width + gap, 0.25 * height), subscript, small, kInk);
-}
-
 void paint_label(Canvas& canvas, const Vector<2>& top, const std::string& label, double unit) {
   const double height = 18 * unit;
   canvas.draw_text({top.x() - text_width(label, height) / 2, top.y() - height}, label, height,
@@ -135,7 +123,8 @@ void paint_color_bar(Canvas& canvas, const Box& box, Index control_point, double
     draw_defect_patch(canvas, {{box.low.x(), below}, {box.high.x(), below + patch}},
                       -2 * kWeightTolerance, -0.1, "<0", unit);
   }
-  paint_symbol(canvas, {box.center().x(), top - 26 * unit}, control_point, 24 * unit);
+  paint_label(canvas, {box.center().x(), top - 8 * unit}, "w" + std::to_string(control_point),
+              unit);
   if (options.support_level > 0) {
     const double y = box.high.y() + 3 * gap + patch;
     canvas.draw_segments({{{box.low.x(), y}, {box.high.x(), y}}}, 1.3 * std::max(0.6, unit),
@@ -144,34 +133,6 @@ void paint_color_bar(Canvas& canvas, const Box& box, Index control_point, double
                      16 * unit, kInk);
   }
   paint_scale(canvas, box, options.isolines, {"0", "0.5", "1"}, unit);
-}
-
-void paint_length_bar(Canvas& canvas, const Box& box, double largest,
-                      const WeightPictureOptions& options) {
-  const double unit = pixel_unit(options);
-  const double height = 24 * unit;
-  canvas.draw_text({box.center().x() - text_width("d", height) / 2, box.low.y() - 26 * unit}, "d",
-                   height, kInk);
-  paint_scale(canvas, box, 0, {"0", short_number(largest / 2), short_number(largest)}, unit);
-}
-
-void check_weight(const Eigen::VectorXd& values, Index num_vertices, Index control_point,
-                  Index num_control_points) {
-  if (control_point < 0 || control_point >= num_control_points) {
-    throw OptionError("there is no control point " + std::to_string(control_point) +
-                      ": the cage has the control points 0 to " +
-                      std::to_string(num_control_points - 1));
-  }
-  if (values.size() != num_vertices) {
-    throw InputError("the weights belong to " + std::to_string(values.size()) +
-                     " vertices, but the domain mesh has " + std::to_string(num_vertices));
-  }
-  for (Eigen::Index v = 0; v < values.size(); ++v) {
-    if (!std::isfinite(values[v])) {
-      throw InputError("the weight of control point " + std::to_string(control_point) +
-                       " at vertex " + std::to_string(v) + " is not a finite number");
-    }
-  }
 }
 
 }  // namespace flbc::draw

@@ -25,23 +25,11 @@ void paint_dots(Canvas& canvas, const std::vector<Vector<2>>& centers, double ra
 void paint_color_bar(Canvas& canvas, const Box& box, Index control_point, double least,
                      double greatest, const WeightPictureOptions& options);
 
-//! Paints the scale of lengths from 0 to `largest` in the same way, with "d" above it.
-void paint_length_bar(Canvas& canvas, const Box& box, double largest,
-                      const WeightPictureOptions& options);
-
-//! Writes "w" with a subscript, centered at the point of the baseline.
-void paint_symbol(Canvas& canvas, const Vector<2>& position, Index control_point, double height);
-
 constexpr const char* kRestLabel = "Rest";
 constexpr const char* kPoseLabel = "Pose";
 
 //! Writes a label above what it names. \param top  middle of its upper side \param unit  as
 //! pixel_unit()
 void paint_label(Canvas& canvas, const Vector<2>& top, const std::string& label, double unit);
-
-//! \throws InputError if the values are not one finite number per vertex, OptionError if there is
-//! no such control point
-void check_weight(const Eigen::VectorXd& values, Index num_vertices, Index control_point,
-                  Index num_control_points);
 
 }  // namespace flbc::draw

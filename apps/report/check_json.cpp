@@ -28,6 +28,13 @@ Json to_json(const Extreme<Dim>& extreme) {
   return json;
 }
 
+// \param part  of the cage size
+const char* describe_thinness(bool is_plane, double part) {
+  constexpr double kTooThin = 1e-8;  // for all meshers in 3D
+  if (!is_plane && part <= kTooThin) return "too thin to mesh";
+  return part < kThin ? "so thin that meshing may be slow or exceed --mesh-timeout" : "";
+}
+
 // 0 is what was not measured.
 Json positive_or_null(double value) {
   return value > 0 ? Json(value) : Json();
@@ -61,6 +68,8 @@ Json cage_json(const CheckReport<Dim>& report) {
     json["thinnest_place"] = {{"distance", report.thinnest.distance},
                               {"control_point", report.thinnest.control_point},
                               {"facet", report.thinnest.facet}};
+    const std::string note = describe_thinness(Dim == 2, report.thinnest.distance / facts.size);
+    if (!note.empty()) json["thinnest_place"]["note"] = note;
   }
   return json;
 }

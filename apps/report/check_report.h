@@ -46,7 +46,7 @@ struct CheckReport {
 template <int Dim>
 nlohmann::ordered_json check_json(const CheckReport<Dim>& report);
 
-//! A line a property, with value, verdict and worst place. \param report  of check_json()
+//! A line per fact. \param report  of check_json()
 void print_check(std::ostream& out, const nlohmann::ordered_json& report);
 
 //! The beginning of a report: the cage's defects, or facts about a cage without any.

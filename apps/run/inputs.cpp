@@ -19,10 +19,7 @@ void load_motion(const Cage<Dim>& cage, const RunArguments& arguments, RunInputs
   const auto rest = arguments.makes_cage ? RestCage<Dim>(cage, "the cage")
                                          : RestCage<Dim>(arguments.settings.cage);
   inputs.poses = load_poses(given, files, rest, 1);
-  auto& animation = inputs.animation = animation_of(inputs.poses);
-  // The cage starts where it rests.
-  animation.times.insert(animation.times.begin(), 0);
-  animation.poses.insert(animation.poses.begin(), cage.points);
+  inputs.animation = animation_of(inputs.poses, &cage.points);
 }
 
 template <int Dim>

@@ -51,9 +51,9 @@ draw::ObliqueView usual_view(const Run<3>& run) {
 
 std::string function_image(const Run<3>& run, Index control_point) {
   const auto [points, triangles, weights] = drawn_shape(run);
-  return draw::draw_model({triangles, shown_cage(run).edges}, {{run.cage.points, points}},
-                          {weights.of_control_point(control_point), control_point}, usual_view(run),
-                          options_of(run));
+  return draw::draw_weights({triangles, shown_cage(run).edges}, {run.cage.points, points},
+                            weights.of_control_point(control_point), control_point, usual_view(run),
+                            options_of(run));
 }
 
 template <int Dim>
@@ -73,15 +73,15 @@ PointList<Dim> posed(const Run<Dim>& run, const Drawn<Dim>& drawn, const Pose<Di
 
 std::string deformation_image(const Run<2>& run, const Pose<2>& pose) {
   const auto drawn = drawn_shape(run);
-  return draw::draw_deformation(run.cage.facets, drawn.triangles, {run.cage.points, drawn.points},
-                                {pose.points, posed(run, drawn, pose)}, {}, -1, options_of(run));
+  const draw::DrawnShape rest{run.cage.points, drawn.points};
+  const draw::DrawnShape moved{pose.points, posed(run, drawn, pose)};
+  return draw::draw_poses(run.cage.facets, drawn.triangles, rest, moved, options_of(run));
 }
 
 std::string deformation_image(const Run<3>& run, const Pose<3>& pose) {
   const auto drawn = drawn_shape(run);
-  return draw::draw_model({drawn.triangles, shown_cage(run).edges},
-                          {{run.cage.points, drawn.points}, {pose.points, posed(run, drawn, pose)}},
-                          {}, usual_view(run), options_of(run));
+  return draw::draw_poses({drawn.triangles, shown_cage(run).edges}, {run.cage.points, drawn.points},
+                          {pose.points, posed(run, drawn, pose)}, usual_view(run), options_of(run));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "front/instantiate.h"
 #include "front/load.h"
 #include "gltf/skin.h"
+#include "report/skin_facts.h"
 #include "report/sparsify_report.h"
 #include "run/steps.h"
 #include "solve/progress_bar.h"
@@ -66,33 +67,6 @@ std::string facts_of(const SparseWeights& before, const SparseWeights& after,
 // Influences per vertex that a skin has room for.
 constexpr Index kFewJoints = 4, kManyJoints = 8;
 
-template <int Dim>
-std::string facts_of(const gltf::ExportedSkin& skin, const Run<Dim>& run) {
-  const auto& times = run.inputs.animation.times;
-  Facts facts;
-  facts << skin.vertices << " vertices, " << skin.triangles << " triangles, " << skin.joints
-        << " joints";
-  if (!run.poses().empty()) {
-    facts << ", of which " << skin.moving_joints << " move within " << times.back() << " s";
-  }
-  facts << ", at most " << skin.influences << " influences per vertex";
-  if (skin.influences > kFewJoints) {
-    facts << "; readers of one set, such as three.js, use the largest 4";
-  }
-  const double size = bounding_box_diagonal<Dim>(run.shape().points);
-  const auto& error = skin.deformation_error;
-  if (error.max > 0) {
-    facts << "; deformation error " << 100 * error.rms / size << "% rms, " << 100 * error.max / size
-          << "% max of the size";
-  }
-  const double change = skin.position_change / size;
-  if (change > gltf::kVisibleChange) {
-    facts << "; single precision, which glTF uses, moves vertices by up to " << change
-          << " of the size";
-  }
-  return facts.text();
-}
-
 std::string left_out_of(const gltf::ExportedSkin& skin) {
   std::string text;
   for (const auto& phrase : skin.left_out) text += "; left out: " + phrase;
@@ -109,8 +83,8 @@ Json write_skin(Run<Dim>& run, const std::string& name, Index max_influences) {
   options.name = shape.name;
   options.turn = turn_upright(up_axis(run.arguments.up, shape.points));
   const auto skin = gltf::export_skin(run.reduced, shape.surface, options, animation);
-  run.folder.add_text(name, facts_of(skin, run) + left_out_of(skin), skin.content);
   const double size = bounding_box_diagonal<Dim>(shape.points);
+  run.folder.add_text(name, facts_of(skin, animation, size) + left_out_of(skin), skin.content);
   return {
       {"file", name},
       {"bytes", skin.content.size()},

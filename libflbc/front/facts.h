@@ -2,12 +2,8 @@
 // Numbers in words, with as many digits as a reader wants.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <string>
-
-#include <Eigen/Core>
 
 namespace flbc::app {
 
@@ -27,15 +23,5 @@ class Facts {
  private:
   std::ostringstream text_;
 };
-
-//! The number of digits that two corners of a box need to differ, also far from the origin.
-template <class Derived>
-int digits_of_box(const Eigen::MatrixBase<Derived>& low, const Eigen::MatrixBase<Derived>& high) {
-  constexpr int kUsual = 6, kMost = 17;
-  const double size = (high - low).norm();
-  const double farthest = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
-  if (!(size > 0 && farthest > size)) return kUsual;
-  return std::min(kMost, kUsual + static_cast<int>(std::log10(farthest / size)));
-}
 
 }  // namespace flbc::app

@@ -145,8 +145,9 @@ PointList<Dim> RestCage<Dim>::load_pose(const std::string& path) const {
 }
 
 template <int Dim>
-gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>& poses) {
+gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>& poses, const PointList<Dim>* rest) {
   gltf::Animation<Dim> animation;
+  if (rest != nullptr) animation = {{0}, {*rest}};
   for (const auto& pose : poses) {
     animation.times.push_back(pose.time);
     animation.poses.push_back(pose.points);

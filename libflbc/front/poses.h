@@ -74,9 +74,9 @@ template <int Dim>
 std::vector<Pose<Dim>> load_poses(const PoseArguments& arguments, const CageFiles& files,
                                   const RestCage<Dim>& rest, int first = 0);
 
-//! The poses at their times.
+//! The poses at their times. \param rest  of the cage, before them at time 0; may be null
 template <int Dim>
-gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>& poses);
+gltf::Animation<Dim> animation_of(const std::vector<Pose<Dim>>& poses, const PointList<Dim>* rest);
 
 //! The control point that moves most of a model in the poses, or has the largest sum of weights.
 template <int Dim>

@@ -10,9 +10,6 @@ namespace {
 // Tables of "# a piece of a message", the exit status and the command that provokes it, and what
 // was advised, each in one command that works. $V stands for few vertices.
 const char* const kUsage = R"(
-# did you mean
-1 flbc slove
-flbc solve --help
 # see flbc --help
 1 flbc quux
 flbc --help

@@ -327,7 +327,7 @@ TEST(Isolines, AreAbsentOnPlateaus) {
 // A place in the domain, as a pixel of the picture.
 Vector<2> pixel_of(const Cage<2>& cage, const Vector<2>& p, const WeightPictureOptions& options) {
   const Box content = bounding_box(cage.points);
-  return PixelMap(content, plan_picture(content, options).frame)(p);
+  return PixelMap(content, plan_sheet(content, 1, options).frames[0])(p);
 }
 
 TEST(WeightPicture, ShowsTheColorsOfInterpolatedValues) {
@@ -401,35 +401,32 @@ TEST(WeightPicture, IsolinesAreEquallyWideInSteepAndFlatAreas) {
   EXPECT_NEAR(steep, flat, 0.1 * flat);
 }
 
-TEST(WeightPicture, NamesWhatIsWrong) {
+TEST(WeightPicture, OptionsOutOfRangeAreRefused) {
   const auto s = box<2>({1, 1}, 2);
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(9);
-  EXPECT_THROW(draw_weights(s.cage, s.mesh, values, 4), OptionError);
-  EXPECT_THROW(draw_weights(s.cage, s.mesh, values, -1), OptionError);
-  EXPECT_THROW(draw_weights(s.cage, s.mesh, values.head(8), 0), InputError);
   WeightPictureOptions options;
   options.width = 10;
-  EXPECT_THROW(draw_weights(s.cage, s.mesh, values, 0, options), OptionError);
-  values[7] = std::numeric_limits<double>::quiet_NaN();
-  testing::expect_refused("vertex 7", [&] { draw_weights(s.cage, s.mesh, values, 0); });
+  EXPECT_THROW(draw_weights(s.cage, s.mesh, Eigen::VectorXd::Zero(9), 0, options), OptionError);
 }
 
 TEST(WeightPicture, SheetHasOnePanelPerControlPoint) {
   const auto s = box<2>({1, 1}, 4);
-  const WeightMatrix weights = WeightMatrix::Zero(4, s.mesh.num_vertices());
+  const auto shape = std::make_shared<const DrawnShape>(DrawnShape{s.cage.points, s.mesh.points});
   WeightPictureOptions options;
   options.width = 600;
   const auto red_pixels = [&](const std::vector<Index>& control_points) {
     // The dots are equally large, however many panels there are.
-    const Image image = decode_png(draw_all(s.cage, s.mesh, weights, control_points, options));
+    std::vector<PlanePanel> panels;
+    for (const Index i : control_points) {
+      panels.push_back({"", shape, Eigen::VectorXd::Zero(s.mesh.num_vertices()), i});
+    }
+    const Image image =
+        decode_png(draw_panels(s.cage.facets, s.mesh.cells, panels, s.mesh.points, options));
     return std::count_if(image.pixels.begin(), image.pixels.end(), is_highlight);
   };
   const auto two = red_pixels({3, 1});
   EXPECT_GT(two, 20);
   EXPECT_NEAR(static_cast<double>(red_pixels({0, 1, 2, 3})), 2.0 * static_cast<double>(two),
               0.2 * static_cast<double>(two));
-  EXPECT_THROW(draw_all(s.cage, s.mesh, weights, {}), OptionError);
-  EXPECT_THROW(draw_all(s.cage, s.mesh, weights, {0, 4}), OptionError);
 }
 
 }  // namespace

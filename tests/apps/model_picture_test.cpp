@@ -23,21 +23,21 @@ WeightPictureOptions small_picture() {
 struct Squares {
   DrawnModel model;
   ModelPlace place;
-  ShownValues shown;
+  Eigen::VectorXd values;
+  Index control_point = 0;
 
   Squares() {
     model.triangles.resize(3, 4);
     model.triangles << 0, 0, 4, 4, 1, 2, 5, 6, 2, 3, 6, 7;
     place.points.resize(3, 8);
     place.points << -1, 1, 1, -1, -1, 1, 1, -1, -1, -1, 1, 1, -1, -1, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1;
-    shown.values = (Eigen::VectorXd(8) << 0, 0, 0, 0, 1, 1, 1, 1).finished();
-    shown.control_point = 0;
+    values = (Eigen::VectorXd(8) << 0, 0, 0, 0, 1, 1, 1, 1).finished();
     place.control_points.resize(3, 6);
     place.control_points << -2, 2, -2, -2, 2, -2, -2, -2, 2, -2, -2, 2, 2, 2, 2, -1, -1, -1;
     model.cage_edges = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}};
   }
   Image draw(const ObliqueView& view) const {
-    return decode_png(draw_model(model, {place}, shown, view, small_picture()));
+    return decode_png(draw_weights(model, place, values, control_point, view, small_picture()));
   }
 };
 
@@ -64,7 +64,8 @@ TEST(ModelPicture, TheNearerSurfaceCoversTheFarther) {
 TEST(ModelPicture, HiddenWireIsPale) {
   // The same cage in front of a plain surface and behind it; the surface has one color.
   Squares squares;
-  squares.shown = {};
+  squares.values.resize(0);
+  squares.control_point = -1;
   const auto darkest_change = [&](const ObliqueView& view, double front) {
     auto with = squares, without = squares;
     with.model.cage_edges = front > 0 ? decltype(with.model.cage_edges){{0, 1}, {1, 2}, {2, 0}}
@@ -101,7 +102,8 @@ TEST(ModelPicture, WireOnTheSurfaceIsNotHidden) {
 TEST(ModelPicture, SharpEdgesSeparateShades) {
   // A roof: both sides have one shade each up to the ridge.
   Squares squares;
-  squares.shown = {};
+  squares.values.resize(0);
+  squares.control_point = -1;
   squares.model.cage_edges.clear();
   squares.model.triangles.resize(3, 2);
   squares.model.triangles << 0, 0, 1, 2, 2, 3;
@@ -112,23 +114,6 @@ TEST(ModelPicture, SharpEdgesSeparateShades) {
     EXPECT_EQ(image.at(middle + 5 * side, y).g, image.at(middle + 20 * side, y).g) << side;
   }
   EXPECT_GT(std::abs(image.at(middle - 5, y).g - image.at(middle + 5, y).g), 0.1);
-}
-
-TEST(ModelPicture, NamesWhatDoesNotFit) {
-  Squares squares;
-  const auto view = view_by_angles(kUsualAzimuth, kUsualElevation);
-  EXPECT_THROW(draw_model(squares.model, {}, squares.shown, view), InputError);
-  squares.shown.values = Eigen::VectorXd::Zero(3);
-  EXPECT_THROW(squares.draw(view), InputError);
-  squares = Squares();
-  squares.place.points(1, 2) = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(squares.draw(view), InputError);
-  squares = Squares();
-  squares.model.triangles(0, 0) = 8;
-  EXPECT_THROW(squares.draw(view), InputError);
-  squares = Squares();
-  squares.model.cage_edges.push_back({0, 6});
-  EXPECT_THROW(squares.draw(view), InputError);
 }
 
 TEST(ModelPicture, ViewsAreRightHanded) {
@@ -168,14 +153,10 @@ TEST_F(DrawModel, BothDimensions) {
     expect_picture(common + " --control-point 3");
     expect_picture(common + pose);
     expect_picture(common + " --all");
-    expect_failure(common + " --color displacement", 1, "needs --pose");
-    expect_failure(common + pose + " --color red", 1, "displacement|weight|plain");
     expect_failure(common + " --control-point 1000", 1, "--control-point must be in [0, ");
     expect_failure("--weights w.npy --cage " + cage, 1, "give MODEL");
-    if (name[0] == '2') {
-      expect_failure(common + " --color plain", 1, "3D");
-    } else {
-      expect_picture(common + pose + " --color plain --view 120,-30");
+    if (name[0] == '3') {
+      expect_picture(common + pose + " --view 120,-30");
       expect_failure(common + " --view 1,2,3", 1, "AZIMUTH,ELEVATION");
       expect_failure(common + " --pose 3d/star_cage.obj", 2, "star_cage.obj");
     }
