@@ -65,7 +65,7 @@ Json report_of(const Comparison<Dim>& all) {
 
 template <int Dim>
 int compare_in(const Cage<Dim>& cage, const CompareArguments& arguments) {
-  up_axis(arguments.view.up, cage.points);  // an axis that 2D does not have is an error
+  up_axis(arguments.up, cage.points);  // an axis that 2D does not have is an error
   auto columns = columns_of<Dim>(arguments.methods);
   if (arguments.control_point != -1) require_control_point(arguments.control_point, cage.size());
   RunFolder folder(arguments.output, {{arguments.cage, arguments.model, arguments.pose},
@@ -111,7 +111,7 @@ void add_compare_command(CLI::App& app, int& exit_status) {
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   add_choice(*command, "--pictures", {"png", "svg", "pdf"}, a.pictures,
              "format of the pictures (default: png)");
-  add_view_options(*command, a.view);
+  add_up_option(*command, a.up);
   command->add_option("--control-point", a.control_point,
                       "control point to draw, counted from 0 (default: the one that moves most)");
   command->option_defaults()->group("Comparison");
@@ -129,7 +129,7 @@ void add_compare_command(CLI::App& app, int& exit_status) {
   add_mesher_options(*command, a.meshing);
   command->callback([arguments, &exit_status] {
     const auto cage = load_cage(arguments->cage);
-    arguments->view.up = up_of(arguments->view.up, arguments->model);
+    arguments->up = up_of(arguments->up, arguments->model);
     exit_status = std::visit([&](const auto& any) { return compare_in(any, *arguments); }, cage);
   });
 }

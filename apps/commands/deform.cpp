@@ -54,7 +54,6 @@ bool needs_jacobians(const DeformArguments& arguments) {
 }
 
 void check_arguments(const DeformArguments& arguments) {
-  const bool has_rest = arguments.files.has_cage();
   if (arguments.files.is_one()) require_cage(arguments.files, "--rest");
   if (arguments.files.is_one() && !arguments.files.domain.empty()) {
     throw OptionError("--domain: " + arguments.files.weights +
@@ -66,20 +65,16 @@ void check_arguments(const DeformArguments& arguments) {
   if (arguments.files.weights.empty() && arguments.method.empty()) {
     throw OptionError("no weights given; add --weights, or --method green");
   }
-  if (!has_rest && !arguments.method.empty()) {
-    throw OptionError("--method needs --rest, the cage whose coordinates move the model");
-  }
-  if (!has_rest && arguments.is_relative) {
-    throw OptionError("--relative needs --rest, from which displacements are measured");
-  }
-  if (!has_rest && !arguments.displacement.empty()) {
-    throw OptionError("--displacement needs --rest, from which displacements are measured");
-  }
-  if (!has_rest && arguments.file.shows_displacement) {
-    throw OptionError("--show-displacement needs --rest, from which displacements are measured");
-  }
-  if (!has_rest && !arguments.files.domain.empty()) {
-    throw OptionError("--domain needs --rest, the cage of this mesh");
+  const std::pair<const char*, bool> of_rest[] = {
+      {"--method", !arguments.method.empty()},
+      {"--relative", arguments.is_relative},
+      {"--displacement", !arguments.displacement.empty()},
+      {"--show-displacement", arguments.file.shows_displacement},
+      {"--domain", !arguments.files.domain.empty()}};
+  for (const auto& [option, is_given] : of_rest) {
+    if (is_given && !arguments.files.has_cage()) {
+      throw OptionError(option + std::string(" needs --rest, the rest cage of the weights"));
+    }
   }
   if (!evaluates(arguments) && !arguments.files.is_one() && arguments.normals == kJacobian) {
     throw OptionError("--normals jacobian needs a binding (.npz), or --domain");
@@ -165,7 +160,7 @@ Binding<Dim> bind_model(const MovableModel<Dim>& model, const Pose<Dim>& pose,
                              !arguments.is_relative);
   }
   const auto bound = load_domain_binding<Dim>(arguments.files);
-  return placing<Dim>(file, [&] {
+  return naming(file, [&] {
     return bound.transferred(model.points(), model.edges(), outside_of(arguments, bound.policy));
   });
 }

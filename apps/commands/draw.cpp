@@ -23,7 +23,7 @@ struct DrawArguments {
   BindingFiles files;
   std::string pose;
   std::string output;
-  ModelView view;
+  UpAxis up = UpAxis::kAuto;
   Index control_point = 0;
   bool all = false;
   draw::WeightPictureOptions options;
@@ -69,7 +69,7 @@ std::string label_of(Index control_point) {
 std::string picture_2d(const DrawArguments& arguments) {
   const auto posed = load_posed<2>(arguments);
   const auto& cage = posed.cage;
-  up_axis(arguments.view.up, posed.model.points);
+  up_axis(arguments.up, posed.model.points);
   const DomainMesh<2> shape{posed.model.points, gltf::triangles_of_points(posed.model.surface)};
   const Index i = arguments.control_point;
   const draw::DrawnShape rest{cage.points, shape.points};
@@ -90,7 +90,7 @@ std::string picture_2d(const DrawArguments& arguments) {
 
 std::string picture_3d(const DrawArguments& arguments) {
   const auto posed = load_posed<3>(arguments);
-  const auto view = view_of(arguments.view, posed.model.points);
+  const auto view = view_of(arguments.up, posed.model.points);
   const draw::DrawnModel model{gltf::triangles_of_points(posed.model.surface), posed.edges};
   const draw::ModelPlace rest{posed.cage.points, posed.model.points};
   if (arguments.all) {
@@ -121,7 +121,7 @@ void add_options(CLI::App& command, DrawArguments& a) {
       command.add_option("--control-point", a.control_point,
                          "control point whose function is drawn, counted from 0 (default: 0)");
   command.add_option("--pose", a.pose, "deformed cage: draw the model at rest and in this pose");
-  add_view_options(command, a.view);
+  add_up_option(command, a.up);
   command.add_flag("--all", a.all, "draw all functions on one sheet")->excludes(point);
   command.add_option("--width", a.options.width, "width in pixels (default: 1200)");
   command.add_option("--isolines", a.options.isolines,
@@ -140,7 +140,7 @@ void add_draw_command(CLI::App& app, int&) {
   add_options(*command, *arguments);
   command->callback([arguments] {
     check_arguments(*arguments);
-    arguments->view.up = up_of(arguments->view.up, arguments->model);
+    arguments->up = up_of(arguments->up, arguments->model);
     require_cage(arguments->files);
     const auto picture =
         dimension_of(arguments->files) == 2 ? picture_2d(*arguments) : picture_3d(*arguments);

@@ -62,7 +62,7 @@ void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solve
   if (is_certified(report)) {
     std::cerr << ", within " << 100 * report.certificate.relative_gap << "% of the optimum";
   }
-  std::cerr << describe(solver.rig().placement(), solver.cage()) << '\n';
+  std::cerr << '\n';
 }
 
 // Programs that read VTK show the coordinate functions as fields.

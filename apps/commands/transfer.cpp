@@ -51,9 +51,8 @@ MovableModel<Dim> load_target(const std::string& path) {
 template <int Dim>
 Binding<Dim> from_domain(const TransferArguments& arguments, const MovableModel<Dim>& to) {
   const auto binding = load_domain_binding<Dim>(arguments.files);
-  return placing<Dim>(arguments.to, [&] {
-    return binding.transferred(to.points(), to.edges(), arguments.outside);
-  });
+  return naming(arguments.to,
+                [&] { return binding.transferred(to.points(), to.edges(), arguments.outside); });
 }
 
 template <int Dim>

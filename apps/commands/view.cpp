@@ -10,11 +10,9 @@
 #include "commands/pose_options.h"
 #include "files/upright.h"
 #include "flbc/errors.h"
-#include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/poses.h"
 #include "flbc/sparsify_error.h"
-#include "front/base64.h"
 #include "front/bound_model.h"
 #include "front/load.h"
 #include "front/model_page.h"
@@ -32,7 +30,6 @@ struct ViewArguments {
   BindingFiles files;
   PoseArguments poses;
   std::optional<Index> max_influences;  // none: by the number of vertices
-  std::string picture;
   UpAxis up = UpAxis::kAuto;
   std::string output;
   bool quiet = false;
@@ -41,23 +38,13 @@ struct ViewArguments {
 // Pages beyond that open slowly.
 constexpr double kLargePage = 20e6;
 
-// Media type of a picture that browsers show. \throws OptionError
-std::string media_type_of(const std::string& path) {
-  const auto extension = io::extension_of(path);
-  if (extension == "png") return "image/png";
-  if (extension == "jpg" || extension == "jpeg") return "image/jpeg";
-  throw OptionError(path + ": unknown file format; a picture must end in .png or .jpg");
-}
-
 void check_arguments(const ViewArguments& arguments) {
-  if (!arguments.picture.empty()) media_type_of(arguments.picture);
   require_mesh_readable(arguments.model);
   require_writable(arguments.output, "html");
 }
 
 void check_files(const ViewArguments& arguments, const CageFiles& poses) {
-  std::vector<std::string> inputs{arguments.model, arguments.files.weights, arguments.files.cage,
-                                  arguments.picture};
+  std::vector<std::string> inputs{arguments.model, arguments.files.weights, arguments.files.cage};
   inputs.insert(inputs.end(), poses.paths.begin(), poses.paths.end());
   require_distinct(inputs, {arguments.output});
 }
@@ -76,10 +63,6 @@ view::PageContent<Dim> load_content(const ViewArguments& arguments, const CageFi
   look_from_front(content, up_of(arguments.up, arguments.model));
   const auto rest = rest_cage_of(arguments.files, binding);
   content.poses = shown_poses(load_poses(arguments.poses, poses, rest, 1));
-  if (!arguments.picture.empty()) {
-    content.picture = "data:" + media_type_of(arguments.picture) + ";base64," +
-                      draw::to_base64(io::read_file(arguments.picture));
-  }
   return content;
 }
 
@@ -147,8 +130,6 @@ void add_view_command(CLI::App& app, int&) {
   command->add_option(
       "-k,--max-influences", a.max_influences,
       "maximum influences per vertex, up to 16 (default: 16; above 100,000 vertices: 8)");
-  command->add_option("--texture", a.picture,
-                      "texture for a model with texture coordinates: .png, .jpg");
   add_up_option(*command, a.up);
   command->add_option("-o,--output", a.output, "page: .html")->required();
   command->add_flag("-q,--quiet", a.quiet, "print only errors");

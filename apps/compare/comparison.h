@@ -24,7 +24,7 @@ struct CompareArguments {
   Index control_point = -1;
   MesherSettings meshing{};
   std::string pictures = "png";
-  ModelView view{};
+  UpAxis up = UpAxis::kAuto;
   bool force = false;
   bool quiet = false;
 };

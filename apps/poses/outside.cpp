@@ -8,20 +8,13 @@
 #include "flbc/bounding_box.h"
 #include "flbc/deform.h"
 #include "flbc/placement.h"
+#include "front/bound_model.h"
 #include "front/facts.h"
 
 namespace flbc::app {
 namespace {
 
-// \param all  the number of control points
-std::string list(const std::vector<Index>& numbers, Index all) {
-  if (static_cast<Index>(numbers.size()) == all) {
-    return "all; the cage needs control points that no edge of the model reaches";
-  }
-  std::string text;
-  for (const Index number : numbers) text += (text.empty() ? "" : ", ") + std::to_string(number);
-  return text;
-}
+using Json = nlohmann::ordered_json;
 
 std::vector<bool> are_still(const SparseWeights& weights) {
   std::vector<bool> still(static_cast<std::size_t>(weights.num_points()));
@@ -55,69 +48,54 @@ struct CellCount {
 }  // namespace
 
 template <int Dim>
-Border<Dim>::Border(const Binding<Dim>& binding)
-    : cage_(binding.cage),
-      crossings_(find_crossings(cage_, binding.rest(), are_still(binding.weights), binding.edges)) {
+Json border_json(const Binding<Dim>& binding, const std::vector<Pose<Dim>>& poses) {
+  const auto& cage = binding.cage;
+  const auto crossings =
+      find_crossings(cage, binding.rest(), are_still(binding.weights), binding.edges);
+  Json json{{"crossings", crossings.size()},
+            {"control_points", control_points_at(cage, crossings)},
+            {"jumps", Json::array()}};
+  for (const auto& pose : poses) {
+    const auto found = largest_jump<Dim>(cage, crossings, pose.points - cage.points);
+    if (found.crossing < 0) break;
+    json["jumps"].push_back(
+        {{"pose", pose.name}, {"length", found.length}, {"edge", crossings[found.crossing].ends}});
+  }
+  return json;
 }
 
 template <int Dim>
 void warn_border(const Binding<Dim>& binding, const std::string& file,
                  const std::vector<Pose<Dim>>& poses) {
-  const auto still = are_still(binding.weights);
-  if (std::find(still.begin(), still.end(), true) == still.end()) return;
+  if (count_without_weights(binding.weights) == 0) return;
   if (binding.edges.ends.empty()) {
     std::cerr << "flbc: " << file
               << ": the deformation jumps where a moved facet passes through a mesh of these "
                  "points; this is not checked, because points have no edges\n";
     return;
   }
-  const auto text = Border<Dim>(binding).describe(poses);
-  if (!text.empty()) std::cerr << "flbc: " << file << ' ' << text << '\n';
-}
-
-template <int Dim>
-BorderJump Border<Dim>::jump(const Pose<Dim>& pose) const {
-  return largest_jump<Dim>(cage_, crossings_, pose.points - cage_.points);
-}
-
-template <int Dim>
-std::string Border<Dim>::describe(const std::vector<Pose<Dim>>& poses) const {
-  if (is_empty()) return "";
-  const auto held = list(control_points_at(cage_, crossings_), cage_.size());
-  if (poses.empty()) {
-    return "passes through the cage; the deformation is continuous there if these control points "
-           "stay at rest: " +
-           held;
-  }
-  BorderJump largest;
-  const Pose<Dim>* worst = nullptr;
-  for (const auto& pose : poses) {
-    const auto found = jump(pose);
-    if (worst && found.length <= largest.length) continue;
-    largest = found;
-    worst = &pose;
-  }
-  if (largest.length <= kBoundaryTolerance * bounding_box_diagonal(cage_.points)) return "";
-  const auto& ends = crossings_[largest.crossing].ends;
+  const auto border = border_json(binding, poses);
+  if (border["crossings"] == 0) return;
   Facts facts;
-  facts << "passes through the cage; the deformation jumps there by up to " << largest.length
-        << ", at the edge between vertices " << ends[0] << " and " << ends[1] << " in "
-        << worst->name << "; it does not jump if these control points stay at rest: " << held;
-  return facts.text();
-}
-
-template <int Dim>
-nlohmann::ordered_json Border<Dim>::json(const std::vector<Pose<Dim>>& poses) const {
-  nlohmann::ordered_json json{{"crossings", crossings_.size()},
-                              {"control_points", control_points_at(cage_, crossings_)},
-                              {"jumps", nlohmann::ordered_json::array()}};
-  for (const auto& pose : poses) {
-    const auto found = jump(pose);
-    if (found.crossing < 0) break;
-    json["jumps"].push_back(
-        {{"pose", pose.name}, {"length", found.length}, {"edge", crossings_[found.crossing].ends}});
+  facts << file << " passes through the cage; the deformation ";
+  if (poses.empty()) {
+    facts << "is continuous there";
+  } else {
+    const auto& jumps = border["jumps"];
+    const auto worst = std::max_element(jumps.begin(), jumps.end(),
+                                        [](auto& a, auto& b) { return a["length"] < b["length"]; });
+    const double length = worst == jumps.end() ? 0.0 : (*worst)["length"].template get<double>();
+    if (length <= kBoundaryTolerance * bounding_box_diagonal(binding.cage.points)) return;
+    facts << "jumps there by up to " << length << ", at the edge between vertices "
+          << (*worst)["edge"][0] << " and " << (*worst)["edge"][1] << " in "
+          << (*worst)["pose"].template get<std::string>() << "; it does not jump";
   }
-  return json;
+  const std::vector<Index> held = border["control_points"];
+  const bool are_all = static_cast<Index>(held.size()) == binding.cage.size();
+  facts << " if these control points stay at rest: "
+        << (are_all ? "all; the cage needs control points that no edge of the model reaches"
+                    : joined(held));
+  std::cerr << "flbc: " << facts.text() << '\n';
 }
 
 template <int Dim>
@@ -145,7 +123,7 @@ void warn_inverted(const MovableModel<Dim>& model, const PointList<Dim>& posed,
 #define FLBC_INSTANTIATE(Dim)                                                                      \
   template void warn_border(const Binding<Dim>&, const std::string&,                               \
                             const std::vector<Pose<Dim>>&);                                        \
-  template class Border<Dim>;                                                                      \
+  template Json border_json(const Binding<Dim>&, const std::vector<Pose<Dim>>&);                   \
   template void warn_inverted(const MovableModel<Dim>&, const PointList<Dim>&, const std::string&, \
                               const std::string&);
 FLBC_INSTANTIATE(2)

@@ -14,31 +14,15 @@
 
 namespace flbc::app {
 
-// Where vertices that move meet vertices without weights.
+// Where vertices of a binding that move meet vertices without weights, for reports: the number of
+// edges across the cage, the control points to hold still, and for each pose the largest jump.
+// Without facets of the cage, there are none.
 template <int Dim>
-class Border {
- public:
-  // Without facets of the cage, no border is found.
-  explicit Border(const Binding<Dim>& binding);
+nlohmann::ordered_json border_json(const Binding<Dim>& binding,
+                                   const std::vector<Pose<Dim>>& poses);
 
-  bool is_empty() const { return crossings_.empty(); }
-
-  // By how much the deformation jumps, and which control points to hold still; empty if it does
-  // not jump. Without poses, what to hold still in any.
-  std::string describe(const std::vector<Pose<Dim>>& poses) const;
-
-  // The same for reports.
-  nlohmann::ordered_json json(const std::vector<Pose<Dim>>& poses) const;
-
- private:
-  BorderJump jump(const Pose<Dim>& pose) const;
-
-  Cage<Dim> cage_;
-  std::vector<BorderCrossing<Dim>> crossings_;
-};
-
-// Prints where vertices of a binding that move meet vertices without weights, and what to hold
-// still, if there is such a place. Of points without edges it prints that this is not checked.
+// Prints where the deformation jumps at such edges, and what to hold still; without poses, what to
+// hold still in any. Of points without edges it prints that this is not checked.
 // \param file  of the model
 template <int Dim>
 void warn_border(const Binding<Dim>& binding, const std::string& file,

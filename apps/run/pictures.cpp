@@ -46,7 +46,7 @@ std::string function_image(const Run<2>& run, Index control_point) {
 }
 
 draw::ObliqueView usual_view(const Run<3>& run) {
-  return view_of({ModelView().direction, run.arguments.up}, run.shape().points);
+  return view_of(run.arguments.up, run.shape().points);
 }
 
 std::string function_image(const Run<3>& run, Index control_point) {

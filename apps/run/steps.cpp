@@ -36,7 +36,7 @@ void mesh_interior(Run<Dim>& run) {
   const auto& domain = solver.domain();
   if (!run.has_model()) run.inputs.shape = shape_of(domain);
   if (run.inputs.splats) {  // refuses those outside before the solve
-    placing<Dim>(run.arguments.splats, [&] {
+    naming(run.arguments.splats, [&] {
       place_points(run.cage, run.inputs.splats->points(), run.arguments.settings.outside);
     });
   }
@@ -89,7 +89,6 @@ void compute_weights(Run<Dim>& run) {
           << report.mesh_error << " (--vertices " << 4 * report.vertices << ": about "
           << report.mesh_error / 10 << ")";
   }
-  facts << describe(solver.rig().placement(), run.cage);
   if (is_certified(report)) {
     facts << ", within " << 100 * report.certificate.relative_gap << "% of the optimum";
   }
@@ -130,7 +129,7 @@ void deform_splats(Run<Dim>& run) {
 template <int Dim>
 void tell_border(Run<Dim>& run) {
   if (count_without_weights(run.reduced.weights) == 0) return;
-  run.report["border"] = Border<Dim>(run.reduced).json(run.poses());
+  run.report["border"] = border_json(run.reduced, run.poses());
   if (!run.arguments.quiet) warn_border(run.reduced, run.arguments.settings.model, run.poses());
 }
 

@@ -164,7 +164,7 @@ template <int Dim>
 void CageSolver<Dim>::require_inside(bool quiet) {
   const ProgressBar bar(quiet, "locating the model vertices in the cage");
   try {
-    placing<Dim>(settings_.model, [&] { place_points(cage_, model_, outside_); });
+    naming(settings_.model, [&] { place_points(cage_, model_, outside_); });
   } catch (const InputError& error) {
     if (settings_.embed || usual_policy(cage_, model_, edges_) == OutsidePoints::kFail) {
       throw InputError(error.what() + question_about<Dim>(cage_.points, model_));
@@ -199,7 +199,7 @@ void CageSolver<Dim>::find_model(MadeDomain<Dim> made, bool quiet) {
   const ProgressBar bar(quiet, "locating the model vertices in the mesh");
   auto options = bind_options<Dim>(cage_, made.mesh, settings_);
   options.outside = outside_;
-  rig_ = placing<Dim>(settings_.model, [&] {
+  rig_ = naming(settings_.model, [&] {
     return is_meshless(settings_)
                ? std::make_unique<Rig<Dim>>(cage_, model_, edges_, options)
                : std::make_unique<Rig<Dim>>(cage_, std::move(made), model_, edges_, options);
@@ -289,18 +289,6 @@ nlohmann::ordered_json CageSolver<Dim>::json(const Quality& delivered) const {
   return json;
 }
 
-template <int Dim>
-std::string describe(const Placement<Dim>& placement, const Cage<Dim>& cage) {
-  std::ostringstream text;
-  text.precision(3);
-  if (!placement.on_cage.empty()) {
-    text << "; " << placement.on_cage.size() << " vertices within "
-         << farthest(placement.on_cage).distance() / bounding_box_diagonal(cage.points)
-         << " of the cage size were snapped to the cage";
-  }
-  return text.str();
-}
-
 bool report_convergence(const SolveReport& report, const SolveSettings& settings) {
   if (report.status == SolveStatus::kConverged) {
     // The criteria of some methods say little about the distance to the optimum.
@@ -323,8 +311,7 @@ bool report_convergence(const SolveReport& report, const SolveSettings& settings
 #define FLBC_INSTANTIATE(Dim)                                                 \
   template BindOptions bind_options(const Cage<Dim>&, const DomainMesh<Dim>&, \
                                     const SolveSettings&);                    \
-  template class CageSolver<Dim>;                                             \
-  template std::string describe(const Placement<Dim>&, const Cage<Dim>&);
+  template class CageSolver<Dim>;
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

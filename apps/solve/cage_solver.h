@@ -10,14 +10,12 @@
 
 #include "flbc/cage.h"
 #include "flbc/errors.h"
-#include "flbc/io/formats.h"
 #include "flbc/meshing.h"
 #include "flbc/placement.h"
 #include "flbc/quality.h"
 #include "flbc/rig.h"
 #include "front/load.h"
 #include "front/locality_file.h"
-#include "front/wording.h"
 #include "solve/solve_settings.h"
 
 namespace flbc::app {
@@ -87,22 +85,6 @@ class CageSolver {
   std::unique_ptr<Rig<Dim>> rig_;
   Binding<Dim> binding_;
 };
-
-//! How many vertices were snapped to the cage; empty for none.
-template <int Dim>
-std::string describe(const Placement<Dim>& placement, const Cage<Dim>& cage);
-
-//! Calls an action that places the vertices of a model. Refusals name the file, and what to do with
-//! vertices outside the cage.
-template <int Dim, class Action>
-auto placing(const std::string& file, const Action& action) {
-  try {
-    return naming(file, action);
-  } catch (const InputError& error) {
-    const bool is_mesh = Dim == 2 || io::holds(file, {io::Content::kMesh3D});
-    throw InputError(is_mesh ? advise_keeping(error.what()) : error.what());
-  }
-}
 
 //! That weights are not what was asked for, on standard error. \return whether they are
 bool report_convergence(const SolveReport& report, const SolveSettings& settings);

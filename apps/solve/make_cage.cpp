@@ -13,32 +13,6 @@
 
 namespace flbc::app {
 
-namespace {
-
-#ifdef FLBC_LINKS_CGAL
-// The limits that the cage exceeds.
-template <int Dim>
-std::string excess_of(const ModelCage<Dim>& made, double model_size) {
-  std::string text;
-  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-  if (made.volume_ratio > kMaxCageVolume) {
-    add("its volume is more than " + std::to_string(static_cast<int>(kMaxCageVolume)) +
-        " times that of the model");
-  }
-  if (Dim == 3 && made.max_valence > kMaxCageValence) {
-    add("a control point has " + std::to_string(made.max_valence) + " edges");
-  }
-  if (made.max_distance > kMaxCageDistance * model_size) {
-    add((Facts() << "a control point is " << 100 * made.max_distance / model_size
-                 << "% of the model size away")
-            .text());
-  }
-  return text;
-}
-#endif
-
-}  // namespace
-
 CLI::Option* add_symmetric_option(CLI::App& command, CageSymmetry& symmetry,
                                   const std::string& more) {
   return add_choice(
@@ -66,11 +40,6 @@ ModelCage<Dim> make_cage([[maybe_unused]] const std::string& file,
   if (!quiet && model.facets.cols() == 0 && parts > 1) {
     std::cerr << file << ": the cage has " << parts
               << " separate parts, because there are wide gaps between points\n";
-  }
-  const auto excess = excess_of(made, bounding_box_diagonal<Dim>(model.points));
-  if (!quiet && !excess.empty()) {
-    std::cerr << file << ": the cage is far from the model: " << excess
-              << "; more control points may help\n";
   }
   return made;
 #else

@@ -141,19 +141,15 @@ void warn_outside(const Binding<Dim>& binding, const std::string& file, const ch
   for (const auto& place : nearest_on_cage<Dim>(binding.cage, binding.rest(), following)) {
     distance = std::max(distance, place.distance());
   }
-  print_outside(file, following.size(), points.cols(),
-                distance / bounding_box_diagonal(binding.cage.points), binding.policy, verb);
-}
-
-void print_outside(const std::string& file, std::size_t count, std::size_t all, double distance,
-                   OutsidePoints policy, const char* verb) {
-  const char* const what = policy == OutsidePoints::kKeep ? "stay where they are"
-                           : policy == OutsidePoints::kNearest
+  const char* const what = keeps ? "stay where they are"
+                           : binding.policy == OutsidePoints::kNearest
                                ? "follow its nearest point at a constant offset"
                                : "are extrapolated";
   Facts facts;
-  facts << file << ": " << count << " of " << all << " vertices " << verb
-        << " outside the cage, by up to " << 100 * distance << "% of its size; they " << what;
+  facts << file << ": " << following.size() << " of " << points.cols() << " vertices " << verb
+        << " outside the cage, by up to "
+        << 100 * distance / bounding_box_diagonal(binding.cage.points) << "% of its size; they "
+        << what;
   std::cerr << "flbc: " << facts.text() << '\n';
 }
 

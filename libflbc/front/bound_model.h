@@ -71,11 +71,6 @@ view::ShownCage<Dim> shown_cage_of(const BindingFiles& files, const Binding<Dim>
 template <int Dim>
 void warn_outside(const Binding<Dim>& binding, const std::string& file, const char* verb = "are");
 
-//! Prints that some vertices are outside the cage.
-//! \param distance  of the farthest, relative to the cage size \param verb  as above
-void print_outside(const std::string& file, std::size_t count, std::size_t all, double distance,
-                   OutsidePoints policy, const char* verb = "are");
-
 //! Files that should belong together, for messages.
 struct WeightFiles {
   std::string weights;

@@ -24,4 +24,16 @@ class Facts {
   std::ostringstream text_;
 };
 
+//! "1, 2, 3"
+template <class List>
+std::string joined(const List& items) {
+  Facts text;
+  const char* separator = "";
+  for (const auto& item : items) {
+    text << separator << item;
+    separator = ", ";
+  }
+  return text.text();
+}
+
 }  // namespace flbc::app

@@ -14,6 +14,7 @@
 #include "flbc/io/model_file.h"
 #include "flbc/options.h"
 #include "flbc/place_masks.h"
+#include "front/facts.h"
 #include "front/instantiate.h"
 #include "front/load.h"
 
@@ -27,9 +28,7 @@ void require_keys(const LocalityJson& object, const std::set<std::string>& known
   if (!object.is_object()) throw InputError(object.dump() + " is not an object with keys");
   for (const auto& entry : object.items()) {
     if (known.count(entry.key()) > 0) continue;
-    std::string names;
-    for (const auto& name : known) names += (names.empty() ? "" : ", ") + name;
-    throw InputError("unknown key \"" + entry.key() + "\"; choose from " + names);
+    throw InputError("unknown key \"" + entry.key() + "\"; choose from " + joined(known));
   }
 }
 
@@ -176,10 +175,8 @@ bool relaxes(const LocalityJson& json) {
 }  // namespace
 
 std::string Locality::note() const {
-  std::string numbers;
-  for (const Index i : freed) numbers += (numbers.empty() ? "" : ", ") + std::to_string(i);
   if (freed.empty()) return "";
-  return "removed control point" + (freed.size() == 1 ? " " : std::string("s ")) + numbers +
+  return "removed control point" + (freed.size() == 1 ? " " : std::string("s ")) + joined(freed) +
          " from the masks, so that all vertices have weights";
 }
 

@@ -7,6 +7,7 @@
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
 #include "front/colormap.h"
+#include "front/facts.h"
 #include "front/load.h"
 
 namespace flbc::app {
@@ -143,9 +144,8 @@ gltf::Surface MovableModel<Dim>::surface() const {
 template <int Dim>
 void MovableModel<Dim>::print_losses() const {
   if (losses_.empty()) return;
-  std::cerr << "flbc: " << file_.output << " does not keep all of " << file_.model << "; lost: ";
-  for (std::size_t k = 0; k < losses_.size(); ++k) std::cerr << (k > 0 ? ", " : "") << losses_[k];
-  std::cerr << '\n';
+  std::cerr << "flbc: " << file_.output << " does not keep all of " << file_.model
+            << "; lost: " << joined(losses_) << '\n';
 }
 
 template <int Dim>

@@ -46,26 +46,9 @@ Json pack_indices(const Values& values, Eigen::Index limit) {
 template <int Dim>
 void check(const PageContent<Dim>& content) {
   const auto n = content.cage.points.cols();
-  const auto num_points = content.points.cols();
   if (n > std::numeric_limits<std::uint16_t>::max()) {
     throw InputError("the cage has " + std::to_string(n) +
                      " control points, but a page can show 65535 at most");
-  }
-  const auto& weights = content.weights;
-  if (weights.num_control_points() != n || weights.num_points() != num_points) {
-    throw InputError("there are weights of " + std::to_string(weights.num_control_points()) +
-                     " control points and " + std::to_string(weights.num_points()) +
-                     " vertices, not of " + std::to_string(n) + " and " +
-                     std::to_string(num_points));
-  }
-  for (const auto& pose : content.poses) {
-    if (pose.points.cols() != n) {
-      throw InputError(pose.name + ": has " + std::to_string(pose.points.cols()) +
-                       " control points, but the cage has " + std::to_string(n));
-    }
-  }
-  if (!content.points.allFinite() || !content.cage.points.allFinite()) {
-    throw InputError("a coordinate of the model or of its cage is not finite");
   }
 }
 
@@ -73,14 +56,7 @@ void check(const PageContent<Dim>& content) {
 Json pack_weights(const SparseWeights& weights) {
   std::vector<std::uint8_t> counts;
   for (Index p = 0; p < weights.num_points(); ++p) {
-    const Index count = weights.count(p);
-    if (count > kMostInfluences) {
-      throw InputError("vertex " + std::to_string(p) + " has " + std::to_string(count) +
-                       " influences, but a page holds " + std::to_string(kMostInfluences) +
-                       " at most; reduce them first with flbc sparsify -k " +
-                       std::to_string(kMostInfluences));
-    }
-    counts.push_back(static_cast<std::uint8_t>(count));
+    counts.push_back(static_cast<std::uint8_t>(weights.count(p)));
   }
   return {{"counts", draw::numbers_to_base64(counts)},
           {"controlPoints", pack_indices(weights.control_points(), weights.num_control_points())},

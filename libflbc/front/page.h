@@ -70,8 +70,7 @@ template <int Dim>
 std::string make_content(const PageContent<Dim>& content);
 
 //! The page, which needs no other file and no network.
-//! \throws InputError if sizes do not fit, if a number is not finite, or for more than 65535
-//! control points
+//! \throws InputError for more than 65535 control points
 template <int Dim>
 std::string make_page(const PageContent<Dim>& content);
 

@@ -8,13 +8,9 @@ struct Wording {
   const char *library, *program;
 };
 
-// Of the library, on vertices outside the cage.
-constexpr const char* kAdviceOnOutside =
-    "choose OutsidePoints kNearest, kKeep, or kExtend, or make a cage around the model with "
-    "cage_from_model()";
-
 constexpr Wording kWordings[] = {
-    {kAdviceOnOutside,
+    {"choose OutsidePoints kNearest, kKeep, or kExtend, or make a cage around the model with "
+     "cage_from_model()",
      "add --outside nearest, by which they follow the cage, or --outside keep, by which they stay "
      "where they are; or make a cage around the model with flbc cage"},
     {"gap does not apply to weights that may be negative; choose non_negative constraint or "
@@ -51,15 +47,6 @@ void name_vertices(std::string& message) {
 }
 
 }  // namespace
-
-std::string advise_keeping(std::string message) {
-  const auto at = message.find(kAdviceOnOutside);
-  if (at == std::string::npos) return message;
-  return message.replace(
-      at, std::string(kAdviceOnOutside).size(),
-      "add --outside keep, by which they stay where they are, or --outside nearest, by which they "
-      "follow the cage; or make a cage around the model with flbc cage");
-}
 
 std::string in_words_of_program(std::string message) {
   for (const auto& [library, program] : kWordings) {

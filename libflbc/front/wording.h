@@ -10,8 +10,4 @@ namespace flbc::app {
 //! way, to the terminal or into a report: a second time would find options in place of names.
 std::string in_words_of_program(std::string message);
 
-//! For a mesh, of which a cage often moves a part: the advice on vertices outside the cage, in
-//! words of the program, begins with keeping them where they are.
-std::string advise_keeping(std::string message);
-
 }  // namespace flbc::app

@@ -57,7 +57,7 @@ const char* const kOutside = R"(
 0 flbc check square.obj --model outside.obj
 flbc solve square.obj --model outside.obj $V --outside nearest -o x.npy
 flbc cage outside.obj -o c.obj && flbc check c.obj --model outside.obj
-# add --outside keep, by which they stay where they are, or --outside nearest, by which they follow the cage; or make a cage around the model with flbc cage
+# add --outside nearest, by which they follow the cage, or --outside keep, by which they stay where they are; or make a cage around the model with flbc cage
 2 flbc solve square.obj --model outside.obj $V -o x.npy
 flbc solve square.obj --model outside.obj $V --outside keep -o x.npy
 flbc solve square.obj --model outside.obj $V --outside nearest -o x.npy
@@ -106,9 +106,6 @@ flbc transfer dw.npy --to model.obj --cage square.obj --domain d.obj -o x.npy
 1 flbc draw --weights w.npy --cage square.obj -o p.png
 flbc draw model.obj --weights w.npy --cage square.obj --control-point 0 -o p.png
 flbc draw d.obj --weights dw.npy --cage square.obj --control-point 0 -o p.png
-# --color displacement needs --pose
-1 flbc solve 3d/limb_cage.obj --model 3d/limb_model.obj --method harmonic $V -o v.npy; flbc draw 3d/limb_model.obj --weights v.npy --cage 3d/limb_cage.obj --color displacement -o p.png
-flbc draw 3d/limb_model.obj --weights v.npy --cage 3d/limb_cage.obj --color displacement --pose 3d/limb_cage_pose.obj -o p.png
 # --weights needs --model or --domain
 1 flbc check square.obj --weights w.npy
 flbc check square.obj --weights w.npy --model model.obj

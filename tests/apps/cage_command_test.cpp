@@ -93,13 +93,6 @@ TEST_F(CageCommand, RefusesNoiseAsSilhouette) {
          "noise.png: the silhouette has more than 4,000,000 pixel edges");
 }
 
-TEST_F(CageCommand, NamesTheLimitsThatACageExceeds) {
-  const std::string star = "3d/star_model.obj", out = " -o cage.obj";
-  expect("cage " + star + out + " --control-points 5", 0, "the cage is far from the model");
-  expect_no_piece(expect("cage " + star + out, 0, "volume ").errors,
-                  "the cage is far from the model");
-}
-
 TEST_F(CageCommand, RefusesWithReason) {
   const std::string out = " -o out.obj";
   expect("cage" + out, 1, "give either a MODEL");

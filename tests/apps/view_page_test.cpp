@@ -159,18 +159,6 @@ TEST_IN_2D_AND_3D(ViewPage, IsOneFileWithoutNetwork) {
   flbc::testing::expect_no_piece(page, "\nexport ");
 }
 
-TEST_IN_2D_AND_3D(ViewPage, RefusesWhatDoesNotFit) {
-  auto content = cube_content<Dim>();
-  content.weights = WeightMatrix(content.weights.dense().leftCols(3));
-  EXPECT_THROW(make_page(content), InputError);
-  content = cube_content<Dim>();
-  content.poses[0].points = content.cage.points.leftCols(2);
-  EXPECT_THROW(make_page(content), InputError);
-  content = cube_content<Dim>();
-  content.points(0, 1) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(make_page(content), InputError);
-}
-
 TEST_IN_2D_AND_3D(ViewPage, InfluencesAreReducedOnlyWhereThereAreTooMany) {
   auto content = cube_content<Dim>();
   WeightMatrix weights = content.weights.dense();
@@ -246,7 +234,6 @@ TEST_F(ViewCommand, RefusesWithTheReason) {
   const std::string output = " -o p.html";
   expect_refused("view " + arguments + " -o p.txt", 1, ".html");
   expect_refused("view " + arguments + " -k 17" + output, 1, "from 3 to 16 influences");
-  expect_refused("view " + arguments + " --texture t.gif" + output, 1, ".png or .jpg");
   expect_refused("view 2d/ring_model.obj --weights w.npy --cage 2d/figure_cage.obj" + output, 2,
                  "ring_model.obj");
 }

@@ -52,6 +52,7 @@ awk -v OFMT=%.17g 'BEGIN {
   for (k = 0; k < 4; ++k) print "v", 1000 + (k == 1 || k == 2), 500 + (k > 1) }' >square_cage.obj
 awk -v OFMT=%.17g 'BEGIN {
   n = 9
+  print "mtllib square.mtl\nusemtl picture" > "square_model.obj"
   for (j = 0; j < n; ++j) for (i = 0; i < n; ++i) {
     x = i / (n - 1); y = j / (n - 1)
     print "v", 1000 + x, 500 + y, 0 > "square_model.obj"
@@ -65,8 +66,9 @@ awk -v OFMT=%.17g 'BEGIN {
   } }'
 awk 'BEGIN { print "%%MatrixMarket matrix coordinate real general\n81 4 324" }
   { for (k = 1; k <= 4; ++k) print NR, k, $k }' square.rows >square.mtx
-"$flbc" view square_model.obj --weights square.mtx --cage square_cage.obj \
-  --texture "$here/../../docs/images/deformation.png" -q -o square.html
+printf 'newmtl picture\nmap_Kd deformation.png\n' >square.mtl
+cp "$here/../../docs/images/deformation.png" .
+"$flbc" view square_model.obj --weights square.mtx --cage square_cage.obj -q -o square.html
 
 # The example for engines.
 mkdir engine
