@@ -49,10 +49,9 @@ void check_model(CheckReport<Dim>& report) {
 
 template <int Dim>
 void check_weight_file(CheckReport<Dim>& report, const SparseWeights& weights) {
-  // Said here as well, because here the files have names.
-  const auto check_sizes_with = [&](const std::string& points_file, Eigen::Index num_points) {
+  const auto check_sizes_with = [&](const std::string& file, Eigen::Index num_points) {
     check_sizes(weights, report.cage.size(), num_points,
-                {report.weights_file, report.cage_file, points_file});
+                {report.weights_file, report.cage_file, file});
   };
   if (report.domain_file.empty()) {
     const auto& points = report.model->points;

@@ -5,12 +5,15 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include "commands/commands.h"
 #include "commands/pose_options.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
+#include "flbc/evaluator.h"
 #include "flbc/io/files.h"
+#include "flbc/io/point_file.h"
 #include "flbc/io/weights_io.h"
 #include "front/bound_model.h"
 #include "front/load.h"
@@ -18,7 +21,7 @@
 #include "front/poses.h"
 #include "front/system/held_signals.h"
 #include "poses/outside.h"
-#include "solve/cage_solver.h"
+#include "solve/progress_bar.h"
 
 namespace flbc::app {
 namespace {
@@ -216,21 +219,20 @@ template <int Dim>
 void print_summary(const MovableModel<Dim>& model, const std::vector<Pose<Dim>>& poses,
                    const Displacement& displacement, double seconds,
                    const DeformArguments& arguments) {
-  const auto& [input, output, shows_displacement, is_anew] = arguments.file;
-  std::cerr << output << ": " << model.points().cols() << " vertices, " << poses.size()
-            << (poses.size() == 1 ? " pose, " : " poses, ") << seconds << " s";
+  std::cerr << arguments.file.output << ": " << model.points().cols() << " vertices, "
+            << poses.size() << (poses.size() == 1 ? " pose, " : " poses, ") << seconds << " s";
   if (arguments.files.has_cage()) std::cerr << "; largest displacement " << displacement.largest;
   if (displacement.largest > 0) {
     std::cerr << " at vertex " << displacement.point << " (" << poses[displacement.pose].name
               << ')';
   }
-  if (shows_displacement) {
+  if (arguments.file.shows_displacement) {
     std::cerr << "; shown from 0 (near white) to " << displacement.largest << " (dark blue)";
   }
   std::cerr << '\n';
   model.print_losses();
   if (arguments.normals == kPolygons && model.num_loose_normals() > 0) {
-    std::cerr << "flbc: " << input << ": " << model.num_loose_normals()
+    std::cerr << "flbc: " << arguments.file.model << ": " << model.num_loose_normals()
               << " normals belong to no face with an area and are unchanged\n";
   }
 }

@@ -124,8 +124,6 @@ void add_options(CLI::App& command, DrawArguments& a) {
   add_up_option(command, a.up);
   command.add_flag("--all", a.all, "draw all functions on one sheet")->excludes(point);
   command.add_option("--width", a.options.width, "width in pixels (default: 1200)");
-  command.add_option("--isolines", a.options.isolines,
-                     "number of isolines between 0 and 1 in 2D (default: 10)");
 }
 
 }  // namespace

@@ -84,10 +84,8 @@ Index vertices_of_solve(const Cage<Dim>& cage, Index wanted) {
 
 template <int Dim>
 void print_cage(const Cage<Dim>& cage, const InfoArguments& arguments) {
-  auto defects = find_defects(cage);
-#ifdef FLBC_LINKS_CGAL
-  if (defects.empty()) defects = find_self_intersections(cage);
-#endif
+  constexpr std::size_t kMost = 16;
+  const auto defects = defects_of(cage, kMost);
   if (defects.empty()) {
     std::cout << "  a sound " << Dim << "D cage of " << cage.size() << " control points and "
               << cage.facets.cols() << (Dim == 2 ? " edges\n" : " triangles\n");

@@ -163,8 +163,8 @@ int run_cage(const Cage<Dim>& cage, const RunArguments& arguments,
   if (arguments.control_point != -1) require_control_point(arguments.control_point, cage.size());
   auto inputs = load_inputs(cage, arguments);
   CageSolver<Dim> solver(cage, inputs.shape.points, inputs.shape.edges, settings);
-  RunFolder folder(arguments.output, {inputs.files, names_of_results(inputs), arguments.force,
-                                      arguments.quiet, "run", kReport});
+  RunFolder folder(arguments.output, {inputs.files, names_of_results(inputs, arguments),
+                                      arguments.force, arguments.quiet, "run", kReport});
   Run<Dim> run{arguments, cage, cage_file, inputs, solver, folder};
   run.report = {{"command", "run"},      {"version", FLBC_VERSION}, {"dim", Dim},
                 {"cage", settings.cage}, {"model", settings.model}, {"inputs", inputs.files}};

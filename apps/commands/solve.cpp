@@ -115,9 +115,9 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
   if (!arguments.quiet) warn_outside(binding, settings.model, solver.outside_verb());
   const auto delivered = measure_quality(cage.points, binding.points, binding.weights);
   const auto json = arguments.report.empty() ? std::string() : to_text(solver.json(delivered));
+  write_binding(arguments.output, binding);
   {
     const HeldSignals held;
-    write_binding(arguments.output, binding);
     if (!arguments.save_domain.empty()) save_domain(arguments.save_domain, solver);
     if (!arguments.gradients.empty()) {
       save_gradients(arguments.gradients, solver, !settings.model.empty());
@@ -125,10 +125,8 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
     if (!arguments.certificate.empty()) {
       write_certificate(arguments.certificate, cage, solver.domain(), solver.solution());
     }
-    if (!arguments.report.empty()) {
-      io::write_file(arguments.report, [&](std::ostream& file) { file << json; });
-    }
   }
+  if (!arguments.report.empty()) write_text(arguments.report, json);
   if (!arguments.quiet) {
     print_summary(arguments, solver, delivered);
     const bool keeps = binding.policy == OutsidePoints::kKeep;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc sparsify: few influences per point.
 #include <chrono>
-#include <cstdint>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -21,7 +19,6 @@
 #include "front/load.h"
 #include "front/movable_model.h"
 #include "front/poses.h"
-#include "front/system/held_signals.h"
 #include "help/options.h"
 #include "report/report_json.h"
 #include "report/sparsify_report.h"
@@ -59,7 +56,6 @@ Binding<Dim> load(const SparsifyArguments& arguments) {
   const MovedFile same{path, path};
   if (io::holds(path, kMeshFiles)) require_formats_of<Dim>(same);
   const MovableModel<Dim> model(same);
-  if (model.points().cols() == 0) throw InputError(path + ": the model has no vertices");
   auto binding = load_binding<Dim>(arguments.files, path, model.points(), model.edges(), false);
   if (arguments.files.is_one()) return binding;
   // The result reproduces the vertices, also where the weights do not.
@@ -69,12 +65,6 @@ Binding<Dim> load(const SparsifyArguments& arguments) {
     binding.offsets.col(p) = model.points().col(p) - binding.points.col(p);
   }
   return binding;
-}
-
-std::uintmax_t size_of_file(const std::string& path) {
-  std::error_code error;
-  const auto bytes = std::filesystem::file_size(path, error);
-  return error ? 0 : bytes;
 }
 
 template <int Dim>
@@ -95,7 +85,6 @@ void sparsify_weights(const SparsifyArguments& arguments) {
     return bound.reduced(options, poses, reduction_named(method));
   });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  const auto &before = bound.weights, &after = reduced.weights;
   Json report{{"method", method},
               {"dim", Dim},
               {"control_points", bound.cage.size()},
@@ -105,23 +94,15 @@ void sparsify_weights(const SparsifyArguments& arguments) {
   if (arguments.options.max_influences < std::numeric_limits<Index>::max()) {
     report["options"]["max_influences"] = arguments.options.max_influences;
   }
-  report["before"] = weights_json(arguments.files.weights, size_of_file(arguments.files.weights),
-                                  before, bound.cage.points, bound.points);
+  report["before"] = weights_json(arguments.files.weights, arguments.files.weights, bound);
   {
     const ProgressBar bar(arguments.quiet, "measuring the errors");
-    report["error"] = errors_json<Dim>(
-        {bound.cage.points, bound.points, bound.edges, before, after, poses, arguments.poses});
+    report["error"] = errors_json<Dim>(bound, reduced, poses, arguments.poses);
   }
   report["version"] = FLBC_VERSION;
-  {
-    const HeldSignals held;
-    write_binding(arguments.output, reduced);
-    report["after"] = weights_json(arguments.output, size_of_file(arguments.output), after,
-                                   bound.cage.points, bound.points);
-    if (!arguments.report.empty()) {
-      io::write_file(arguments.report, [&](std::ostream& file) { file << to_text(report); });
-    }
-  }
+  write_binding(arguments.output, reduced);
+  report["after"] = weights_json(arguments.output, arguments.output, reduced);
+  if (!arguments.report.empty()) write_text(arguments.report, to_text(report));
   if (!arguments.quiet) std::cerr << summary_of(report) << '\n';
 }
 

@@ -12,7 +12,6 @@
 #include "front/load.h"
 #include "front/model_facets.h"
 #include "front/movable_model.h"
-#include "front/system/held_signals.h"
 #include "help/options.h"
 #include "solve/cage_solver.h"
 
@@ -38,14 +37,6 @@ void check_arguments(const TransferArguments& arguments) {
   require_distinct({arguments.files.weights, arguments.files.cage, arguments.files.domain,
                     arguments.from, arguments.to},
                    {arguments.output});
-}
-
-// The model that needs weights, with its edges.
-template <int Dim>
-MovableModel<Dim> load_target(const std::string& path) {
-  MovableModel<Dim> model({path, path});
-  if (model.points().cols() == 0) throw InputError(path + ": the model has no vertices");
-  return model;
 }
 
 template <int Dim>
@@ -75,15 +66,12 @@ Binding<Dim> from_model(const TransferArguments& arguments, const MovableModel<D
 
 template <int Dim>
 void transfer(const TransferArguments& arguments) {
-  const auto to = load_target<Dim>(arguments.to);
+  const MovableModel<Dim> to({arguments.to, arguments.to});
   std::string facts;
   const auto result =
       arguments.from.empty() ? from_domain(arguments, to) : from_model(arguments, to, facts);
   if (!arguments.quiet) warn_outside(result, arguments.to);
-  {
-    const HeldSignals held;
-    write_binding(arguments.output, result);
-  }
+  write_binding(arguments.output, result);
   if (arguments.quiet) return;
   const auto quality = measure_quality(result.cage.points, result.points, result.weights);
   std::cerr << arguments.output << ": " << result.weights.num_points()

@@ -17,7 +17,7 @@ PictureFormat picture_format(const std::string& path);
 
 struct WeightPictureOptions {
   int width = 1200;             //!< of the picture in pixels, 200 .. 6000; all sizes follow it
-  int isolines = 10;            //!< lines at k / isolines between 0 and 1; 0 = none, up to 100
+  int isolines = 10;            //!< lines at k / isolines between 0 and 1; 0 = none
   double support_level = 1e-4;  //!< a gray line shows where the weight falls below; 0 = none
   bool color_bar = true;        //!< explain the colors at the right side
   PictureFormat format = PictureFormat::kPng;

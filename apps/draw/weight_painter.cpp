@@ -2,7 +2,6 @@
 #include "draw/weight_painter.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -56,8 +55,8 @@ void draw_defect_patch(Canvas& canvas, const Box& box, double slight, double sev
 }
 
 // The colors from 0 to 1, upright, with isolines and numbers at 0, the middle and the end.
-void paint_scale(Canvas& canvas, const Box& box, int isolines,
-                 const std::array<std::string, 3>& labels, double unit) {
+void paint_scale(Canvas& canvas, const Box& box, int isolines, double unit) {
+  const char* const labels[] = {"0", "0.5", "1"};
   fill_box(canvas, box, 0, 1);
   const auto row_of = [&](double weight) { return box.high.y() - weight * box.size().y(); };
   std::vector<Segment> lines;
@@ -71,14 +70,6 @@ void paint_scale(Canvas& canvas, const Box& box, int isolines,
     canvas.draw_segments({{{box.high.x(), y}, {box.high.x() + 6 * unit, y}}}, 1.2 * unit, kInk);
     canvas.draw_text({box.high.x() + 13 * unit, y + 9 * unit}, labels[k], 18 * unit, kInk);
   }
-}
-
-// Two digits, for which there is room next to a scale.
-std::string short_number(double value) {
-  std::ostringstream text;
-  text.precision(2);
-  text << value;
-  return text.str();
 }
 
 }  // namespace
@@ -129,10 +120,11 @@ void paint_color_bar(Canvas& canvas, const Box& box, Index control_point, double
     const double y = box.high.y() + 3 * gap + patch;
     canvas.draw_segments({{{box.low.x(), y}, {box.high.x(), y}}}, 1.3 * std::max(0.6, unit),
                          kSupportLine);
-    canvas.draw_text({box.high.x() + 11 * unit, y + 8 * unit}, short_number(options.support_level),
-                     16 * unit, kInk);
+    std::ostringstream level;
+    level << options.support_level;
+    canvas.draw_text({box.high.x() + 11 * unit, y + 8 * unit}, level.str(), 16 * unit, kInk);
   }
-  paint_scale(canvas, box, options.isolines, {"0", "0.5", "1"}, unit);
+  paint_scale(canvas, box, options.isolines, unit);
 }
 
 }  // namespace flbc::draw

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/sparsify_report.h"
 
-#include <sstream>
+#include <filesystem>
 
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
@@ -12,6 +12,7 @@
 #include "flbc/sparsify.h"
 #include "flbc/sparsify_error.h"
 #include "front/bound_model.h"
+#include "front/facts.h"
 #include "help/options.h"
 
 namespace flbc::app {
@@ -25,31 +26,18 @@ Json norms_json(const ErrorNorms& norms) {
 
 // \param measure  makes ErrorNorms of poses
 template <int Dim, class Measure>
-Json over_poses(const SparsifiedWeights<Dim>& weights, const Measure& measure) {
-  const auto& control_points = weights.control_points;
+Json over_poses(const PointList<Dim>& control_points, const std::vector<PointList<Dim>>& poses,
+                const std::vector<std::string>& names, const Measure& measure) {
   Json errors{{"random_poses", kRandomPoses},
               {"independent", norms_json(measure(independent_poses(control_points, kRandomPoses)))},
               {"smooth", norms_json(measure(smooth_poses(control_points, kRandomPoses)))}};
   errors["poses"] = Json::array();
-  for (std::size_t k = 0; k < weights.poses.size(); ++k) {
-    auto entry = norms_json(measure({weights.poses[k]}));
-    entry["file"] = weights.pose_files[k];
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    auto entry = norms_json(measure({poses[k]}));
+    entry["file"] = names[k];
     errors["poses"].push_back(entry);
   }
   return errors;
-}
-
-// "over random poses 1 % rms, 2 % max, over smooth ones .."
-std::string percents(const Json& errors) {
-  std::ostringstream text;
-  const auto add = [&](const char* poses, const Json& norms) {
-    text << "over " << poses << " " << 100 * norms["rms"].get<double>() << "% rms, "
-         << 100 * norms["max"].get<double>() << "% max";
-  };
-  add("random poses", errors["independent"]);
-  text << ", ";
-  add("smooth poses", errors["smooth"]);
-  return text.str();
 }
 
 }  // namespace
@@ -74,13 +62,15 @@ std::string reduction_for(const std::string& asked, const std::string& points_fi
 }
 
 template <int Dim>
-Json weights_json(const std::string& file, std::uintmax_t bytes, const SparseWeights& weights,
-                  const PointList<Dim>& control_points, const PointList<Dim>& points) {
+Json weights_json(const std::string& name, const std::string& path, const Binding<Dim>& binding) {
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(path, error);
+  const auto& weights = binding.weights;
   const auto influences = count_influences(weights, kInfluenceThreshold);
   const auto stored = count_influences(weights);
-  const auto quality = measure_quality(control_points, points, weights);
-  return {{"file", file},
-          {"bytes", bytes},
+  const auto quality = measure_quality(binding.cage.points, binding.points, weights);
+  return {{"file", name},
+          {"bytes", error ? 0 : bytes},
           {"mean_influences", influences.mean},
           {"max_influences", influences.max},
           {"mean_nonzeros", stored.mean},
@@ -101,15 +91,17 @@ ErrorNorms relative_deformation_error(const PointList<Dim>& points,
 }
 
 template <int Dim>
-Json errors_json(const SparsifiedWeights<Dim>& weights) {
+Json errors_json(const Binding<Dim>& before, const Binding<Dim>& after,
+                 const std::vector<PointList<Dim>>& poses, const std::vector<std::string>& names) {
   using Poses = std::vector<PointList<Dim>>;
-  Json errors{{"weight", norms_json(weight_error(weights.before, weights.after))}};
-  errors["deformation"] = over_poses(weights, [&](const Poses& poses) {
-    return relative_deformation_error<Dim>(weights.points, poses, weights.before, weights.after);
+  const auto& control_points = before.cage.points;
+  Json errors{{"weight", norms_json(weight_error(before.weights, after.weights))}};
+  errors["deformation"] = over_poses(control_points, poses, names, [&](const Poses& some) {
+    return relative_deformation_error<Dim>(before.points, some, before.weights, after.weights);
   });
-  if (weights.edges.ends.empty()) return errors;
-  errors["edge"] = over_poses(weights, [&](const Poses& poses) {
-    return edge_error<Dim>(weights.points, weights.edges, poses, weights.before, weights.after);
+  if (before.edges.ends.empty()) return errors;
+  errors["edge"] = over_poses(control_points, poses, names, [&](const Poses& some) {
+    return edge_error<Dim>(before.points, before.edges, some, before.weights, after.weights);
   });
   return errors;
 }
@@ -117,28 +109,25 @@ Json errors_json(const SparsifiedWeights<Dim>& weights) {
 std::string summary_of(const Json& report) {
   const auto& before = report["before"];
   const auto& after = report["after"];
-  const auto& error = report["error"];
-  std::ostringstream text;
+  const auto& error = report["error"]["deformation"]["smooth"];
+  Facts text;
   text << after["file"].get<std::string>() << ": " << after["mean_influences"].get<double>()
        << " influences per vertex, at most " << after["max_influences"] << " (before "
-       << before["mean_influences"].get<double>() << ", " << before["max_influences"] << "); "
-       << after["bytes"] << " bytes (before " << before["bytes"] << "); deformation error "
-       << percents(error["deformation"]) << " of the size";
+       << before["mean_influences"].get<double>() << ", " << before["max_influences"]
+       << "); deformation error over smooth random poses " << 100 * error["rms"].get<double>()
+       << "% rms, " << 100 * error["max"].get<double>() << "% max of the size";
   if (after["without_weights"] > 0) {
     text << "; " << after["without_weights"] << " vertices have no weights and stay where they are";
   }
-  if (error.contains("edge")) {
-    text << "; error of edges " << percents(error["edge"]) << " of their length";
-  }
-  return text.str();
+  return text.text();
 }
 
-#define FLBC_INSTANTIATE(Dim)                                                          \
-  template Json weights_json(const std::string&, std::uintmax_t, const SparseWeights&, \
-                             const PointList<Dim>&, const PointList<Dim>&);            \
-  template Json errors_json(const SparsifiedWeights<Dim>&);                            \
-  template ErrorNorms relative_deformation_error(const PointList<Dim>&,                \
-                                                 const std::vector<PointList<Dim>>&,   \
+#define FLBC_INSTANTIATE(Dim)                                                                     \
+  template Json weights_json(const std::string&, const std::string&, const Binding<Dim>&);        \
+  template Json errors_json(const Binding<Dim>&, const Binding<Dim>&,                             \
+                            const std::vector<PointList<Dim>>&, const std::vector<std::string>&); \
+  template ErrorNorms relative_deformation_error(const PointList<Dim>&,                           \
+                                                 const std::vector<PointList<Dim>>&,              \
                                                  const SparseWeights&, const SparseWeights&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)

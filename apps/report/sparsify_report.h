@@ -3,14 +3,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "flbc/domain_mesh.h"
-#include "flbc/sparse_weights.h"
-#include "flbc/sparsify.h"
+#include "flbc/binding.h"
 #include "flbc/sparsify_error.h"
 #include "flbc/types.h"
 
@@ -43,29 +40,18 @@ ErrorNorms relative_deformation_error(const PointList<Dim>& points,
                                       const std::vector<PointList<Dim>>& poses,
                                       const SparseWeights& before, const SparseWeights& after);
 
-//! Weights before and after, and what they are measured with. All kept by reference.
+//! \param name  of the file in reports \param path  of the file, for its size
 template <int Dim>
-struct SparsifiedWeights {
-  const PointList<Dim>& control_points;
-  const PointList<Dim>& points;
-  const EdgeList& edges;  //!< may be empty
-  const SparseWeights& before;
-  const SparseWeights& after;
-  const std::vector<PointList<Dim>>& poses;
-  const std::vector<std::string>& pose_files;
-};
-
-//! \param bytes  size of the file
-template <int Dim>
-nlohmann::ordered_json weights_json(const std::string& file, std::uintmax_t bytes,
-                                    const SparseWeights& weights,
-                                    const PointList<Dim>& control_points,
-                                    const PointList<Dim>& points);
+nlohmann::ordered_json weights_json(const std::string& name, const std::string& path,
+                                    const Binding<Dim>& binding);
 
 //! Of weights, of points in poses relative to the size of the points, and, if there are edges, of
 //! their differences along edges relative to the edges' lengths.
+//! \param names  of the poses
 template <int Dim>
-nlohmann::ordered_json errors_json(const SparsifiedWeights<Dim>& weights);
+nlohmann::ordered_json errors_json(const Binding<Dim>& before, const Binding<Dim>& after,
+                                   const std::vector<PointList<Dim>>& poses,
+                                   const std::vector<std::string>& names);
 
 //! The summary of a whole report, with "before", "after" and "error". \return a line
 std::string summary_of(const nlohmann::ordered_json& report);

@@ -46,13 +46,11 @@ constexpr int kNameColumn = 20;
 
 RunFolder::RunFolder(std::string path, const RunFiles& files)
     : path_(std::move(path)), report_(files.report), quiet_(files.quiet), names_(files.names) {
-  check_results(files, names_in_report(path_of(report_), files.command));
+  const auto old = names_in_report(path_of(report_), files.command);
+  check_results(files, old);
   make_folder(path_);
   const auto reason = why_not_writable(path_);
   if (!reason.empty()) throw IoError(path_ + ": cannot write in this folder: " + reason);
-  lock_ = std::make_shared<FolderLock>(path_, files.command);
-  const auto old = names_in_report(path_of(report_), files.command);
-  check_results(files, old);  // again: another run may have ended just now
   remove_old(files, old);
   write_report({{"command", files.command}, {"unfinished", true}, {"files", files.names}});
 }

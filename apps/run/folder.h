@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <set>
@@ -11,8 +10,6 @@
 #include <vector>
 
 namespace flbc::app {
-
-class FolderLock;
 
 struct RunFiles {
   std::vector<std::string> inputs{};  //!< paths; they are neither replaced nor removed
@@ -30,8 +27,8 @@ class RunFolder {
  public:
   //! Makes the folder if there is none, and removes from it what an earlier run has made, so that
   //! nothing of that passes for a file of this run. All other files stay.
-  //! \throws IoError naming the folder if it cannot be used, or another run is writing to it; OptionError if a result would replace
-  //! an input, or without force a file that no earlier run has made
+  //! \throws IoError naming the folder if it cannot be used; OptionError if a result would replace an
+  //! input, or without force a file that no earlier run has made
   RunFolder(std::string path, const RunFiles& files);
 
   std::string path_of(const std::string& name) const;
@@ -59,7 +56,6 @@ class RunFolder {
 
   std::string path_;
   std::string report_;
-  std::shared_ptr<FolderLock> lock_;  // while it lives, no other run writes here
   bool quiet_;
   std::vector<std::string> names_;  // that may be made
   mutable std::mutex mutex_;        // of the next, of writing, and of printing

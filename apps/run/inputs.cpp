@@ -36,20 +36,11 @@ Shape<Dim> load_shape(const std::string& path) {
   shape.file =
       std::make_unique<MovableModel<Dim>>(MovedFile{path, moved.empty() ? path : "a" + moved});
   shape.points = shape.file->points();
-  if (shape.points.cols() == 0) throw InputError(path + ": the model has no vertices");
   shape.edges = shape.file->edges();
   // Points and lines have none, and are fine nevertheless.
   const auto* model = shape.file->model();
   if (model != nullptr && !model->soup.polygons.empty()) shape.surface = shape.file->surface();
   return shape;
-}
-
-template <int Dim>
-std::unique_ptr<MovableModel<Dim>> load_splats(const std::string& path, RunInputs<Dim>& inputs) {
-  inputs.files.push_back(path);
-  auto splats = std::make_unique<MovableModel<Dim>>(MovedFile{path, path});
-  if (splats->points().cols() == 0) throw InputError(path + ": the model has no vertices");
-  return splats;
 }
 
 }  // namespace
@@ -67,14 +58,15 @@ template <int Dim>
 RunInputs<Dim> load_inputs(const Cage<Dim>& cage, const RunArguments& arguments) {
   const auto& settings = arguments.settings;
   RunInputs<Dim> inputs;
-  inputs.makes_cage = arguments.makes_cage;
-  inputs.picture_format = arguments.pictures;
   if (!arguments.makes_cage) inputs.files.push_back(settings.cage);
   if (!arguments.picture.empty()) inputs.files.push_back(arguments.picture);
   load_motion(cage, arguments, inputs);
   if (!settings.locality.empty()) inputs.files.push_back(settings.locality);
   inputs.shape.extension = domain_extension<Dim>();
-  if (!arguments.splats.empty()) inputs.splats = load_splats<Dim>(arguments.splats, inputs);
+  if (const auto& splats = arguments.splats; !splats.empty()) {
+    inputs.files.push_back(splats);
+    inputs.splats = std::make_unique<MovableModel<Dim>>(MovedFile{splats, splats});
+  }
   if (settings.model.empty()) return inputs;
   inputs.files.push_back(settings.model);
   inputs.shape = load_shape<Dim>(settings.model);
@@ -82,9 +74,10 @@ RunInputs<Dim> load_inputs(const Cage<Dim>& cage, const RunArguments& arguments)
 }
 
 template <int Dim>
-std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs) {
+std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs,
+                                          const RunArguments& arguments) {
   std::vector<std::string> names{domain_file<Dim>(), kWeights, kSparseWeights, kBinding};
-  if (inputs.makes_cage) names.emplace_back(kCage);
+  if (arguments.makes_cage) names.emplace_back(kCage);
   if (inputs.shape.file) names.emplace_back(kDomainWeights);
   for (const auto& pose : inputs.poses) {
     names.push_back(name_of_deformed(pose.number, inputs.poses.size(), inputs.shape.extension));
@@ -93,9 +86,9 @@ std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs) {
     }
   }
   names.insert(names.end(), {kSkin, kFullSkin});
-  names.push_back(std::string(kFunction) + "." + inputs.picture_format);
+  names.push_back(std::string(kFunction) + "." + arguments.pictures);
   if (!inputs.poses.empty()) {
-    names.push_back(std::string(kDeformation) + "." + inputs.picture_format);
+    names.push_back(std::string(kDeformation) + "." + arguments.pictures);
   }
   names.emplace_back(kPage);
   names.emplace_back(kReport);
@@ -110,7 +103,7 @@ std::string name_of_deformed(std::int64_t number, std::size_t num_poses,
 #define FLBC_INSTANTIATE(Dim)                                                 \
   template Shape<Dim> shape_of(const DomainMesh<Dim>&);                       \
   template RunInputs<Dim> load_inputs(const Cage<Dim>&, const RunArguments&); \
-  template std::vector<std::string> names_of_results(const RunInputs<Dim>&);
+  template std::vector<std::string> names_of_results(const RunInputs<Dim>&, const RunArguments&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

@@ -86,8 +86,6 @@ std::string domain_file() {
 template <int Dim>
 struct RunInputs {
   std::vector<std::string> files{};  //!< that are read, the cage's among them unless it is made
-  bool makes_cage = false;           //!< the cage is a result
-  std::string picture_format{};      //!< extension of pictures, without the dot
   std::vector<Pose<Dim>> poses{};    //!< of the cage
   gltf::Animation<Dim> animation{};  //!< through them
   Shape<Dim> shape{};                //!< the model's; empty without one
@@ -99,7 +97,8 @@ template <int Dim>
 RunInputs<Dim> load_inputs(const Cage<Dim>& cage, const RunArguments& arguments);
 
 template <int Dim>
-std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs);
+std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs,
+                                          const RunArguments& arguments);
 
 //! The name of the model's file in a pose, which is numbered if there are several poses.
 std::string name_of_deformed(std::int64_t number, std::size_t num_poses,

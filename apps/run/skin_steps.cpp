@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The steps of flbc run that make what engines take: few influences, and a skin.
-#include <filesystem>
-
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "flbc/io/binding_file.h"
@@ -121,17 +119,14 @@ void reduce_influences(Run<Dim>& run) {
   run.folder.add(kBinding, "weights, cage, and all that other commands need of them",
                  [&](const std::string& path) { io::write_binding(path, run.reduced); });
 
-  const auto size_of_file = [&](const std::string& name) {
-    std::error_code ignored;
-    return std::filesystem::file_size(run.folder.path_of(name), ignored);
+  const auto json_of = [&](const char* name, const Binding<Dim>& binding) {
+    return weights_json(name, run.folder.path_of(name), binding);
   };
   run.report["sparsify"] = {{"method", method},
                             {"max_influences", run.arguments.max_influences},
                             {"deformation_error", {{"rms", error.rms}, {"max", error.max}}},
-                            {"before", weights_json(kWeights, size_of_file(kWeights), before,
-                                                    run.cage.points, run.attached())},
-                            {"after", weights_json(kSparseWeights, size_of_file(kSparseWeights),
-                                                   after, run.cage.points, run.attached())}};
+                            {"before", json_of(kWeights, run.solver.binding())},
+                            {"after", json_of(kSparseWeights, run.reduced)}};
 }
 
 template <int Dim>

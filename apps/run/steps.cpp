@@ -79,8 +79,6 @@ void compute_weights(Run<Dim>& run) {
   if (!report.parts.empty()) facts << ", " << report.parts.size() << " parts";
   if (report.iterations > 0) facts << ", " << describe_iterations(report, run.arguments.settings);
   if (report.status != SolveStatus::kConverged) facts << " (not converged)";
-  const double smoothness = run.report["solve"]["options"]["smoothness"];
-  if (smoothness > 0) facts << ", smoothness " << smoothness;
   facts << "; " << delivered.mean_influences
         << " influences above 1e-4 per vertex, smallest weight " << delivered.min_weight
         << ", reproduction error " << delivered.max_reproduction_error;

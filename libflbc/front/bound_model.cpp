@@ -14,6 +14,7 @@
 #include "front/instantiate.h"
 #include "front/load.h"
 #include "front/model_page.h"
+#include "front/system/held_signals.h"
 
 namespace flbc::app {
 namespace {
@@ -119,6 +120,7 @@ view::ShownCage<Dim> shown_cage_of(const BindingFiles& files, const Binding<Dim>
 
 template <int Dim>
 void write_binding(const std::string& path, const Binding<Dim>& binding) {
+  const HeldSignals held;
   if (io::is_binding_file(path)) return io::write_binding(path, binding);
   io::write_weights(path, binding.weights);
 }

@@ -54,7 +54,7 @@ template <int Dim>
 Binding<Dim> load_binding(const BindingFiles& files, const std::string& model,
                           const PointList<Dim>& points, EdgeList edges, bool reproduces = true);
 
-//! Writes a binding (.npz), or its weights in another format.
+//! Writes a binding (.npz), or its weights in another format; signals wait meanwhile.
 template <int Dim>
 void write_binding(const std::string& path, const Binding<Dim>& binding);
 

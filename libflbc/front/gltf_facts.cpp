@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <iostream>
-#include <set>
 #include <sstream>
 
 #include "flbc/io/files.h"
@@ -15,45 +14,15 @@
 namespace flbc::app {
 namespace {
 
-using io::GltfJson;
-
-struct Counts {
-  std::size_t vertices = 0, triangles = 0, joints = 0, influences = 0;
-  double seconds = 0;
-};
-
-// Primitives may share their vertices.
-void count_triangles(const GltfJson& gltf, const GltfJson& primitive,
-                     std::set<std::size_t>& positions, Counts& counts) {
-  if (io::whole(primitive, "mode", io::kGltfTriangles) != io::kGltfTriangles) return;
-  const auto& attributes = primitive.at("attributes");
-  const auto& accessors = gltf.at("accessors");
-  const auto position = io::whole(attributes.at("POSITION"));
-  const auto corners = io::whole(primitive, "indices", position);
-  counts.triangles += io::whole(accessors.at(corners).at("count")) / 3;
-  if (positions.insert(position).second) {
-    counts.vertices += io::whole(accessors.at(position).at("count"));
-  }
-  constexpr std::size_t kSize = 4;  // of a set of influences
+// Of the set that has the most of them.
+std::size_t count_influences(io::GltfJson& gltf) {
+  constexpr std::size_t kSize = 4;  // of a set
   std::size_t sets = 0;
-  while (attributes.contains("JOINTS_" + std::to_string(sets))) ++sets;
-  counts.influences = std::max(counts.influences, kSize * sets);
-}
-
-Counts count(GltfJson& gltf) {
-  Counts counts;
-  std::set<std::size_t> positions;
-  for (const auto& mesh : gltf.value("meshes", GltfJson::array())) {
-    for (const auto& primitive : mesh.at("primitives")) {
-      count_triangles(gltf, primitive, positions, counts);
-    }
-  }
-  counts.joints = io::numbers_at(gltf, {"skins/*/joints/*"}).size();  // skins may share theirs
-  for (const auto times : io::numbers_at(gltf, {"animations/*/samplers/*/input"})) {
-    const auto& last = gltf.at("accessors").at(times).at("max").at(0);
-    counts.seconds = std::max(counts.seconds, last.get<double>());
-  }
-  return counts;
+  const auto path = [&] {
+    return "meshes/*/primitives/*/attributes/JOINTS_" + std::to_string(sets);
+  };
+  while (!io::numbers_at(gltf, {path().c_str()}).empty()) ++sets;
+  return kSize * sets;
 }
 
 }  // namespace
@@ -61,22 +30,29 @@ Counts count(GltfJson& gltf) {
 std::string describe_gltf(const std::string& path) {
   return io::refusing_damage(path, [&] {
     io::GltfDocument document(path, io::read_file(path));
-    const auto counts = count(document.json);
     Eigen::AlignedBox3d box;
     const io::ModelFile file(path);
-    for (const auto& point : file.model().soup.points) box.extend(point);
+    const auto& soup = file.model().soup;
+    for (const auto& point : soup.points) box.extend(point);
     std::ostringstream text;
-    text << path << ": glTF model of " << counts.vertices << " vertices, " << counts.triangles
-         << " triangles\n";
+    text << path << ": glTF model of " << soup.points.size() << " vertices, "
+         << soup.polygons.size() << " triangles\n";
     const Eigen::IOFormat row(6, Eigen::DontAlignCols, ", ", ", ", "", "", "(", ")");
     text << "  from " << box.min().transpose().format(row) << " to "
          << box.max().transpose().format(row) << '\n';
-    if (counts.joints > 0) {
-      text << "  skin of " << counts.joints << " joints, at most " << counts.influences
+    auto& json = document.json;
+    const auto joints =
+        io::numbers_at(json, {"skins/*/joints/*"}).size();  // skins may share theirs
+    if (joints > 0) {
+      text << "  skin of " << joints << " joints, at most " << count_influences(json)
            << " influences per vertex\n";
     }
     for (const auto& note : file.model().notes) text << "  " << note << '\n';
-    if (counts.seconds > 0) text << "  animation of " << counts.seconds << " s\n";
+    double seconds = 0;
+    for (const auto times : io::numbers_at(json, {"animations/*/samplers/*/input"})) {
+      seconds = std::max(seconds, json.at("accessors").at(times).at("max").at(0).get<double>());
+    }
+    if (seconds > 0) text << "  animation of " << seconds << " s\n";
     return text.str();
   });
 }

@@ -26,10 +26,7 @@ bool is_mendable(const Cage<Dim>& cage, const Defect& defect) {
 
 template <int Dim>
 void check_cage(const Cage<Dim>& cage, const io::PolygonSoup& soup, const std::string& path) {
-  auto defects = find_defects(cage, 1);
-#ifdef FLBC_LINKS_CGAL
-  if (defects.empty()) defects = find_self_intersections(cage, 1);
-#endif
+  auto defects = defects_of(cage, 1);
   if (!defects.empty()) {
     if (Dim == 3) name_faces(defects, soup);
     const char* const advice = is_mendable(cage, defects.front()) ? kRepair : "";
@@ -53,6 +50,15 @@ bool is_same_file(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
+
+template <int Dim>
+std::vector<Defect> defects_of(const Cage<Dim>& cage, std::size_t most) {
+  auto defects = find_defects(cage, most);
+#ifdef FLBC_LINKS_CGAL
+  if (defects.empty()) defects = find_self_intersections(cage, most);
+#endif
+  return defects;
+}
 
 io::AnyCage load_cage(const std::string& path) {
   return checked_cage(io::read_polygons(path), path);
@@ -193,6 +199,8 @@ void require_distinct(const std::vector<std::string>& inputs,
   }
 }
 
+template std::vector<Defect> defects_of(const Cage<2>&, std::size_t);
+template std::vector<Defect> defects_of(const Cage<3>&, std::size_t);
 template PointList<2> load_points(const std::string&);
 template PointList<3> load_points(const std::string&);
 template PointList<2> load_model(const std::string&);

@@ -29,6 +29,10 @@ io::AnyCage load_cage(const std::string& path);
 //! The same of a file that has been read. \param path  for messages
 io::AnyCage checked_cage(const io::PolygonSoup& soup, const std::string& path);
 
+//! Defects of a cage, at most `most`, self-intersections included where CGAL was built in.
+template <int Dim>
+std::vector<Defect> defects_of(const Cage<Dim>& cage, std::size_t most);
+
 //! Has the messages of defects name faces of the file as well, where triangles were cut from
 //! polygons with more corners: " (faces 3 and 7 of the file)", numbered from 0.
 void name_faces(std::vector<Defect>& defects, const io::PolygonSoup& soup);

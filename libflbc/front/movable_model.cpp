@@ -86,6 +86,12 @@ void require_formats_of(const MovedFile& file) {
 
 template <int Dim>
 MovableModel<Dim>::MovableModel(MovedFile file) : file_(std::move(file)) {
+  read();
+  if (points_.cols() == 0) throw InputError(file_.model + ": the model has no vertices");
+}
+
+template <int Dim>
+void MovableModel<Dim>::read() {
   const auto& path = file_.model;
   if (moves_splats(file_)) {
     if constexpr (Dim == 2) {

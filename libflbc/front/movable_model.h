@@ -80,6 +80,7 @@ class MovableModel {
              double largest, const Eigen::MatrixXd& jacobians = {}) const;
 
  private:
+  void read();
   void find_losses(io::Model model);
 
   MovedFile file_;

@@ -2,7 +2,6 @@
 #include "front/system/system.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -14,7 +13,6 @@
 #include <malloc.h>
 #endif
 
-#include "flbc/errors.h"
 #include "front/system/held_signals.h"
 
 namespace flbc::app {
@@ -59,26 +57,6 @@ void write_to_terminal(const std::string& text) {
 
 std::string why_not_writable(const std::string& folder) {
   return access(folder.c_str(), W_OK | X_OK) == 0 ? "" : std::strerror(errno);
-}
-
-struct FolderLock::Handle {
-  int descriptor;
-};
-
-FolderLock::FolderLock(const std::string& folder, const std::string& command) {
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) {
-    throw IoError(folder + ": cannot open this folder: " + std::strerror(errno));
-  }
-  handle_ = std::make_unique<Handle>(Handle{descriptor});
-  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  close(descriptor);
-  throw IoError(folder + ": another flbc " + command +
-                " is writing to this folder; wait for it, or use another folder");
-}
-
-FolderLock::~FolderLock() {
-  close(handle_->descriptor);
 }
 
 struct HeldSignals::Before {

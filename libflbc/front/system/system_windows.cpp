@@ -14,9 +14,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <system_error>
 
-#include "flbc/errors.h"
 #include "front/system/held_signals.h"
 
 namespace flbc::app {
@@ -47,31 +45,6 @@ void write_to_terminal(const std::string& text) {
 std::string why_not_writable(const std::string& folder) {
   constexpr int kWrite = 2;
   return _waccess(std::filesystem::path(folder).c_str(), kWrite) == 0 ? "" : std::strerror(errno);
-}
-
-struct FolderLock::Handle {
-  HANDLE file;
-};
-
-// A file that exists while the folder is locked.
-FolderLock::FolderLock(const std::string& folder, const std::string& command) {
-  const auto path = std::filesystem::path(folder) / ".flbc-lock";
-  const HANDLE file = CreateFileW(path.c_str(), GENERIC_WRITE, 0, nullptr, CREATE_ALWAYS,
-                                  FILE_FLAG_DELETE_ON_CLOSE, nullptr);
-  if (file == INVALID_HANDLE_VALUE) {
-    const DWORD error = GetLastError();
-    if (error == ERROR_SHARING_VIOLATION || error == ERROR_ACCESS_DENIED) {
-      throw IoError(folder + ": another flbc " + command +
-                    " is writing to this folder; wait for it, or use another folder");
-    }
-    throw IoError(folder + ": cannot open this folder: " +
-                  std::system_category().message(static_cast<int>(error)));
-  }
-  handle_ = std::make_unique<Handle>(Handle{file});
-}
-
-FolderLock::~FolderLock() {
-  CloseHandle(handle_->file);
 }
 
 struct HeldSignals::Before {
