@@ -112,7 +112,7 @@ int solve_cage(const Cage<Dim>& cage, const SolveArguments& arguments) {
   }
   solver.solve(arguments.quiet);
   const auto& binding = solver.binding();
-  if (!arguments.quiet) warn_outside(binding, settings.model, solver.outside_verb());
+  if (!arguments.quiet) warn_outside(binding, settings.model);
   const auto delivered = measure_quality(cage.points, binding.points, binding.weights);
   const auto json = arguments.report.empty() ? std::string() : to_text(solver.json(delivered));
   write_binding(arguments.output, binding);

@@ -59,9 +59,7 @@ void compute_weights(Run<Dim>& run) {
   auto& solver = run.solver;
   solver.solve(run.arguments.quiet);
   const auto& arguments = run.arguments;
-  if (!arguments.quiet) {
-    warn_outside(solver.binding(), arguments.settings.model, solver.outside_verb());
-  }
+  if (!arguments.quiet) warn_outside(solver.binding(), arguments.settings.model);
   if (run.inputs.splats) {
     run.splats =
         solver.binding().transferred(run.inputs.splats->points(), {}, arguments.settings.outside);

@@ -170,7 +170,6 @@ void CageSolver<Dim>::require_inside(bool quiet) {
       throw InputError(error.what() + question_about<Dim>(cage_.points, model_));
     }
     outside_ = OutsidePoints::kNearest;
-    outside_verb_ = "belong to no face and are";
   }
 }
 

@@ -56,8 +56,6 @@ class CageSolver {
 
   //! All weights of the model's vertices, or else of those of the mesh.
   const Binding<Dim>& binding() const { return binding_; }
-  //! How vertices outside are printed.
-  const char* outside_verb() const { return outside_verb_; }
 
   //! The report of the whole. \param delivered  quality of rows()
   nlohmann::ordered_json json(const Quality& delivered) const;
@@ -76,9 +74,8 @@ class CageSolver {
   const PointList<Dim>& model_;
   const EdgeList& edges_;
   const SolveSettings& settings_;
-  OutsidePoints outside_;             // treatment of vertices there
-  const char* outside_verb_ = "are";  // "vertices VERB outside the cage"
-  double mesh_seconds_ = 0;           // for making or reading it
+  OutsidePoints outside_;    // treatment of vertices there
+  double mesh_seconds_ = 0;  // for making or reading it
   std::string mesher_ = "none";
   Locality locality_;
   EmbeddablePoints<Dim> embedded_;  // of the model, if it is to be embedded

@@ -126,7 +126,7 @@ void write_binding(const std::string& path, const Binding<Dim>& binding) {
 }
 
 template <int Dim>
-void warn_outside(const Binding<Dim>& binding, const std::string& file, const char* verb) {
+void warn_outside(const Binding<Dim>& binding, const std::string& file) {
   const auto& [points, outside] = std::tie(binding.points, binding.outside);
   const bool keeps = binding.policy == OutsidePoints::kKeep;
   std::vector<Index> following;
@@ -148,8 +148,8 @@ void warn_outside(const Binding<Dim>& binding, const std::string& file, const ch
                                ? "follow its nearest point at a constant offset"
                                : "are extrapolated";
   Facts facts;
-  facts << file << ": " << following.size() << " of " << points.cols() << " vertices " << verb
-        << " outside the cage, by up to "
+  facts << file << ": " << following.size() << " of " << points.cols()
+        << " vertices are outside the cage, by up to "
         << 100 * distance / bounding_box_diagonal(binding.cage.points) << "% of its size; they "
         << what;
   std::cerr << "flbc: " << facts.text() << '\n';
@@ -183,7 +183,7 @@ Index count_without_weights(const SparseWeights& weights) {
   template RestCage<Dim> rest_cage_of(const BindingFiles&, const Binding<Dim>&);         \
   template view::ShownCage<Dim> shown_cage_of(const BindingFiles&, const Binding<Dim>&); \
   template void write_binding(const std::string&, const Binding<Dim>&);                  \
-  template void warn_outside(const Binding<Dim>&, const std::string&, const char*);
+  template void warn_outside(const Binding<Dim>&, const std::string&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

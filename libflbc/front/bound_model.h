@@ -67,9 +67,9 @@ template <int Dim>
 view::ShownCage<Dim> shown_cage_of(const BindingFiles& files, const Binding<Dim>& binding);
 
 //! Prints how many points are outside the cage, how far, and what they do, if there are any.
-//! \param file  of the model \param verb  in "vertices VERB outside"
+//! \param file  of the model
 template <int Dim>
-void warn_outside(const Binding<Dim>& binding, const std::string& file, const char* verb = "are");
+void warn_outside(const Binding<Dim>& binding, const std::string& file);
 
 //! Files that should belong together, for messages.
 struct WeightFiles {
