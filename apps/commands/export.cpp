@@ -183,7 +183,7 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
   write_text(arguments.output, skin.content);
   const double size = bounding_box_diagonal<Dim>(points);
   if (!arguments.quiet) {
-    std::cerr << arguments.output << ": " << facts_of(skin, animation, size) << "; "
+    std::cerr << arguments.output << ": " << describe_skin(skin, animation, size) << "; "
               << skin.content.size() << " bytes\n";
   }
   warn_left_out(arguments.output, arguments.model, skin.left_out);

@@ -6,8 +6,8 @@
 namespace flbc::app {
 
 template <int Dim>
-std::string facts_of(const gltf::ExportedSkin& skin, const gltf::Animation<Dim>& animation,
-                     double size) {
+std::string describe_skin(const gltf::ExportedSkin& skin, const gltf::Animation<Dim>& animation,
+                          double size) {
   constexpr Index kOneSet = 4;  // influences that every reader knows
   Facts facts;
   facts << skin.vertices << " vertices, " << skin.triangles << " triangles, " << skin.joints
@@ -34,7 +34,7 @@ std::string facts_of(const gltf::ExportedSkin& skin, const gltf::Animation<Dim>&
   return facts.text();
 }
 
-template std::string facts_of(const gltf::ExportedSkin&, const gltf::Animation<2>&, double);
-template std::string facts_of(const gltf::ExportedSkin&, const gltf::Animation<3>&, double);
+template std::string describe_skin(const gltf::ExportedSkin&, const gltf::Animation<2>&, double);
+template std::string describe_skin(const gltf::ExportedSkin&, const gltf::Animation<3>&, double);
 
 }  // namespace flbc::app

@@ -11,7 +11,7 @@ namespace flbc::app {
 //! "48 vertices, 92 triangles, 24 joints, .., at most 4 influences per vertex; .."
 //! \param animation  of the skin \param size  of the model
 template <int Dim>
-std::string facts_of(const gltf::ExportedSkin& skin, const gltf::Animation<Dim>& animation,
-                     double size);
+std::string describe_skin(const gltf::ExportedSkin& skin, const gltf::Animation<Dim>& animation,
+                          double size);
 
 }  // namespace flbc::app

@@ -82,7 +82,7 @@ Json write_skin(Run<Dim>& run, const std::string& name, Index max_influences) {
   options.turn = turn_upright(up_axis(run.arguments.up, shape.points));
   const auto skin = gltf::export_skin(run.reduced, shape.surface, options, animation);
   const double size = bounding_box_diagonal<Dim>(shape.points);
-  run.folder.add_text(name, facts_of(skin, animation, size) + left_out_of(skin), skin.content);
+  run.folder.add_text(name, describe_skin(skin, animation, size) + left_out_of(skin), skin.content);
   return {
       {"file", name},
       {"bytes", skin.content.size()},
