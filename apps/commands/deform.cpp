@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "commands/commands.h"
-#include "commands/pose_options.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/evaluator.h"

@@ -5,7 +5,7 @@
 #include "commands/commands.h"
 #include "draw/model_picture.h"
 #include "draw/plane_picture.h"
-#include "files/upright.h"
+#include "draw/view.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
@@ -90,7 +90,7 @@ std::string picture_2d(const DrawArguments& arguments) {
 
 std::string picture_3d(const DrawArguments& arguments) {
   const auto posed = load_posed<3>(arguments);
-  const auto view = view_of(arguments.up, posed.model.points);
+  const auto view = draw::view_of(arguments.up, posed.model.points);
   const draw::DrawnModel model{gltf::triangles_of_points(posed.model.surface), posed.edges};
   const draw::ModelPlace rest{posed.cage.points, posed.model.points};
   if (arguments.all) {

@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "commands/commands.h"
-#include "commands/pose_options.h"
-#include "files/upright.h"
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
 #include "flbc/errors.h"
@@ -22,6 +20,7 @@
 #include "front/load.h"
 #include "front/movable_model.h"
 #include "front/poses.h"
+#include "front/up_axis.h"
 #include "gltf/skin.h"
 #include "help/options.h"
 #include "report/skin_facts.h"

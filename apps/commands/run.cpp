@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "commands/commands.h"
-#include "commands/pose_options.h"
 #include "draw/canvas.h"
 #include "flbc/errors.h"
 #include "flbc/io/files.h"

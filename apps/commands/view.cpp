@@ -7,8 +7,6 @@
 #include <sstream>
 
 #include "commands/commands.h"
-#include "commands/pose_options.h"
-#include "files/upright.h"
 #include "flbc/errors.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/poses.h"
@@ -19,6 +17,7 @@
 #include "front/movable_model.h"
 #include "front/page.h"
 #include "front/poses.h"
+#include "front/up_axis.h"
 #include "help/options.h"
 #include "report/sparsify_report.h"
 

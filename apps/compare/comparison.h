@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "files/upright.h"
+#include "draw/view.h"
 #include "flbc/meshing.h"
 #include "front/poses.h"
 #include "run/folder.h"

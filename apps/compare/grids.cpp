@@ -61,7 +61,7 @@ std::string grid(const Comparison<3>& all, bool posed) {
   }
   return draw::draw_panels(
       {gltf::triangles_of_points(all.shape.surface), load_shown_cage<3>(all.arguments.cage).edges},
-      panels, view_of(all.arguments.up, all.points()), options_of(all.arguments));
+      panels, draw::view_of(all.arguments.up, all.points()), options_of(all.arguments));
 }
 
 }  // namespace

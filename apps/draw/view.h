@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "flbc/types.h"
+#include "front/up_axis.h"
 
 namespace flbc::draw {
 
@@ -48,6 +49,14 @@ inline ObliqueView view_by_angles(double azimuth, double elevation) {
                          std::cos(rise) * std::cos(turn));
   const Vector<3> right(std::cos(turn), 0, -std::sin(turn));
   return {right, toward.cross(right), toward};
+}
+
+//! The view of points as they are in their file, 3 x P: from the front, the right, and above.
+inline ObliqueView view_of(app::UpAxis up, const PointList<3>& points) {
+  const int axis = app::up_axis(up, points);
+  const double front = app::front_azimuth(axis, points) * kDegree;
+  return before_turn(view_by_angles(kUsualAzimuth, kUsualElevation),
+                     Eigen::AngleAxisd(-front, Vector<3>::UnitY()) * app::turn_upright(axis));
 }
 
 }  // namespace flbc::draw

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "flbc/report.h"
+#include "front/poses.h"
+#include "front/up_axis.h"
 
 namespace flbc::app {
 
@@ -55,6 +57,32 @@ std::string wrapped(const std::string& text, std::size_t width, const std::strin
 //! Adds --cage, the rest cage of weights that have none.
 inline CLI::Option* add_cage_option(CLI::App& command, std::string& cage) {
   return command.add_option("--cage", cage, "rest cage of the weights; a .npz file has it");
+}
+
+//! Adds --up of the commands that show or export models, with the default kAuto.
+inline CLI::Option* add_up_option(CLI::App& command, UpAxis& up) {
+  return add_choice(
+      command, "--up", {"x", "y", "z", "auto"},
+      [&up](const std::string& axis) {
+        up = axis == "auto" ? UpAxis::kAuto : static_cast<UpAxis>(axis[0] - 'x');
+      },
+      "axis of a 3D model that points up (default: auto: y for glTF, otherwise by its lowest "
+      "vertices)");
+}
+
+//! Adds --pose.
+inline CLI::Option* add_pose_option(CLI::App& command, PoseArguments& poses) {
+  return command.add_option("--pose", poses.cages,
+                            "deformed cage: one or more files, or a pattern such as pose_%d.obj");
+}
+
+//! Adds --fps. \param cages  --pose
+inline CLI::Option* add_rate_option(CLI::App& command, PoseArguments& poses, CLI::Option* cages) {
+  return command
+      .add_option("--fps", poses.frames_per_second,
+                  "poses of --pose per second (default: 24, or 1 for one pose, from rest)")
+      ->check(in_range(1e-3, 1e6))
+      ->needs(cages);
 }
 
 }  // namespace flbc::app

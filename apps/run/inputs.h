@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "files/upright.h"
 #include "flbc/cage.h"
 #include "flbc/cage_from_model.h"
 #include "flbc/domain_mesh.h"
 #include "flbc/types.h"
 #include "front/movable_model.h"
 #include "front/poses.h"
+#include "front/up_axis.h"
 #include "gltf/skin.h"
 #include "model/surface.h"
 #include "report/sparsify_report.h"

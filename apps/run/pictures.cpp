@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "draw/model_picture.h"
 #include "draw/plane_picture.h"
+#include "draw/view.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "front/facts.h"
@@ -46,7 +47,7 @@ std::string function_image(const Run<2>& run, Index control_point) {
 }
 
 draw::ObliqueView usual_view(const Run<3>& run) {
-  return view_of(run.arguments.up, run.shape().points);
+  return draw::view_of(run.arguments.up, run.shape().points);
 }
 
 std::string function_image(const Run<3>& run, Index control_point) {

@@ -96,14 +96,6 @@ const char* name_of(Stage stage) {
   }
 }
 
-// By the bounding boxes.
-template <int Dim>
-bool surrounds(const PointList<Dim>& outer, const PointList<Dim>& inner) {
-  if (outer.cols() == 0) return false;
-  return (outer.rowwise().minCoeff().array() < inner.rowwise().minCoeff().array()).all() &&
-         (outer.rowwise().maxCoeff().array() > inner.rowwise().maxCoeff().array()).all();
-}
-
 // Where a part is, for readers of the report to identify it.
 template <int Dim>
 nlohmann::ordered_json parts_json(const Cage<Dim>& cage, const std::vector<SolveReport>& reports) {
@@ -142,7 +134,8 @@ CageSolver<Dim>::CageSolver(const Cage<Dim>& cage, const PointList<Dim>& model,
     throw OptionError(
         "--outside: --embed needs all vertices inside the cage; leave out --embed or --outside");
   }
-  if (settings.outside == OutsidePoints::kFail && surrounds(model, cage.points) &&
+  if (settings.outside == OutsidePoints::kFail && model.cols() > 0 &&
+      box_of<Dim>(model).contains(box_of<Dim>(cage.points)) &&
       points_outside(cage, model).size() == static_cast<std::size_t>(model.cols())) {
     throw InputError(settings.model + ": surrounds the cage " + settings.cage +
                      "; are CAGE and MODEL swapped?");
@@ -207,23 +200,19 @@ void CageSolver<Dim>::find_model(MadeDomain<Dim> made, bool quiet) {
 
 template <int Dim>
 void CageSolver<Dim>::load_masks(bool quiet) {
-  if (settings_.locality.empty()) {
-    if (const auto note = rig_->note(); !note.empty() && !quiet) {
-      std::cerr << "flbc: " << settings_.model << ": " << note << '\n';
-    }
-    return;
+  const bool has_masks = !settings_.locality.empty();
+  if (has_masks) {
+    auto options = rig_->options();
+    const auto& points = settings_.model.empty() ? domain().points : model_;
+    locality_ =
+        load_locality(settings_.locality, cage_, points, settings_.model, settings_.mirror_axis);
+    options.masks = locality_.masks;
+    options.solver.reach = locality_.reach;
+    naming(settings_.locality, [&] { rig_->set_options(options); });
   }
-  auto options = rig_->options();
-  const auto& points = settings_.model.empty() ? domain().points : model_;
-  locality_ =
-      load_locality(settings_.locality, cage_, points, settings_.model, settings_.mirror_axis);
-  options.masks = locality_.masks;
-  options.solver.reach = locality_.reach;
-  naming(settings_.locality, [&] { rig_->set_options(options); });
+  const auto& file = has_masks ? settings_.locality : settings_.model;
   for (const auto& note : {locality_.note(), rig_->note()}) {
-    if (!note.empty() && !quiet) {
-      std::cerr << "flbc: " << settings_.locality << ": " << note << '\n';
-    }
+    if (!note.empty() && !quiet) std::cerr << "flbc: " << file << ": " << note << '\n';
   }
 }
 
