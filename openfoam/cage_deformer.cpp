@@ -2,14 +2,15 @@
 #include "cage_deformer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
+#include <memory>
 #include <string>
 #include <utility>
 
 #include "Pstream.H"
 #include "Time.H"
+#include "clockTime.H"
 #include "polyMeshGeometry.H"
 #include "primitiveMeshTools.H"
 #include "syncTools.H"
@@ -22,7 +23,6 @@
 #include "flbc/evaluator.h"
 #include "flbc/io/binding_file.h"
 #include "flbc/io/cage_io.h"
-#include "flbc/io/model_file.h"
 
 namespace flbc::foam {
 namespace {
@@ -39,29 +39,6 @@ std::string in_case(const Foam::polyMesh& mesh, Foam::fileName file) {
 template <int Dim>
 Vector<Dim> to_vector(const Foam::point& point) {
   return Eigen::Map<const Vector<Dim>>(point.v_);
-}
-
-// The control points and what joins them, to compare poses with.
-template <int Dim>
-io::PolygonSoup polygons_of(const Cage<Dim>& cage) {
-  io::PolygonSoup soup;
-  for (const auto& point : cage.points.colwise()) {
-    soup.points.push_back(Vector<3>::Zero());
-    soup.points.back().template head<Dim>() = point;
-  }
-  for (const auto& facet : cage.facets.colwise()) {
-    (Dim == 2 ? soup.polylines : soup.polygons).emplace_back(facet.begin(), facet.end());
-  }
-  return io::control_polygons<Dim>(soup);
-}
-
-template <int Dim>
-PointList<Dim> read_pose(const std::string& file, const io::PolygonSoup& rest) {
-  auto pose = io::read_polygons(file);
-  // Mere points have no faces to compare.
-  if (!pose.polygons.empty() || !pose.polylines.empty()) pose = io::control_polygons<Dim>(pose);
-  io::check_same_vertices(rest, "the cage of the binding", pose, file);
-  return io::to_points<Dim>(pose, file);
 }
 
 // \param file  for messages
@@ -83,17 +60,9 @@ void require_domain(const Binding<Dim>& binding, const std::string& file) {
                    " of the domain mesh where it is; write the file again by flbc solve");
 }
 
-// Measures the slowest rank.
-class Stopwatch {
- public:
-  Foam::scalar seconds() const {
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
-    return Foam::returnReduce(passed.count(), Foam::maxOp<Foam::scalar>());
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
+Foam::scalar of_slowest_rank(const Foam::clockTime& watch) {
+  return Foam::returnReduce(watch.elapsedTime(), Foam::maxOp<Foam::scalar>());
+}
 
 // Points of the patches, also where another rank has the face.
 Foam::boolList points_of_patches(const Foam::polyMesh& mesh, const Foam::dictionary& dict) {
@@ -114,79 +83,53 @@ Foam::boolList points_of_patches(const Foam::polyMesh& mesh, const Foam::diction
   return found;
 }
 
-}  // namespace
-
-//! The displacements of points.
-class CageDeformer::Motion {
- public:
-  virtual ~Motion() = default;
-  //! \param part  in [0, 1], between the poses `pose` and `pose` + 1
-  virtual void add_to(Foam::pointField& points, std::size_t pose, double part) const = 0;
-};
-
+// The displacements of points.
 template <int Dim>
-class CageDeformer::MotionIn : public Motion {
+class Motion {
  public:
-  MotionIn(const Foam::polyMesh& mesh, const Foam::pointField& points, Binding<Dim> binding,
-           const std::vector<TimedPose>& poses)
+  Motion(const Foam::polyMesh& mesh, const Foam::pointField& points, Binding<Dim> binding,
+         const std::vector<TimedPose>& poses)
       : evaluator_(std::move(binding.cage), std::move(binding.domain),
                    std::move(binding.domain_weights), OutsidePoints::kKeep,
                    Foam::Pstream::parRun() ? 1 : 0) {
-    const auto rest = polygons_of(evaluator_.cage());
+    const auto rest = io::control_polygons<Dim>(io::to_polygons(evaluator_.cage()));
     for (const auto& pose : poses) {
-      displacements_.push_back(read_pose<Dim>(in_case(mesh, pose.file), rest) -
+      const auto file = in_case(mesh, pose.file);
+      displacements_.push_back(io::read_pose<Dim>(file, rest, "the cage of the binding") -
                                evaluator_.cage().points);
     }
     place(points);
     fix_cuts(mesh, points, poses);
   }
 
-  void add_to(Foam::pointField& points, std::size_t pose, double part) const override {
+  // \param part  in [0, 1], between the poses `pose` and `pose` + 1
+  void add_to(Foam::pointField& points, std::size_t pose, double part) const {
     PointList<Dim> shifts = displacements_[pose];
     if (part > 0) shifts += part * (displacements_[pose + 1] - displacements_[pose]);
     const auto moved = evaluator_.displace(placement_, evaluator_.pose(shifts));
-    for (std::size_t k = 0; k < inside_.size(); ++k) {
-      for (int d = 0; d < Dim; ++d) {
-        points[inside_[k]][static_cast<Foam::direction>(d)] +=
-            moved(d, static_cast<Eigen::Index>(k));
-      }
+    for (std::size_t k = 0; k < near_.size(); ++k) {
+      Eigen::Map<Vector<Dim>>(points[near_[k]].v_) += moved.col(static_cast<Eigen::Index>(k));
     }
   }
 
  private:
   void place(const Foam::pointField& points) {
-    const Stopwatch watch;
+    const Foam::clockTime watch;
     const auto& cage = evaluator_.cage().points;
     const double margin = kBoundaryTolerance * bounding_box_diagonal(cage);
     const Vector<Dim> low = cage.rowwise().minCoeff().array() - margin;
     const Vector<Dim> high = cage.rowwise().maxCoeff().array() + margin;
-    std::vector<Foam::label> near;
     forAll(points, p) {
       const auto point = to_vector<Dim>(points[p]);
-      if (point == point.cwiseMax(low).cwiseMin(high)) near.push_back(p);
+      if (point == point.cwiseMax(low).cwiseMin(high)) near_.push_back(p);
     }
-    PointList<Dim> candidates(Dim, static_cast<Eigen::Index>(near.size()));
-    for (std::size_t k = 0; k < near.size(); ++k) {
-      candidates.col(static_cast<Eigen::Index>(k)) = to_vector<Dim>(points[near[k]]);
+    PointList<Dim> candidates(Dim, static_cast<Eigen::Index>(near_.size()));
+    for (std::size_t k = 0; k < near_.size(); ++k) {
+      candidates.col(static_cast<Eigen::Index>(k)) = to_vector<Dim>(points[near_[k]]);
     }
-    const auto all = evaluator_.place(candidates);
-    placement_.policy = all.policy;
-    std::vector<bool> is_outside(near.size(), false);
-    for (const auto& point : all.outside) is_outside[point.point] = true;
-    std::vector<Index> number(near.size());
-    std::vector<Eigen::Index> kept;
-    for (std::size_t k = 0; k < near.size(); ++k) {
-      number[k] = static_cast<Index>(inside_.size());
-      if (is_outside[k]) continue;
-      inside_.push_back(near[k]);
-      kept.push_back(static_cast<Eigen::Index>(k));
-      placement_.places.push_back(all.places[k]);
-    }
-    placement_.points = all.points(Eigen::all, kept);
-    placement_.on_cage = all.on_cage;
-    for (auto& point : placement_.on_cage) point.point = number[point.point];
-    const auto count = static_cast<Foam::label>(inside_.size());
-    const auto seconds = watch.seconds();
+    placement_ = evaluator_.place(candidates);
+    const auto count = static_cast<Foam::label>(near_.size() - placement_.outside.size());
+    const auto seconds = of_slowest_rank(watch);
     Foam::Info << "cage: " << Foam::returnReduce(count, Foam::sumOp<Foam::label>())
                << " points are inside, placed in " << seconds << " s" << Foam::endl;
   }
@@ -197,7 +140,10 @@ class CageDeformer::MotionIn : public Motion {
                 const std::vector<TimedPose>& poses) {
     const auto& cage = evaluator_.cage();
     std::vector<bool> is_still(static_cast<std::size_t>(points.size()), true);
-    for (const auto p : inside_) is_still[static_cast<std::size_t>(p)] = false;
+    for (const auto p : near_) is_still[static_cast<std::size_t>(p)] = false;
+    for (const auto& point : placement_.outside) {
+      is_still[static_cast<std::size_t>(near_[point.point])] = true;
+    }
     EdgeList edges;
     for (const auto& edge : mesh.edges()) {
       const auto from = static_cast<Index>(edge.start()), to = static_cast<Index>(edge.end());
@@ -230,9 +176,11 @@ class CageDeformer::MotionIn : public Motion {
 
   Evaluator<Dim> evaluator_;
   std::vector<PointList<Dim>> displacements_;  // of the control points in each pose
-  std::vector<Foam::label> inside_;            // points that move
-  Placement<Dim> placement_;                   // of these, without what only other policies need
+  std::vector<Foam::label> near_;              // points in the bounding box of the cage
+  Placement<Dim> placement_;                   // of these; those outside do not move
 };
+
+}  // namespace
 
 CageDeformer::CageDeformer(const Foam::polyMesh& mesh, const Foam::pointField& points,
                            const Foam::dictionary& dict, std::vector<TimedPose> poses)
@@ -253,15 +201,17 @@ CageDeformer::CageDeformer(const Foam::polyMesh& mesh, const Foam::pointField& p
           require_domain(of_dimension, file);
           validate(of_dimension.cage);
           constexpr int kDim = std::decay_t<decltype(of_dimension.points)>::RowsAtCompileTime;
-          motion_ = std::make_unique<MotionIn<kDim>>(mesh, points, std::move(of_dimension), poses_);
+          add_to_ = [motion = std::make_shared<const Motion<kDim>>(
+                         mesh, points, std::move(of_dimension), poses_)](
+                        Foam::pointField& moved, std::size_t pose, double part) {
+            motion->add_to(moved, pose, part);
+          };
         },
         binding);
   } catch (const std::exception& error) {
     FatalIOErrorInFunction(dict) << error.what() << Foam::exit(Foam::FatalIOError);
   }
 }
-
-CageDeformer::~CageDeformer() = default;
 
 Foam::tmp<Foam::pointField> CageDeformer::positions(Foam::scalar time) const {
   std::size_t pose = 0;
@@ -270,14 +220,14 @@ Foam::tmp<Foam::pointField> CageDeformer::positions(Foam::scalar time) const {
   if (pose + 1 < poses_.size() && time > poses_[pose].time) {
     part = (time - poses_[pose].time) / (poses_[pose + 1].time - poses_[pose].time);
   }
-  const Stopwatch watch;
+  const Foam::clockTime watch;
   auto result = Foam::tmp<Foam::pointField>::New(rest_);
   auto& points = result.ref();
-  motion_->add_to(points, pose, part);
+  add_to_(points, pose, part);
   forAll(points, p) {
     if (is_fixed_[p]) points[p] = rest_[p];
   }
-  const auto seconds = watch.seconds();
+  const auto seconds = of_slowest_rank(watch);
   Foam::Info << "cage: points moved in " << seconds << " s" << Foam::endl;
   check_quality(points, time);
   return result;

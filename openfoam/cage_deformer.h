@@ -2,7 +2,7 @@
 // Moves the points of one rank of an OpenFOAM mesh with a cage.
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <vector>
 
 #include "boolList.H"
@@ -33,24 +33,20 @@ class CageDeformer {
   //! \param poses  at least one, ascending times
   CageDeformer(const Foam::polyMesh& mesh, const Foam::pointField& points,
                const Foam::dictionary& dict, std::vector<TimedPose> poses);
-  ~CageDeformer();
 
   //! The positions at a time, by linear interpolation between the poses. Reports quality, and exits
   //! with a FatalError if cells are inverted.
   Foam::tmp<Foam::pointField> positions(Foam::scalar time) const;
 
  private:
-  class Motion;
-  template <int Dim>
-  class MotionIn;
-
   void check_quality(const Foam::pointField& points, Foam::scalar time) const;
 
   const Foam::polyMesh& mesh_;
   const Foam::pointField& rest_;
   std::vector<TimedPose> poses_;
   Foam::boolList is_fixed_;
-  std::unique_ptr<const Motion> motion_;
+  //! Moves points to a part in [0, 1] of the way from a pose to the next one.
+  std::function<void(Foam::pointField&, std::size_t pose, double part)> add_to_;
 };
 
 }  // namespace flbc::foam

@@ -47,19 +47,6 @@ FacetList<2> flat_facets(const io::PolygonSoup& soup) {
   return facets;
 }
 
-FacetList<3> solid_facets(const io::PolygonSoup& soup) {
-  std::vector<Eigen::Matrix<Index, 3, 1>> triangles;
-  for (const auto& polygon : soup.polygons) {
-    if (polygon.size() < 3) continue;
-    const auto parts = io::cut_polygon(soup.points, polygon);
-    triangles.insert(triangles.end(), parts.colwise().begin(), parts.colwise().end());
-  }
-  for (const auto& [a, b] : edges_of(soup, false)) triangles.emplace_back(a, b, b);
-  FacetList<3> facets(3, triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) facets.col(t) = triangles[t];
-  return facets;
-}
-
 // The corners of all voxels with points, which enclose the points and are far fewer.
 PointList<3> voxel_corners(const PointList<3>& points) {
   if (points.cols() == 0) return points;
@@ -135,46 +122,45 @@ AnyModelFacets load_model_facets(const std::string& path) {
     return ModelFacets<2>{io::to_points<2>(soup, path), flat_facets(soup), soup.points[0].z(),
                           unused};
   }
-  return ModelFacets<3>{io::to_points<3>(soup, path), solid_facets(soup), 0, unused};
+  return ModelFacets<3>{io::to_points<3>(soup, path), triangles_of(soup), 0, unused};
+}
+
+FacetList<3> triangles_of(const io::PolygonSoup& soup) {
+  std::vector<Eigen::Matrix<Index, 3, 1>> triangles;
+  for (const auto& polygon : soup.polygons) {
+    if (polygon.size() < 3) continue;
+    const auto parts = io::cut_polygon(soup.points, polygon);
+    triangles.insert(triangles.end(), parts.colwise().begin(), parts.colwise().end());
+  }
+  for (const auto& [a, b] : edges_of(soup, false)) triangles.emplace_back(a, b, b);
+  FacetList<3> facets(3, triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) facets.col(t) = triangles[t];
+  return facets;
+}
+
+FacetList<3> elements_of(const io::PolygonSoup& soup) {
+  auto corners = triangles_of(soup);
+  std::vector<bool> is_used(soup.points.size(), false);
+  for (const Index corner : corners.reshaped()) is_used[corner] = true;
+  auto element = corners.cols();
+  corners.conservativeResize(Eigen::NoChange,
+                             element + std::count(is_used.begin(), is_used.end(), false));
+  for (std::size_t p = 0; p < is_used.size(); ++p) {
+    if (!is_used[p]) corners.col(element++).setConstant(static_cast<Index>(p));
+  }
+  return corners;
 }
 
 template <int Dim>
 ModelElements<Dim> load_model_elements(const std::string& path) {
   const auto soup = io::read_polygons(path);
-  ModelElements<Dim> model{io::to_points<Dim>(soup, path), solid_facets(soup)};
-  if (model.points.cols() == 0) throw InputError(path + ": the model has no vertices");
-  std::vector<bool> is_used(soup.points.size(), false);
-  for (const Index corner : model.corners.reshaped()) is_used[corner] = true;
-  const auto unused = std::count(is_used.begin(), is_used.end(), false);
-  auto element = model.corners.cols();
-  model.corners.conservativeResize(Eigen::NoChange, element + unused);
-  for (std::size_t p = 0; p < is_used.size(); ++p) {
-    if (!is_used[p]) model.corners.col(element++).setConstant(static_cast<Index>(p));
-  }
-  return model;
-}
-
-template <int Dim>
-io::PolygonSoup to_polygons(const Cage<Dim>& cage, double height) {
-  io::PolygonSoup soup;
-  for (Index i = 0; i < cage.size(); ++i) {
-    Vector<3> point = Vector<3>::Constant(height);
-    point.template head<Dim>() = cage.points.col(i);
-    soup.points.push_back(point);
-  }
-  for (const auto& facet : cage.facets.colwise()) {
-    (Dim == 2 ? soup.polylines : soup.polygons).emplace_back(facet.begin(), facet.end());
-  }
-  if (Dim == 2) {
-    soup.polylines = io::control_polygons<2>(soup).polygons;
-    for (auto& loop : soup.polylines) loop.push_back(loop.front());
-  }
-  return soup;
+  if (soup.points.empty()) throw InputError(path + ": the model has no vertices");
+  return {io::to_points<Dim>(soup, path), elements_of(soup)};
 }
 
 template <int Dim>
 void write_cage(const std::string& path, const Cage<Dim>& cage, double height) {
-  io::write_model(path, {to_polygons(cage, height)});
+  io::write_model(path, {io::to_polygons(cage, height)});
 }
 
 template <int Dim>
@@ -184,7 +170,6 @@ void require_cage_writable(const std::string& path) {
 }
 
 FLBC_INSTANTIATE_FUNCTION(load_model_elements)
-FLBC_INSTANTIATE_FUNCTION(to_polygons)
 FLBC_INSTANTIATE_FUNCTION(write_cage)
 FLBC_INSTANTIATE_FUNCTION(require_cage_writable)
 

@@ -50,15 +50,15 @@ struct Mask {
 //! \param path  for messages \throws InputError if none of the pixels is to be seen, or all are
 ModelFacets<2> outline_of(const Mask& mask, const std::string& path);
 
-//! A model as its triangles and segments, and points that belong to none of them.
-//! \throws IoError, InputError
+//! Triangles of all polygons, and segments, which repeat a corner.
+FacetList<3> triangles_of(const io::PolygonSoup& soup);
+
+//! The same, and points that belong to none of them: ModelElements::corners.
+FacetList<3> elements_of(const io::PolygonSoup& soup);
+
+//! A model as its elements. \throws IoError, InputError
 template <int Dim>
 ModelElements<Dim> load_model_elements(const std::string& path);
-
-//! A sound cage as files have it: triangles, in 2D closed polylines. \param height  2D: the z of
-//! all points
-template <int Dim>
-io::PolygonSoup to_polygons(const Cage<Dim>& cage, double height = 0);
 
 //! Writes a sound cage: .obj, in 3D also .off and .ply. \param height  2D: the z of all points
 template <int Dim>

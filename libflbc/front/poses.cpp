@@ -118,7 +118,7 @@ RestCage<Dim>::RestCage(const std::string& path)
 
 template <int Dim>
 RestCage<Dim>::RestCage(const Cage<Dim>& cage, std::string name)
-    : polygons_(io::control_polygons<Dim>(to_polygons(cage))),
+    : polygons_(io::control_polygons<Dim>(io::to_polygons(cage))),
       name_(std::move(name)),
       points_(cage.points) {
 }
@@ -136,12 +136,7 @@ Cage<Dim> RestCage<Dim>::cage() const {
 
 template <int Dim>
 PointList<Dim> RestCage<Dim>::load_pose(const std::string& path) const {
-  auto pose = io::read_polygons(path);
-  // Mere points have no faces to compare.
-  const bool has_faces = !pose.polygons.empty() || !pose.polylines.empty();
-  if (has_faces) pose = io::control_polygons<Dim>(pose);
-  io::check_same_vertices(polygons_, name_, pose, path);
-  return io::to_points<Dim>(pose, path);
+  return io::read_pose<Dim>(path, polygons_, name_);
 }
 
 template <int Dim>

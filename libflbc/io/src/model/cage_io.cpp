@@ -9,6 +9,7 @@
 
 #include "base/messages.h"
 #include "flbc/errors.h"
+#include "flbc/io/model_file.h"
 
 namespace flbc::io {
 namespace {
@@ -189,6 +190,38 @@ PolygonSoup control_polygons<2>(const PolygonSoup& soup) {
   return {outline.points, loops_of(outline.edges), {}};
 }
 
+template <int Dim>
+PolygonSoup to_polygons(const Cage<Dim>& cage, double height) {
+  PolygonSoup soup;
+  for (Index i = 0; i < cage.size(); ++i) {
+    Vector<3> point = Vector<3>::Constant(height);
+    point.template head<Dim>() = cage.points.col(i);
+    soup.points.push_back(point);
+  }
+  for (const auto& facet : cage.facets.colwise()) {
+    (Dim == 2 ? soup.polylines : soup.polygons).emplace_back(facet.begin(), facet.end());
+  }
+  if (Dim == 2) {
+    soup.polylines = control_polygons<2>(soup).polygons;
+    for (auto& loop : soup.polylines) loop.push_back(loop.front());
+  }
+  return soup;
+}
+
+template <int Dim>
+PointList<Dim> read_pose(const std::string& path, const PolygonSoup& rest,
+                         const std::string& name) {
+  auto pose = read_polygons(path);
+  // Mere points have no faces to compare.
+  if (!pose.polygons.empty() || !pose.polylines.empty()) pose = control_polygons<Dim>(pose);
+  check_same_vertices(rest, name, pose, path);
+  return to_points<Dim>(pose, path);
+}
+
+template PolygonSoup to_polygons(const Cage<2>&, double);
+template PolygonSoup to_polygons(const Cage<3>&, double);
+template PointList<2> read_pose(const std::string&, const PolygonSoup&, const std::string&);
+template PointList<3> read_pose(const std::string&, const PolygonSoup&, const std::string&);
 template PointList<2> to_points(const PolygonSoup&, const std::string&);
 template PointList<3> to_points(const PolygonSoup&, const std::string&);
 

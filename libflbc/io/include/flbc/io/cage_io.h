@@ -30,6 +30,17 @@ AnyCage to_cage(const PolygonSoup& soup, const std::string& name);
 template <int Dim>
 PolygonSoup control_polygons(const PolygonSoup& soup);
 
+//! A sound cage as files have it: triangles, in 2D closed polylines.
+//! \param height  2D: the z of all points
+template <int Dim>
+PolygonSoup to_polygons(const Cage<Dim>& cage, double height = 0);
+
+//! The control points in the file of a pose.
+//! \param rest  as returned by control_polygons() \param name  of its file, for messages
+//! \throws IoError; InputError unless the file has the same control points in the same order
+template <int Dim>
+PointList<Dim> read_pose(const std::string& path, const PolygonSoup& rest, const std::string& name);
+
 //! The points of a model in Dim dimensions. \throws InputError naming the vertex if Dim is 2 and
 //! the points are not in a plane z = const
 template <int Dim>
