@@ -136,7 +136,6 @@ for (const name of Object.keys(kOptions)) {
   Flbc.prototype[name] = async function (options = {}, onProgress = undefined) {
     checkOptions(name, options);
     if (options.options) checkOptions("solve", options.options);
-    const { poses } = options;
-    return this.call(name, poses ? { ...options, poses: poses.map((pose) => Array.from(pose)) } : options, onProgress);
+    return this.call(name, options, onProgress);
   };
 }

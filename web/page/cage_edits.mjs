@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // More and fewer control points: cages as points, `dim` numbers each, and facets, `dim` indices each.
 // Edited ones also have `numbers`, the new index of each control point of before, or undefined.
+import { poseText } from "../../libflbc/front/page/obj.mjs";
 
 function facetsOf(facets, dim) {
   return Array.from({ length: facets.length / dim }, (_, f) => [...facets.slice(dim * f, dim * f + dim)]);
@@ -33,8 +34,5 @@ export function mergePoints({ points, facets, dim }, merged) {
 }
 
 export function cageToObj({ points, facets, dim }) {
-  const places = Array.from({ length: points.length / dim }, (_, i) =>
-    `v ${[...points.slice(dim * i, dim * i + dim)].join(" ")}${dim === 2 ? " 0" : ""}`);
-  return `${[...places, ...facetsOf(facets, dim).map((facet) =>
-    `${dim === 2 ? "l" : "f"} ${facet.map((i) => i + 1).join(" ")}`)].join("\n")}\n`;
+  return poseText("", null, points, dim, facets);
 }

@@ -220,16 +220,17 @@ class Work {
     const auto text = [&](const char* key, const char* usual = "") {
       return given.hasOwnProperty(key) ? given[key].template as<std::string>() : usual;
     };
-    const auto pose = [&] { return matrix_in<PointList<Dim>>(given["points"]); };
+    const auto places = [&] { return matrix_in<PointList<Dim>>(given["points"]); };
+    const auto pose = [&] { return pose_in(given["points"]); };
     const auto mesh = [&]() -> DomainMesh<Dim> {
-      return {pose(), matrix_in<CellList<Dim>>(given["cells"])};
+      return {places(), matrix_in<CellList<Dim>>(given["cells"])};
     };
     report_ = name == "move" ? Report() : report;  // moves are short
     first_excess_ = 0;
     if (name == "makeCage") return make_cage(options(), report);
     if (name == "readCage") return read_cage(text("name"), given["bytes"]);
     if (name == "repairCage") return repair_cage();
-    if (name == "setCage") return set_cage({pose(), matrix_in<FacetList<Dim>>(given["facets"])});
+    if (name == "setCage") return set_cage({places(), matrix_in<FacetList<Dim>>(given["facets"])});
     if (name == "makeMesh") return make_mesh(options(), report);
     if (name == "setMesh") return set_mesh(mesh(), {});
     if (name == "setSolution") {
@@ -240,16 +241,16 @@ class Work {
     if (name == "solve") return solve(options());
     if (name == "protect") return protect();
     if (name == "reduce") return reduce(options(), report);
-    if (name == "move") return move(options());
+    if (name == "move") return move(given);
     if (name == "solution") return solution();
     if (name == "points") return array_of(points());
     if (name == "cage") return cage();
     if (name == "weights") return weight_arrays(weights());
     if (name == "harmonicWeights") return weight_arrays(harmonic());
-    if (name == "deform") return array_of(posed(pose()));
+    if (name == "deform") return array_of(binding().deform(pose()));
     if (name == "content") return bytes_of(view::make_content(content(text("picture"))));
     if (name == "page") return bytes_of(view::make_page(content(text("picture"))));
-    if (name == "glb") return glb(options());
+    if (name == "glb") return glb(given);
     if (name == "weightFile") return weight_file(text("of"), text("format", "npy"));
     if (name == "cageFile") return cage_file();
     if (name == "meshFile") return mesh_file();
@@ -469,14 +470,15 @@ class Work {
     return val::undefined();
   }
 
-  val move(const Json& request) {
+  val move(const val& request) {
     // Long enough to converge after most moves, short enough to be interrupted.
-    const Budget budget{0, request.value("seconds", 0.25)};
+    const auto options = to_json(request);
+    const Budget budget{0, options.value("seconds", 0.25)};
     try {
-      if (request.value("refine", false)) {
+      if (options.value("refine", false)) {
         rig().solve(budget);
       } else {
-        rig().reshape(points_in(request["points"]), budget);
+        rig().reshape(pose_in(request["points"]), budget);
       }
     } catch (const Error& error) {
       return from_json({{"refused", error.what()}});
@@ -494,15 +496,6 @@ class Work {
     return reply;
   }
 
-  PointList<Dim> points_in(const Json& numbers) const {
-    const auto values = numbers.get<std::vector<double>>();
-    if (values.size() != static_cast<std::size_t>(cage_.points.size())) {
-      throw InputError("this shape has " + std::to_string(values.size()) + " coordinates, not " +
-                       std::to_string(cage_.points.size()));
-    }
-    return Eigen::Map<const PointList<Dim>>(values.data(), Dim, cage_.size());
-  }
-
   val reduce(const Json& options, const Report& report) {
     SparsifyOptions limits{options.value("influences", 8)};
     limits.progress = [&](double done) { report("reducing influences", done); };
@@ -515,13 +508,12 @@ class Work {
     return weights_at(cage_, rig_->mesh(), solution.weights, rig_->placement());
   }
 
-  PointList<Dim> posed(const PointList<Dim>& control_points) {
-    if (control_points.cols() != cage_.size()) {
-      throw InputError("a pose of " + std::to_string(control_points.cols()) +
-                       " control points is not one of this cage, which has " +
-                       std::to_string(cage_.size()));
-    }
-    return binding().deform(control_points);
+  PointList<Dim> pose_in(const val& numbers) const {
+    const auto count = numbers.isUndefined() ? 0 : numbers["length"].template as<Eigen::Index>();
+    if (count == cage_.points.size()) return matrix_in<PointList<Dim>>(numbers);
+    throw InputError("a pose of " + std::to_string(count) +
+                     " numbers is not one of this cage, which has " +
+                     std::to_string(cage_.points.size()));
   }
 
   // ------------------------------------------------------------------------------ page and files
@@ -547,15 +539,18 @@ class Work {
     return result;
   }
 
-  val glb(const Json& options) {
+  val glb(const val& given) {
+    const auto options = to_json(given);
     gltf::SkinOptions skin;
     skin.max_influences = options.value("influences", 4);
     skin.name = title();
     const auto up = app::up_of(app::UpAxis::kAuto, file_);
     skin.turn = app::turn_upright(app::up_axis(up, points()));
     gltf::Animation<Dim> animation{options.value("times", std::vector<double>())};
-    for (const auto& pose : options.value("poses", Json::array())) {
-      animation.poses.push_back(points_in(pose));
+    if (given.hasOwnProperty("poses")) {
+      for (const auto& pose : emscripten::vecFromJSArray<val>(given["poses"])) {
+        animation.poses.push_back(pose_in(pose));
+      }
     }
     return bytes_of(gltf::export_skin<Dim>(binding(), surface_, skin, animation).content);
   }
@@ -578,7 +573,7 @@ class Work {
 
   val model_file(const PointList<Dim>& pose, const std::string& extension) {
     return bytes_of("posed." + extension, [&](const std::string& file) {
-      app::MovableModel<Dim>({file_, file}).write(file, posed(pose), {}, 0);
+      app::MovableModel<Dim>({file_, file}).write(file, binding().deform(pose), {}, 0);
     });
   }
 
