@@ -5,18 +5,11 @@ The functions look for features instead of comparing versions.
 """
 
 
-def add_input(group, name, socket_type):
-    """Adds an input to a node group."""
+def add_socket(group, name, socket_type, in_out='INPUT'):
+    """Adds an input or 'OUTPUT' to a node group."""
     if hasattr(group, 'interface'):  # 4.0
-        return group.interface.new_socket(name=name, in_out='INPUT', socket_type=socket_type)
-    return group.inputs.new(socket_type, name)
-
-
-def add_output(group, name, socket_type):
-    """Adds an output to a node group."""
-    if hasattr(group, 'interface'):
-        return group.interface.new_socket(name=name, in_out='OUTPUT', socket_type=socket_type)
-    return group.outputs.new(socket_type, name)
+        return group.interface.new_socket(name=name, in_out=in_out, socket_type=socket_type)
+    return (group.inputs if in_out == 'INPUT' else group.outputs).new(socket_type, name)
 
 
 def mark_as_modifier(group):

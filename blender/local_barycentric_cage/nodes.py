@@ -112,11 +112,11 @@ def group_for(influences):
         if (group.get(_MARK), group.get('flbc_nodes')) == (influences, _NODES) and not group.library:
             return group
     group = bpy.data.node_groups.new(f'{MODIFIER} ({influences})', 'GeometryNodeTree')
-    compat.add_input(group, 'Geometry', 'NodeSocketGeometry')
-    compat.add_input(group, CAGE, 'NodeSocketObject')
-    compat.add_input(group, COUNT, 'NodeSocketInt')
-    compat.add_input(group, VERTICES, 'NodeSocketInt')
-    compat.add_output(group, 'Geometry', 'NodeSocketGeometry')
+    compat.add_socket(group, 'Geometry', 'NodeSocketGeometry')
+    compat.add_socket(group, CAGE, 'NodeSocketObject')
+    compat.add_socket(group, COUNT, 'NodeSocketInt')
+    compat.add_socket(group, VERTICES, 'NodeSocketInt')
+    compat.add_socket(group, 'Geometry', 'NodeSocketGeometry', 'OUTPUT')
     compat.mark_as_modifier(group)
     _fill(group, influences)
     group[_MARK] = influences

@@ -60,9 +60,9 @@ class TypedModifier:
 
 
 def with_sockets(group):
-    compat.add_output(group, 'Cage', 'NodeSocketGeometry')  # has the same name as the input
-    compat.add_input(group, 'Geometry', 'NodeSocketGeometry')
-    compat.add_input(group, 'Cage', 'NodeSocketObject')
+    compat.add_socket(group, 'Cage', 'NodeSocketGeometry', 'OUTPUT')  # has the same name as the input
+    compat.add_socket(group, 'Geometry', 'NodeSocketGeometry')
+    compat.add_socket(group, 'Cage', 'NodeSocketObject')
     compat.mark_as_modifier(group)
     return group
 
