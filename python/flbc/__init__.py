@@ -12,10 +12,9 @@ layout and real or integer type; results are float64 in C order.
 Shapes              `Cage`, `DomainMesh`, `mesh`, `make_cage`, `repair`, `check`, `border`
 Models              `bind`, `Rig`, `Binding`: `load_binding`
 Coordinates         `solve`, `Solver`, `Solution`, `mean_value`
-Weights             `deform`, `sparsify`, `transfer`, `measure`; a `Binding` keeps masks,
-                    mirrors, and offsets
+Weights             `measure`; for weights from elsewhere, ``Binding(weights, cage, points)``
 Files               `read_cage`, `read_model`, `read_mesh`, `read_weights`, and
-                    `write_...` for each; `export` (glTF, USD), `view` (a page)
+                    `write_...` for each; `Binding.export` (glTF, USD), `Binding.view` (a page)
 Exceptions          `Error` and its subclasses; the warning `NotConverged`
 =================== ======================================================================
 """
@@ -23,7 +22,7 @@ import os as _os
 
 from . import _core
 from ._core import Progress
-from ._binding import Binding, Page, Rig, bind, export, load_binding, view
+from ._binding import Binding, Page, Rig, bind, load_binding
 from ._errors import (
     Error, InputError, IoError, MaskConflict, NotConverged, OptionError, SolverError,
 )
@@ -34,15 +33,15 @@ from ._files import (
 from ._models import Defect, Repaired, border, check, make_cage, repair
 from ._shapes import Cage, DomainMesh, Model
 from ._solve import Certificate, Solution, Solver, SolverOptions, mesh, solve
-from ._weights import deform, mean_value, measure, sparsify, transfer
+from ._weights import mean_value, measure
 
 __version__: str = _core.version
 __all__ = [
     "Binding", "Cage", "Certificate", "Defect", "DomainMesh", "Error", "InputError", "IoError",
     "MaskConflict", "Model", "NotConverged", "OptionError", "Page", "Progress", "Repaired", "Rig", "Solution", "Solver",
-    "SolverError", "SolverOptions", "bind", "border", "check", "deform",
-    "export", "load_binding", "make_cage", "mean_value", "measure", "mesh", "read_cage", "read_mesh", "read_model",
-    "read_weights", "repair", "solve", "sparsify", "transfer", "view", "write_cage", "write_mesh", "write_model", "write_weights",
+    "SolverError", "SolverOptions", "bind", "border", "check", "load_binding", "make_cage", "mean_value",
+    "measure", "mesh", "read_cage", "read_mesh", "read_model", "read_weights", "repair", "solve",
+    "write_cage", "write_mesh", "write_model", "write_weights",
 ]
 
 if hasattr(_os, "register_at_fork"):

@@ -11,13 +11,13 @@ import numpy as np
 from . import _core
 from ._errors import InputError, OptionError
 from ._shapes import (
-    Cage, DomainMesh, as_array, as_cage, as_mesh, as_points, as_polygons, check_scalars, each_pose,
-    frozen, mesh_from, parts_of,
+    Cage, DomainMesh, as_array, as_cage, as_mesh, as_points, as_polygons, check_scalars, frozen,
+    mesh_from, parts_of,
 )
 from ._solve import (
     RigOptions, Solution, Solver, as_masks, checked, warn_unless_converged, with_options,
 )
-from ._weights import as_matrix, as_poses, as_weights, cage_after, corners_of, from_core, limit_of
+from ._weights import as_matrix, as_weights, cage_after, from_core
 
 if TYPE_CHECKING:
     import os
@@ -46,8 +46,7 @@ class Page:
         self.html = html
 
     def save(self, path: "str | os.PathLike[str]") -> None:
-        """Writes a file that ends in .npz, for `load_binding` and all commands of the program.
-        NumPy reads its arrays, and `scipy.sparse.load_npz` the weights."""
+        """Writes the page to an .html file."""
         with open(path, "w", encoding="utf-8") as file:
             file.write(self.html)
 
@@ -154,33 +153,39 @@ class Binding:
         """DomainMesh or None: the mesh of the interior of the cage, if there is one."""
         return self.solution.mesh if self.solution else None
 
-    def _pose(self, control_points: Any) -> Floats:
-        return as_points(control_points, "control_points", self.cage.dim, len(self.cage))
+    def _pose(self, control_points: Any, name: str = "control_points") -> Floats:
+        points = control_points.points if isinstance(control_points, Cage) else control_points
+        return as_points(points, name, self.cage.dim, len(self.cage))
+
+    def _poses(self, poses: Any) -> List[Floats]:
+        return [self._pose(pose, f"poses[{k}]") for k, pose in enumerate(poses)]
 
     def deform(self, control_points: CageLike) -> Floats:
         """The vertices of the model, shape (P, d), for moved control points: a Cage, or an array of
         shape (n, d). For a stack of poses, shape (T, n, d), the result has shape (T, P, d)."""
-        return each_pose(
-            control_points, lambda pose: self._any.deform(self._pose(pose)), len(self.points)
-        )
+        if isinstance(control_points, Cage) or as_array(control_points, "control_points").ndim != 3:
+            return self._any.deform(self._pose(control_points))
+        moved = [self.deform(pose) for pose in as_array(control_points, "control_points")]
+        return np.array(moved).reshape(len(moved), *self.points.shape)
 
     def jacobians(self, control_points: CageLike) -> Floats:
         """The Jacobians of a deformation at the vertices, shape (P, d, d), from smooth gradients on
         the domain mesh, which the binding must have. Entry ``[p, k, j]`` is the derivative of
         coordinate k in direction j. Vertices that do not move have the identity."""
         d = self.cage.dim
-        pose = control_points.points if isinstance(control_points, Cage) else control_points
-        columns = self._any.jacobians(self._pose(pose)).reshape(-1, d, d)
+        columns = self._any.jacobians(self._pose(control_points)).reshape(-1, d, d)
         return np.ascontiguousarray(columns.transpose(0, 2, 1))
 
     def reduced(
         self, k: Optional[int] = 8, *, threshold: float = 0, poses: Sequence[ArrayLike] = ()
     ) -> Binding:
-        """At most k influences per vertex, with `k` and `threshold` as for `sparsify`. The error is
-        minimized for `poses`, arrays of shape (n, d), if given. Vertices outside with
+        """At most `k` influences per vertex, at least d + 1; None for no limit. Smaller weights than
+        `threshold`, in [0, 1), are dropped first, where the others can reproduce the vertex. The
+        error is minimized for `poses`, arrays of shape (n, d), if given. Vertices outside with
         ``outside="extend"`` keep all their weights."""
-        most, moved = limit_of(k, threshold), as_poses(poses, self.cage)
-        return _binding(self._any.reduced(most, threshold, moved))
+        check_scalars(k=(k, "an integer"), threshold=(threshold, "a number"))
+        most = int(np.iinfo(np.int32).max) if k is None else k
+        return _binding(self._any.reduced(most, threshold, self._poses(poses)))
 
     def transferred(
         self,
@@ -202,9 +207,10 @@ class Binding:
             raise OptionError("limit needs from_faces, the faces of this model")
         to = as_points(points, "points", self.cage.dim)
         polygons = as_polygons(faces, "faces", len(to))
-        corners = None if from_faces is None else corners_of(self.points, from_faces)
+        known = len(self.points)
+        of_this = None if from_faces is None else as_polygons(from_faces, "from_faces", known)
         longest = np.inf if limit is None else limit
-        return _binding(self._any.transferred(to, polygons, outside, corners, longest))
+        return _binding(self._any.transferred(to, polygons, outside, of_this, longest))
 
     def composed(self, map: Weights, cage: Any) -> Binding:
         """The binding to m other control points, which move those of this binding.
@@ -238,7 +244,7 @@ class Binding:
         `poses`, arrays of shape (n, d), become an animation at `times` in seconds, ascending, or 24
         per second. `name` is that of the mesh in the file. Raises IoError if the file cannot be
         written, and OptionError for another extension or number of influences."""
-        moved = as_poses(poses, self.cage)
+        moved = self._poses(poses)
         seconds = [k / 24 for k in range(len(moved))] if times is None else list(times)
         polygons = as_polygons(faces, "faces", len(self.points))
         _core.export_skin(self._any, str(path), polygons, seconds, moved, max_influences, name)
@@ -255,7 +261,7 @@ class Binding:
         (n, d), can be chosen. A notebook shows the page; its ``save("model.html")`` writes a file
         for any browser."""
         polygons = as_polygons(faces, "faces", len(self.points))
-        return Page(_core.make_page(self._any, polygons, as_poses(poses, self.cage), title))
+        return Page(_core.make_page(self._any, polygons, self._poses(poses), title))
 
     def save(self, path: "str | os.PathLike[str]") -> None:
         """Writes the binding to a file for `load_binding` and all commands of the program.
@@ -428,63 +434,3 @@ def bind(
     cage = as_cage(control_points) if cage_faces is None else Cage(control_points, cage_faces)
     rig = Rig(cage, vertices, faces, mesh_vertices=mesh_vertices, domain=domain, **options)
     return rig._bound(None, callback, 3)
-
-
-def _given(vertices: Any, faces: Any, weights: Any, cage: CageLike) -> Binding:
-    """A binding of weights that reproduce the model."""
-    cage = as_cage(cage)
-    points = as_array(vertices, "vertices")
-    if cage.dim == 2 and points.ndim == 2 and not points[:, 2:].any():
-        points = points[:, :2]  # as files have them, with z = 0
-    found = Binding(weights, cage, as_points(points, "vertices", cage.dim), faces)
-    outside = _core.outside(cage.points, cage.facets, found.points)[0]
-    moves = np.diff(found.weights.indptr) > 0
-    wrong = np.setdiff1d(found.outside[moves[found.outside]], outside)
-    if len(wrong):
-        raise InputError(
-            f"weights do not belong to this model and cage: they do not reproduce vertex {wrong[0]}"
-        )
-    return found
-
-
-def view(
-    vertices: ArrayLike,
-    faces: Optional[Faces],
-    weights: Weights,
-    cage: CageLike,
-    *,
-    poses: Sequence[ArrayLike] = (),
-    title: str = "model",
-) -> Page:
-    """A page by weights from elsewhere: ``Binding(weights, cage, vertices)`` and its `view`, with
-    faces, poses, and title.
-
-    Returns
-    -------
-    Page
-
-    Raises
-    ------
-    InputError
-        If shapes do not match, or the weights do not reproduce the vertices.
-    """
-    return _given(vertices, None, weights, cage).view(faces, poses=poses, title=title)
-
-
-def export(
-    path: "str | os.PathLike[str]",
-    vertices: ArrayLike,
-    faces: Faces,
-    weights: Weights,
-    cage: CageLike,
-    **options: Any,
-) -> None:
-    """Writes a skin by weights from elsewhere: ``Binding(weights, cage, vertices, faces)`` and its
-    `export`, with path, faces, and options. Only a binding keeps masks and an exact mirror.
-
-    Raises
-    ------
-    InputError
-        If shapes do not match, or the weights do not reproduce the vertices.
-    """
-    _given(vertices, faces, weights, cage).export(path, faces, **options)

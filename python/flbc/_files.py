@@ -2,7 +2,7 @@
 """Reading and writing cages, models, domain meshes, and weights."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
+from typing import TYPE_CHECKING, Mapping, Optional, Union
 
 import numpy as np
 
@@ -54,32 +54,7 @@ def write_cage(path: Path, cage: CageLike) -> None:
     IoError, InputError
     """
     cage = as_cage(cage)
-    nothing = as_polygons(None, "", 0)
-    if cage.dim == 2:
-        lines = as_polygons([*_loops(cage)], "facets", len(cage))
-        _core.write_model(str(path), cage.points, nothing, lines)
-    else:
-        faces = as_polygons(cage.facets, "facets", len(cage))
-        _core.write_model(str(path), cage.points, faces, nothing)
-
-
-def _loops(cage: Cage) -> Any:
-    """Closed polylines of a cage in 2D; the first control point of each is repeated."""
-    around: Any = [[] for _ in range(len(cage))]
-    for a, b in cage.facets.tolist():
-        around[a].append(b)
-        around[b].append(a)
-    left = set(range(len(cage)))
-    while left:
-        loop = [min(left)]
-        left.discard(loop[0])
-        while True:
-            following = [v for v in around[loop[-1]] if v in left]
-            if not following:
-                break
-            loop.append(following[0])
-            left.discard(following[0])
-        yield loop + loop[:1]
+    _core.write_cage(str(path), cage.points, cage.facets)
 
 
 def read_model(path: Path, dim: Optional[int] = None) -> Model:
@@ -139,8 +114,7 @@ def write_model(
             raise TypeError("write_model() takes faces or source, not both")
         _core.write_moved(str(path), points, str(source))
         return
-    polygons = as_polygons(faces, "faces", len(points))
-    _core.write_model(str(path), points, polygons, as_polygons(None, "", 0))
+    _core.write_model(str(path), points, as_polygons(faces, "faces", len(points)))
 
 
 def read_mesh(path: Path) -> DomainMesh:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Dict, List, NamedTuple, Optional
 import numpy as np
 
 from . import _core
-from ._shapes import Cage, as_cage, as_points, as_polygons, check_scalars, edges_of
-from ._weights import corners_of, measure
+from ._shapes import Cage, as_cage, as_points, as_polygons, check_scalars
+from ._weights import measure
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -176,8 +176,5 @@ def make_cage(
         symmetry=(symmetry, "a name"),
     )
     points = as_points(vertices, "vertices")
-    if points.shape[1] == 2:
-        facets = edges_of(as_polygons(faces, "faces", len(points)))
-    else:
-        facets = corners_of(points, faces)
-    return Cage(*_core.make_cage(points, facets, control_points, offset, symmetry))
+    polygons = as_polygons(faces, "faces", len(points))
+    return Cage(*_core.make_cage(points, polygons, control_points, offset, symmetry))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from numbers import Integral, Real
-from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -62,8 +62,9 @@ def as_floats(array: NDArray[Any], name: str, finite: bool = True) -> Floats:
     return array
 
 
-def as_indices(array: NDArray[Any], name: str, count: int) -> Ints:
-    """Vertex numbers in [0, count) as int32, never rounded or wrapped."""
+def as_indices(array: NDArray[Any], name: str, count: int, starts: Any = None) -> Ints:
+    """Vertex numbers in [0, count) as int32, never rounded or wrapped. For messages, rows of a flat
+    array begin at the starts."""
     if array.size == 0:
         return np.zeros(array.shape, np.int32)
     if array.dtype.kind not in "iu":
@@ -71,8 +72,9 @@ def as_indices(array: NDArray[Any], name: str, count: int) -> Ints:
     wrong = (array < 0) | (array >= count)
     if wrong.any():
         place = tuple(np.argwhere(wrong)[0])
+        row = place[0] if starts is None else int(np.searchsorted(starts, place[0], "right")) - 1
         raise InputError(
-            f"{name}: row {place[0]} refers to vertex {array[place]}, but vertices are numbered "
+            f"{name}: row {row} refers to vertex {array[place]}, but vertices are numbered "
             f"from 0 to {count - 1}"
         )
     return np.require(array, np.int32, ["C", "A"])
@@ -80,35 +82,20 @@ def as_indices(array: NDArray[Any], name: str, count: int) -> Ints:
 
 def as_polygons(value: Any, name: str, count: int) -> Polygons:
     """All corners of polygons in one array, and the offsets at which each begins."""
-    if value is None:
-        value = []
-    lengths = () if getattr(value, "ndim", 0) == 2 else {getattr(row, "__len__", int)() for row in value}
-    is_regular = len(lengths) <= 1
-    if is_regular:
-        array = as_array(value, name)
+    rows = () if value is None else value
+    if getattr(rows, "ndim", 0) == 2 or len({getattr(row, "__len__", int)() for row in rows}) <= 1:
+        array = as_array(rows, name)
         if array.size == 0:
             return np.zeros(0, np.int32), np.zeros(1, np.int64)
         if array.ndim != 2:
             raise InputError(f"{name} has shape {array.shape}, but needs (m, k)")
         corners = as_indices(array, name, count).reshape(-1)
         return corners, np.arange(len(array) + 1, dtype=np.int64) * array.shape[1]
-    rows = [as_array(row, name) for row in value]
+    rows = [as_array(row, name) for row in rows]
     if any(row.ndim != 1 or row.size == 0 for row in rows):
         raise InputError(f"{name} needs one row of vertex numbers per face")
-    lengths = [row.size for row in rows]
-    starts = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int64)
-    kinds = {row.dtype.kind for row in rows}
-    if not kinds <= {"i", "u"}:
-        raise InputError(f"{name} needs integers")
-    flat = np.concatenate(rows)
-    wrong = np.flatnonzero((flat < 0) | (flat >= count))
-    if wrong.size:
-        face = int(np.searchsorted(starts, wrong[0], side="right")) - 1
-        raise InputError(
-            f"{name}: row {face} refers to vertex {flat[wrong[0]]}, but vertices are numbered "
-            f"from 0 to {count - 1}"
-        )
-    return as_indices(flat, name, count), starts
+    starts = np.cumsum([0, *(row.size for row in rows)], dtype=np.int64)
+    return as_indices(np.concatenate(rows), name, count, starts), starts
 
 
 def as_lists(polygons: Polygons) -> Faces:
@@ -120,15 +107,6 @@ def as_lists(polygons: Polygons) -> Faces:
     if (lengths == lengths[0]).all():
         return corners.reshape(-1, lengths[0])
     return [part.tolist() for part in np.split(corners, starts[1:-1])]
-
-
-def edges_of(polygons: Polygons) -> Ints:
-    """The edges of polygons, each once, (E, 2). Two corners are one edge."""
-    corners, starts = polygons
-    following = np.arange(1, len(corners) + 1)
-    following[starts[1:] - 1] = starts[:-1]
-    edges = np.sort(np.stack([corners, corners[following]], axis=1), axis=1)
-    return np.ascontiguousarray(np.unique(edges, axis=0), dtype=np.int32).reshape(-1, 2)
 
 
 def frozen(array: NDArray[Any]) -> NDArray[Any]:
@@ -311,13 +289,3 @@ class Model(NamedTuple):
 
     vertices: Floats
     faces: Faces
-
-
-def each_pose(control_points: Any, move: Callable[[Any], Floats], count: int) -> Floats:
-    """Moves count points by a cage, an array, or each pose of a stack, which has three axes."""
-    if isinstance(control_points, Cage):
-        return move(control_points.points)
-    posed = as_array(control_points, "control_points")
-    if posed.ndim != 3:
-        return move(posed)
-    return np.array([move(pose) for pose in posed]).reshape(len(posed), count, posed.shape[2])

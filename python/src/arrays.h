@@ -20,6 +20,7 @@
 #include "flbc/binding.h"
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
+#include "flbc/io/model.h"
 #include "flbc/sparse_weights.h"
 
 namespace flbc::python {
@@ -82,6 +83,10 @@ inline std::vector<std::vector<Index>> lists_of(const Polygons& polygons) {
     lists.emplace_back(corners.data() + starts.at(k), corners.data() + starts.at(k + 1));
   }
   return lists;
+}
+
+inline io::PolygonSoup soup_of(const Doubles& points, const Polygons& polygons) {
+  return {places_of(points), lists_of(polygons), {}};
 }
 
 //! An array with a row per column of a matrix. \param owner  keeps the matrix

@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 #include "flbc/io/binding_file.h"
+#include "front/model_facets.h"
 #include "options.h"
 
 namespace flbc::python {
@@ -81,19 +82,19 @@ AnyBinding reduced(const AnyBinding& self, Index most, double threshold,
   });
 }
 
-// \param corners  of the elements of this model; none: by the domain mesh
+// \param from  polygons of this model; none: by the domain mesh
 AnyBinding transferred(const AnyBinding& self, const Doubles& points, const Polygons& polygons,
-                       const std::string& outside, const std::optional<Indices>& corners,
+                       const std::string& outside, const std::optional<Polygons>& from,
                        double limit) {
   const auto policy = named<OutsidePoints>("outside", outside);
   return changed(self, [&](const auto& binding, auto dim) {
     const auto to = points_of<decltype(dim)::value>(points);
     const auto edges = edges_of(to, polygons);
     FacetList<3> elements;
-    if (corners) elements = FacetList<3>::Map(corners->data(), 3, corners->shape(0));
+    if (from) elements = app::elements_of(soup_of(as_array(binding.rest()), *from));
     return without_gil([&] {
-      return corners ? binding.transferred(elements, to, edges, limit)
-                     : binding.transferred(to, edges, policy);
+      return from ? binding.transferred(elements, to, edges, limit)
+                  : binding.transferred(to, edges, policy);
     });
   });
 }

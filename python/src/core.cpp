@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The compiled part of the Python module: one function per function of the library, for arrays that
 // the Python files have checked. Those files have the documentation.
-#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -17,8 +16,8 @@
 #include "flbc/placement.h"
 #include "flbc/pointwise.h"
 #include "flbc/report.h"
-#include "flbc/sparsify.h"
 #include "flbc/version.h"
+#include "front/model_facets.h"
 #include "options.h"
 #ifdef FLBC_LINKS_CAGING
 #include "flbc/cage_from_model.h"
@@ -71,20 +70,8 @@ void translate(std::exception_ptr pointer) {
 
 // ------------------------------------------------------------------------------------------ cages
 
-// Triangles of polygons; segments are triangles that repeat a corner.
 py::array triangles(const Doubles& points, const Polygons& polygons) {
-  std::vector<Index> corners;
-  const auto places = places_of(points);
-  for (const auto& polygon : lists_of(polygons)) {
-    if (polygon.size() < 3) {
-      corners.insert(corners.end(), {polygon.front(), polygon.back(), polygon.back()});
-      continue;
-    }
-    const auto parts = io::cut_polygon(places, polygon);
-    corners.insert(corners.end(), parts.reshaped().begin(), parts.reshaped().end());
-  }
-  return as_array(
-      FacetList<3>(Eigen::Map<const FacetList<3>>(corners.data(), 3, corners.size() / 3)));
+  return as_array(app::triangles_of(soup_of(points, polygons)));
 }
 
 py::list check_cage(const Doubles& points, const Indices& facets) {
@@ -143,16 +130,26 @@ std::vector<Index> border(const Doubles& points, const Indices& facets, const Do
   });
 }
 
-py::tuple make_cage([[maybe_unused]] const Doubles& points, [[maybe_unused]] const Indices& facets,
+py::tuple make_cage([[maybe_unused]] const Doubles& points,
+                    [[maybe_unused]] const Polygons& polygons,
                     [[maybe_unused]] Index control_points, [[maybe_unused]] double offset,
                     [[maybe_unused]] const std::string& symmetry) {
 #ifdef FLBC_LINKS_CAGING
   const CagingOptions options{control_points, offset, symmetry_named(symmetry)};
   return by_dimension(points, [&](auto dim) {
     constexpr int kDim = decltype(dim)::value;
-    const auto model = cage_of<kDim>(points, facets);
-    return as_python(without_gil(
-        [&] { return cage_from_model<kDim>(model.points, model.facets, options).cage; }));
+    const auto all = points_of<kDim>(points);
+    FacetList<kDim> facets;
+    if constexpr (kDim == 3) {
+      facets = app::elements_of(soup_of(points, polygons));
+    } else {
+      const auto ends = edges_of(all, polygons).ends;
+      facets.resize(2, static_cast<Eigen::Index>(ends.size()));
+      for (std::size_t e = 0; e < ends.size(); ++e) {
+        facets.col(static_cast<Eigen::Index>(e)) << ends[e][0], ends[e][1];
+      }
+    }
+    return as_python(without_gil([&] { return cage_from_model<kDim>(all, facets, options).cage; }));
   });
 #else
   throw OptionError("this flbc was built without CGAL and cannot make cages");
@@ -223,28 +220,6 @@ py::array gradients(const Doubles& points, const Indices& facets, const Doubles&
       const auto placement = place_points(known.cage, known.mesh, known.places);
       const auto found = places_in_mesh(known.cage, known.mesh, placement);
       return gradients_at(known.mesh, known.weights, found).dense();
-    }));
-  });
-}
-
-py::object sparsify(const Doubles& control_points, const Doubles& points, const py::object& weights,
-                    Index max_influences, double threshold, const std::optional<Polygons>& polygons,
-                    const std::vector<Doubles>& poses) {
-  SparsifyOptions options;
-  options.max_influences = max_influences;
-  options.threshold = threshold;
-  options.progress = [poll = interruption()](double) { poll(); };
-  const auto given = weights_of(weights);
-  return by_dimension(control_points, [&](auto dim) {
-    constexpr int kDim = decltype(dim)::value;
-    const auto cage = points_of<kDim>(control_points);
-    const auto all = points_of<kDim>(points);
-    const auto moved = poses_of<kDim>(poses);
-    const auto edges = polygons ? edges_of(all, *polygons) : EdgeList();
-    return as_python(without_gil([&] {
-      validate<kDim>(options);
-      return edges.ends.empty() ? flbc::sparsify<kDim>(cage, all, given, options)
-                                : reduce_by_poisson<kDim>(cage, all, edges, given, moved, options);
     }));
   });
 }
@@ -322,7 +297,6 @@ PYBIND11_MODULE(_core, module) {
   module.def("normalized_mesh", &normalized_mesh);
   module.def("weights_at", &weights_at);
   module.def("gradients", &gradients);
-  module.def("sparsify", &sparsify);
   module.def("mean_value", &mean_value);
   module.def("measure", &measure);
   bind_bindings(module);

@@ -12,6 +12,7 @@
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "flbc/placement.h"
+#include "front/model_facets.h"
 #include "front/page.h"
 #include "gltf/skin.h"
 
@@ -33,10 +34,15 @@ py::tuple read_model(const std::string& path) {
                         polygons_of(soup.polylines));
 }
 
-void write_model(const std::string& path, const Doubles& points, const Polygons& polygons,
-                 const Polygons& polylines) {
-  io::Model model;
-  model.soup = {places_of(points), lists_of(polygons), lists_of(polylines)};
+void write_cage(const std::string& path, const Doubles& points, const Indices& facets) {
+  by_dimension(points, [&](auto dim) {
+    const auto cage = cage_of<decltype(dim)::value>(points, facets);
+    without_gil([&] { app::write_cage(path, cage); });
+  });
+}
+
+void write_model(const std::string& path, const Doubles& points, const Polygons& polygons) {
+  const io::Model model{soup_of(points, polygons)};
   without_gil([&] { io::write_model(path, model); });
 }
 
@@ -87,11 +93,8 @@ void write_weights(const std::string& path, const py::object& weights) {
 
 template <int Dim>
 gltf::Surface surface_of(const Binding<Dim>& binding, const Polygons& polygons) {
-  io::Model model;
-  const auto points = as_array(binding.rest());
-  model.soup = {places_of(points), lists_of(polygons), {}};
-  if (model.soup.polygons.empty()) return {};
-  return gltf::surface_of_model<Dim>(model);
+  const io::Model model{soup_of(as_array(binding.rest()), polygons)};
+  return model.soup.polygons.empty() ? gltf::Surface() : gltf::surface_of_model<Dim>(model);
 }
 
 void export_skin(const AnyBinding& any, const std::string& path, const Polygons& polygons,
@@ -148,6 +151,7 @@ std::string make_page(const AnyBinding& any, const Polygons& polygons,
 void bind_files(py::module_& module) {
   module.def("read_cage", &read_cage);
   module.def("read_model", &read_model);
+  module.def("write_cage", &write_cage);
   module.def("write_model", &write_model);
   module.def("write_moved", &write_moved);
   module.def("read_mesh", &read_mesh);

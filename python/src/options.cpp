@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "options.h"
 
-#include <algorithm>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <type_traits>
@@ -14,11 +12,6 @@ namespace flbc::python {
 namespace {
 
 template <class Value>
-struct IsOptional : std::false_type {};
-template <class Value>
-struct IsOptional<std::optional<Value>> : std::true_type {};
-
-template <class Value>
 const char* kind_of() {
   if constexpr (std::is_same_v<Value, bool>) return "True or False";
   if constexpr (std::is_integral_v<Value>) return "an integer";
@@ -27,69 +20,39 @@ const char* kind_of() {
 
 template <class Value>
 Value value_of(const std::string& option, const py::handle& given) {
-  if constexpr (IsOptional<Value>::value) {
-    if (given.is_none()) return std::nullopt;
-    return value_of<typename Value::value_type>(option, given);
-  } else {
-    try {
-      if constexpr (std::is_enum_v<Value>) {
-        return named<Value>(option, given.cast<std::string>());
-      } else {
-        return given.cast<Value>();
-      }
-    } catch (const py::cast_error&) {
-      const std::string wanted = std::is_enum_v<Value> ? "a name" : kind_of<Value>();
-      throw OptionError(option + " must be " + wanted + ", not " +
-                        py::repr(given).cast<std::string>());
+  try {
+    if constexpr (std::is_enum_v<Value>) {
+      return named<Value>(option, given.cast<std::string>());
+    } else {
+      return given.cast<Value>();
     }
+  } catch (const py::cast_error&) {
+    const std::string wanted = std::is_enum_v<Value> ? "a name" : kind_of<Value>();
+    throw OptionError(option + " must be " + wanted + ", not " +
+                      py::repr(given).cast<std::string>());
   }
 }
 
-struct Field {
-  const char* name;
-  std::function<void(SolverOptions&, const py::handle&)> set;
-};
-
-//! \param place  returns a reference to the field of options
-template <class Place>
-Field field(const char* name, const Place& place) {
-  return {name, [name, place](SolverOptions& options, const py::handle& value) {
-            auto& target = place(options);
-            target = value_of<std::decay_t<decltype(target)>>(name, value);
-          }};
-}
-
-#define FLBC_FIELD(name, member) \
-  field(                         \
-      name, [](auto& options) -> auto& { return options.member; })
-
-const std::vector<Field>& fields() {
-  static const std::vector<Field> table{
-      FLBC_FIELD("method", method),
-      FLBC_FIELD("tolerance", tolerance),
-      FLBC_FIELD("gap", gap),
-      FLBC_FIELD("max_iterations", max_iterations),
-      FLBC_FIELD("certify", certify),
-      FLBC_FIELD("threads", threads),
-      FLBC_FIELD("non_negative", non_negative),
-      FLBC_FIELD("phi", phi),
-      FLBC_FIELD("smoothness", smoothness),
-      FLBC_FIELD("distances", distances),
-      FLBC_FIELD("precision", precision),
-      FLBC_FIELD("active_set", active_set),
-      FLBC_FIELD("penalty", penalty),
-      {"mask",
-       [](SolverOptions& options, const py::handle& value) {
-         if (!value.is_none()) options.masks = masks_of(value.cast<MaskLists>());
-       }},
-      {"reach",
-       [](SolverOptions& options, const py::handle& value) {
-         if (!value.is_none()) options.reach = value.cast<std::vector<double>>();
-       }},
+void set(SolverOptions& options, const std::string& name, const py::handle& value) {
+  const auto take = [&](const char* option, auto& target) {
+    if (name == option) target = value_of<std::decay_t<decltype(target)>>(name, value);
   };
-  return table;
+  take("method", options.method);
+  take("tolerance", options.tolerance);
+  take("gap", options.gap);
+  take("max_iterations", options.max_iterations);
+  take("certify", options.certify);
+  take("threads", options.threads);
+  take("non_negative", options.non_negative);
+  take("phi", options.phi);
+  take("smoothness", options.smoothness);
+  take("distances", options.distances);
+  take("precision", options.precision);
+  take("active_set", options.active_set);
+  take("penalty", options.penalty);
+  if (name == "mask" && !value.is_none()) options.masks = masks_of(value.cast<MaskLists>());
+  if (name == "reach" && !value.is_none()) options.reach = value.cast<std::vector<double>>();
 }
-#undef FLBC_FIELD
 
 py::list levels_of(const SolveReport& report) {
   using namespace py::literals;
@@ -121,12 +84,6 @@ Enum named(const std::string& option, const std::string& name) {
 }
 template OutsidePoints named(const std::string&, const std::string&);
 
-std::vector<std::string> option_names() {
-  std::vector<std::string> names;
-  for (const auto& field : fields()) names.emplace_back(field.name);
-  return names;
-}
-
 BindOptions options_of(const py::dict& keywords) {
   BindOptions options;
   const auto method =
@@ -134,16 +91,13 @@ BindOptions options_of(const py::dict& keywords) {
   options.coordinates = value_named<Coordinates>(method);
   for (const auto& [key, value] : keywords) {
     const auto name = key.cast<std::string>();
-    const auto is_named = [&name = name](const auto& field) { return name == field.name; };
-    const auto field = std::find_if(fields().begin(), fields().end(), is_named);
     if (name == "max_influences") {
       options.max_influences = value_of<Index>(name, value);
     } else if (name == "outside") {
       options.outside = value_of<OutsidePoints>(name, value);
     } else if (name == "mirror_axis") {
       options.mirror_axis = value.cast<int>();
-    } else if (field == fields().end() ||
-               (options.coordinates && (name == "method" || value.is_none()))) {
+    } else if (options.coordinates && (name == "method" || name == "relax" || value.is_none())) {
       continue;
     } else if (options.coordinates && name != "threads" && name != "non_negative") {
       throw OptionError(name + ": the method " + method +
@@ -152,7 +106,7 @@ BindOptions options_of(const py::dict& keywords) {
       const auto phi = value.cast<Doubles>();
       options.phi = WeightMatrix::Map(phi.data(), phi.shape(1), phi.shape(0));
     } else {
-      field->set(options.solver, value);
+      set(options.solver, name, value);
     }
   }
   return options;

@@ -13,9 +13,6 @@
 
 namespace flbc::python {
 
-//! The names of all options.
-std::vector<std::string> option_names();
-
 //! Masks are those of the solver. \param keywords  others are ignored
 //! \throws OptionError naming the option, also if other coordinates do not use it
 BindOptions options_of(const py::dict& keywords);

@@ -242,7 +242,6 @@ void use_threads_of_this_process() {
 
 void bind_solving(py::module_& module) {
   module.def("has_forked", [] { is_forked = true; });
-  module.def("option_names", &option_names);
   module.def("mesh", &mesh);
 
   py::class_<Progress>(module, "Progress", "Progress of a solve, for callbacks.")

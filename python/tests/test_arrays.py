@@ -21,15 +21,19 @@ def layouts(array):
     yield unaligned
 
 
+def bound(solution):
+    return flbc.Binding(solution.weights, solution.cage, solution.mesh.points)
+
+
 def test_layouts_of_points_and_weights_change_nothing(flat):
     points = np.random.default_rng(0).uniform(0.01, 0.99, (40, 2))
     expected = flat.at(points)
-    few = flbc.sparsify(expected, flat.cage, points, k=3).toarray()
     for other in layouts(points):
         assert np.array_equal(flat.at(other), expected)
     for other in layouts(expected):
-        assert np.array_equal(flbc.sparsify(other, flat.cage, points, k=3).toarray(), few)
-        assert np.allclose(flbc.deform(other, flat.cage.points), points, atol=1e-14)
+        bound = flbc.Binding(other, flat.cage, points)
+        assert np.array_equal(bound.weights.toarray(), expected)
+        assert np.allclose(bound.deform(flat.cage), points, atol=1e-14)
 
 
 def test_layouts_and_types_of_indices_change_nothing(limb):
@@ -107,11 +111,11 @@ def test_meshes_of_other_libraries_are_cages(limb):
          ["mesh", "(4, 3)", "(4, 2)"]),
         (lambda s: s.at(np.zeros((5, 3))), ["points", "(5, 3)", "(N, 2)"]),
         (lambda s: s.at([[0.5, np.nan]]), ["points: row 0", "finite"]),
-        (lambda s: flbc.deform(s.weights, np.zeros((5, 2))),
-         ["control_points", "(5, 2)", "(4, 2 or 3)"]),
-        (lambda s: flbc.sparsify(s.weights, s.cage, s.mesh.points[1:]),
+        (lambda s: bound(s).deform(np.zeros((5, 2))), ["control_points", "(5, 2)", "(4, 2)"]),
+        (lambda s: flbc.Binding(s.weights, s.cage, s.mesh.points[1:]),
          ["weights", ", 4), but needs (", "control points"]),
-        (lambda s: flbc.sparsify(s.weights, s.cage, s.mesh.points, k=2), ["influences"]),
+        (lambda s: bound(s).reduced(2), ["influences"]),
+        (lambda s: bound(s).reduced(threshold=2), ["threshold"]),
         (lambda s: flbc.solve(s.cage, s.mesh, phi=np.ones((4, 4))), ["phi", "(4, 4)", ", 4)"]),
         (lambda s: flbc.solve(s.cage, s.mesh, phi=-np.ones((len(s.mesh.cells), 4))),
          ["phi", "control point 0", "not negative"]),
@@ -135,12 +139,11 @@ def test_what_is_wrong_is_named(make, words, flat):
 
 def test_scalars_of_a_wrong_type_are_named(flat):
     points = flat.mesh.points
-    solution = flbc.solve(flat.cage, flat.mesh, method="harmonic")
     for call, words in [
         (lambda: flbc.mesh(flat.cage, vertices=3e3), "vertices must be an integer, not 3000.0"),
-        (lambda: flbc.sparsify(solution.weights, flat.cage, points, k=8.0), "k must be an integer"),
+        (lambda: bound(flat).reduced(8.0), "k must be an integer"),
         (lambda: flbc.make_cage(points, control_points=60.0), "control_points must be an integer"),
-        (lambda: solution.at(points, outside=3), "outside must be a name, not 3"),
+        (lambda: flat.at(points, outside=3), "outside must be a name, not 3"),
     ]:
         with pytest.raises(flbc.OptionError, match=words):
             call()
@@ -151,9 +154,11 @@ def test_unknown_options_are_named(flat):
     for call in (flbc.solve, flbc.Solver):
         with pytest.raises(TypeError, match="accuracy.*choose from.*tolerance"):
             call(flat.cage, flat.mesh, accuracy=1e-3)
-    assert list(flbc.SolverOptions.__annotations__) == flbc._core.option_names()
+    for name in flbc.SolverOptions.__annotations__:
+        with pytest.raises(flbc.Error, match=name):
+            flbc.solve(flat.cage, flat.mesh, **{name: object()})
     for function in (flbc.solve, flbc.Solver, flbc.bind, flbc.Rig):
-        for name in flbc._core.option_names():
+        for name in flbc.SolverOptions.__annotations__:
             assert f"\n    {name} : " in function.__doc__
 
 

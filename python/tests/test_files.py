@@ -93,27 +93,24 @@ def test_cages(tmp_path, name):
 
 def test_skins(tmp_path, limb, solid, moved):
     cage, vertices, faces = limb
-    weights = solid.at(vertices)
-    flbc.export(tmp_path / "model.glb", vertices, faces, weights, cage, poses=[cage.points, moved])
+    binding = flbc.Binding(solid.at(vertices), cage, vertices)
+    binding.export(tmp_path / "model.glb", faces, poses=[cage.points, moved])
     data = (tmp_path / "model.glb").read_bytes()
     length = struct.unpack("<I", data[12:16])[0]
     content = json.loads(data[20 : 20 + length])
     names = [content["nodes"][joint]["name"] for joint in content["skins"][0]["joints"]]
     assert sum(name.startswith("control_point_") for name in names) == len(cage)
     assert len(content["animations"]) == 1
-    few = flbc.sparsify(weights, cage, vertices, 4)
-    flbc.export(tmp_path / "model.usda", vertices, faces, few, cage, max_influences=4)
+    binding.reduced(4).export(tmp_path / "model.usda", faces, max_influences=4)
     assert (tmp_path / "model.usda").read_text().startswith("#usda")
     with pytest.raises(flbc.OptionError, match=".glb or .usda"):
-        flbc.export(tmp_path / "model.fbx", vertices, faces, weights, cage)
-    with pytest.raises(flbc.InputError, match="do not belong"):
-        flbc.export(tmp_path / "model.glb", vertices + 1, faces, weights, cage)
+        binding.export(tmp_path / "model.fbx", faces)
 
 
 def test_pages(tmp_path, limb, solid, flat):
     cage, vertices, faces = limb
-    weights = solid.at(vertices)
-    page = flbc.view(vertices, faces, weights, cage, poses=[cage.points], title="my limb")
+    page = flbc.Binding(solid.at(vertices), cage, vertices).view(
+        faces, poses=[cage.points], title="my limb")
     assert page.html.startswith("<!doctype html>") or "<html" in page.html[:200].lower()
     assert "my limb" in page.html
     shown = page._repr_html_()
@@ -121,4 +118,4 @@ def test_pages(tmp_path, limb, solid, flat):
     page.save(tmp_path / "page.html")
     assert (tmp_path / "page.html").read_text() == page.html
     inside = [[0.25, 0.5], [0.5, 0.75]]
-    assert flbc.view(inside, None, flat.at(inside), flat.cage).html
+    assert flbc.Binding(flat.at(inside), flat.cage, inside).view().html

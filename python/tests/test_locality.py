@@ -22,23 +22,6 @@ def masked(request):
                       tolerance=1e-8 if request.param else None), mask
 
 
-def test_a_solver_takes_other_masks(masked):
-    solution, mask = masked
-    cage, mesh = solution.cage, solution.mesh
-    solver = flbc.Solver(cage, mesh)
-    solver.solve()
-    solver.set_options(mask=mask)
-    inside = solver.solve().weights[mask]
-    assert (inside > 0).sum() < mask.sum() / 10  # on facets
-    assert (solver.options["mask"] == mask).all()
-    again = flbc.Solver(cage, mesh, **solver.options)
-    assert (again.solve().weights[mask] == inside).mean() > 0.9
-    solver.set_options(tolerance=1e-7)
-    assert (solver.solve().weights[mask] == inside).mean() > 0.9
-    solver.set_options(mask=None)
-    assert (solver.solve().weights[mask] > 0).sum() > (inside > 0).sum()
-
-
 def test_a_masked_certificate_needs_each_mask(masked, checker, tmp_path, capsys):  # noqa: F811
     solution, mask = masked
     assert solution.certificate.relative_gap < 0.01
@@ -99,14 +82,8 @@ def test_reach_extends_weights(masked, checker, tmp_path):  # noqa: F811
     assert bound[0].weights.toarray() == pytest.approx(bound[1].weights.toarray(), abs=1e-3)
     assert abs(bound[0].deform(cage.points) - points).max() < 1e-12
 
-    solver = flbc.Solver(cage, mesh)
-    solver.solve()
-    solver.set_options(reach=reach)
-    assert solver.solve().weights == pytest.approx(found.weights, abs=0.02)
-    solver.set_options(reach=None)
-    assert solver.solve().weights == pytest.approx(free.weights, abs=0.02)
     with pytest.raises(flbc.InputError, match=r"reach has shape \(5,\), but needs \(6,\)"):
-        solver.set_options(reach=reach[1:])
+        flbc.solve(cage, mesh, reach=reach[1:])
     with pytest.raises(flbc.OptionError, match=r"reach of control point 2 must be in \[1/16, 16\]"):
         flbc.solve(cage, mesh, reach=[1, 1, 17, 1, 1, 1])
     with pytest.raises(flbc.OptionError, match="reach: the method harmonic does not use it"):

@@ -110,17 +110,11 @@ def bind(m, valid):
 def use_weights(m, valid):
     cage, mesh, solution = valid
     weights = m.one_of([m.damaged(solution.weights), solution.sparse_weights])
-    flbc.deform(weights, m.damaged(cage.points))
     points, faces = m.damaged(mesh.points), m.one_of([None, m.damaged(mesh.cells)])
     flbc.measure(weights, cage, points)
-    flbc.sparsify(weights, shapes(m, valid)[0], points, k=m.one_of([None, 4, 5, 0, -1]),
-                  faces=faces, poses=[m.damaged(cage.points)])
-
-
-def transfer(m, valid):
-    cage, mesh, solution = valid
-    flbc.transfer(m.damaged(solution.weights), cage, m.damaged(mesh.points),
-                  m.damaged(mesh.cells[:, :3]), m.damaged(mesh.points))
+    binding = flbc.Binding(weights, shapes(m, valid)[0], points, faces)
+    binding.reduced(m.one_of([None, 4, 5, 0, -1]), poses=[m.damaged(cage.points)])
+    binding.transferred(m.damaged(mesh.points), from_faces=m.damaged(mesh.cells[:, :3]))
 
 
 def look(m, valid):
@@ -130,7 +124,7 @@ def look(m, valid):
     flbc.mean_value(cage_like, m.damaged(valid[1].points))
 
 
-@pytest.mark.parametrize("call", [solve, solver, at, bind, use_weights, transfer, look])
+@pytest.mark.parametrize("call", [solve, solver, at, bind, use_weights, look])
 def test_damaged_arguments_are_accepted_or_refused(call, valid):
     accepted = 0
     for seed in range(COUNT):

@@ -15,11 +15,10 @@ cage = flbc.Cage([[0, 0], [1, 0], [0, 1]])
 mesh = flbc.mesh(cage, 100)
 solution = flbc.solve(cage, mesh, tolerance=1e-5, callback=lambda p: p.iteration < 9)
 gap: float = solution.certificate.relative_gap if solution.certificate else 0
-moved = flbc.deform(solution.at(np.zeros((1, 2))), cage.points * 2)
-rows: int = moved.shape[0]
+rows: int = solution.at(np.zeros((1, 2))).shape[0]
 vertices, faces = flbc.read_model("model.obj")
 binding = flbc.bind(vertices, faces, cage, threads=2)
-html: str = flbc.view(vertices, faces, binding.weights, cage).html
+html: str = flbc.Binding(binding.weights, cage, vertices).view(faces).html
 control_points, points = binding.masks[0]
 first: int = int(points[0]) + binding.outside.shape[0]
 if binding.solution and binding.domain:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is done with weights: few influences, deformation, transfer, checks, binding."""
+"""Measures of weights, cages, and binding in one call."""
 import flbc
 import numpy as np
 import pytest
@@ -13,50 +13,25 @@ def model(limb, solid):
     return cage, vertices, faces, solid.at(vertices)
 
 
-def reproduces(weights, cage, points):
-    return abs(flbc.deform(weights, cage.points) - points).max() < 1e-10
-
-
-def test_sparsify_without_and_with_faces(model):
-    cage, vertices, faces, weights = model
-    for options in ({}, {"faces": faces}, {"faces": faces, "poses": [cage.points * 1.1]}):
-        few = flbc.sparsify(weights, cage, vertices, k=5, **options)
-        assert isinstance(few, scipy.sparse.csr_matrix) and few.shape == weights.shape
-        assert few.getnnz(axis=1).max() <= 5 and few.data.min() >= 0
-        assert reproduces(few, cage, vertices)
-        # The same from sparse weights, with entries in any order.
-        mixed = scipy.sparse.coo_matrix(weights)
-        assert abs(flbc.sparsify(mixed, cage, vertices, k=5, **options) - few).max() == 0
-    kept = flbc.sparsify(weights, cage, vertices, k=None, threshold=1e-3)
-    assert kept.nnz < np.count_nonzero(weights)
-    with pytest.raises(flbc.OptionError):
-        flbc.sparsify(weights, cage, vertices, threshold=2)
-
-
-def test_deform_dense_and_sparse(model, moved):
-    cage, vertices, _, weights = model
-    sparse = scipy.sparse.csr_matrix(weights)
-    assert np.allclose(flbc.deform(weights, moved), flbc.deform(sparse, moved), atol=1e-13)
-    assert np.array_equal(flbc.deform(weights, moved), weights @ moved)
-
-
 def test_outside_points(flat):
-    beside = [[1.5, 0.5]]
-    assert np.allclose(flbc.deform(flat.at(beside, outside="nearest"), flat.cage.points), [1, 0.5])
-    extended = flat.at(beside, outside="extend")
-    assert extended.min() < 0
-    assert np.allclose(flbc.deform(extended, flat.cage.points), beside)
+    beyond = [[1.5, 0.5]]
+    assert np.allclose(flat.at(beyond, outside="nearest") @ flat.cage.points, [1, 0.5])
+    extended = flat.at(beyond, outside="extend")
+    assert extended.min() < 0 and np.allclose(extended @ flat.cage.points, beyond)
 
 
-def test_transfer(model):
+def test_given_weights_in_any_form_and_at_the_nearest_place(model):
     cage, vertices, faces, weights = model
+    # Entries in any order.
+    bound = [flbc.Binding(given, cage, vertices) for given in (weights, scipy.sparse.coo_matrix(weights))]
+    assert abs(bound[0].weights - bound[1].weights).nnz == 0
+    # Without faces, each point is reduced alone.
+    assert bound[0].reduced(5).weights.getnnz(axis=1).max() <= 5
+    assert bound[0].reduced(None, threshold=1e-3).weights.nnz < np.count_nonzero(weights)
     centers = vertices[faces].mean(axis=1)
-    found = flbc.transfer(weights, cage, vertices, faces, centers)
-    assert reproduces(found, cage, centers) and found.min() >= 0
-    same = flbc.transfer(scipy.sparse.csr_matrix(weights), cage, vertices, faces, centers)
-    assert np.array_equal(same, found)
+    assert abs(bound[1].transferred(centers, from_faces=faces).weights @ cage.points - centers).max() < 1e-10
     with pytest.raises(flbc.InputError, match="away|limit|far"):
-        flbc.transfer(weights, cage, vertices, faces, centers + [0, 0.2, 0], limit=1e-3)
+        bound[0].transferred(centers + [0, 0.2, 0], from_faces=faces, limit=1e-3)
 
 
 def test_mean_value_coordinates(square):
@@ -100,7 +75,7 @@ def test_defects_are_found_and_repaired(limb):
 SQUARE = [[0.0, 0], [1, 0], [1, 1], [0, 1]]
 TETRAHEDRON = [[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
 FACES = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
-BESIDE = [[0, 4, 1], [0, 1, 5], [1, 4, 5], [4, 0, 5]]  # with the edge 0-1
+OTHER_FACES = [[0, 4, 1], [0, 1, 5], [1, 4, 5], [4, 0, 5]]  # with the edge 0-1
 
 
 @pytest.mark.parametrize(
@@ -116,7 +91,7 @@ BESIDE = [[0, 4, 1], [0, 1, 5], [1, 4, 5], [4, 0, 5]]  # with the edge 0-1
         ("degenerate", [*TETRAHEDRON, [0.5, 0, 0]], [*FACES[1:], [0, 2, 4], [4, 2, 1], [0, 4, 1]]),
         ("duplicate", TETRAHEDRON, [*FACES, FACES[0]]),
         ("open", [*TETRAHEDRON, [0.3, 0.3, 0]], [*FACES[1:], [0, 2, 4], [2, 1, 4]]),
-        ("non-manifold", [*TETRAHEDRON, [0, -1, 0], [0, 0, -1]], [*FACES, *BESIDE]),
+        ("non-manifold", [*TETRAHEDRON, [0, -1, 0], [0, 0, -1]], [*FACES, *OTHER_FACES]),
         ("orientation", TETRAHEDRON, [FACES[0][::-1], *FACES[1:]]),
         ("self-intersection", np.array(SQUARE)[[0, 2, 1, 3]], None),
     ],
@@ -139,9 +114,9 @@ def test_bind_equals_its_steps(limb, moved):
     cage, vertices, faces = limb
     binding = flbc.bind(vertices, faces, cage.points, cage.facets, mesh_vertices=2000)
     solution = flbc.solve(cage, flbc.mesh(cage, vertices=2000))
-    few = flbc.sparsify(solution.at(vertices), cage, vertices, 8, faces=faces)
-    assert abs(binding.weights - few).max() == 0 and binding.offsets is None
-    assert np.array_equal(binding.deform(moved), flbc.deform(few, moved))
+    few = flbc.Binding(solution.at(vertices), cage, vertices, faces).reduced(8)
+    assert abs(binding.weights - few.weights).max() == 0 and binding.offsets is None
+    assert np.array_equal(binding.deform(moved), few.deform(moved))
     assert binding.report["converged"]
     every = flbc.bind(vertices, faces, cage, domain=solution.mesh, max_influences=0)
     assert abs(every.weights - solution.at(vertices)).max() == 0
@@ -161,17 +136,9 @@ def test_border_names_control_points_to_hold(square):
 
 def test_weights_come_before_the_cage(model):
     cage, vertices, _, weights = model
-    for function in (flbc.measure, flbc.sparsify):
+    for function in (flbc.measure, flbc.Binding):
         with pytest.raises(flbc.InputError, match="the first argument is weights"):
             function(cage, vertices, weights)
-
-
-def test_pages_take_planar_vertices_with_z(square):
-    points = np.array([[0.2, 0.2, 0], [0.8, 0.2, 0], [0.5, 0.7, 0]])
-    weights = flbc.bind(points[:, :2], [[0, 1, 2]], square, mesh_vertices=200).weights
-    assert flbc.view(points, [[0, 1, 2]], weights, square).html
-    with pytest.raises(flbc.InputError, match="vertices has shape"):
-        flbc.view(points + 1, [[0, 1, 2]], weights, square)
 
 
 def test_messages_name_options_of_python(square, flat):
@@ -183,15 +150,3 @@ def test_messages_name_options_of_python(square, flat):
             action()
 
 
-def test_bindings_take_control_points_of_their_dimension(limb, solid):
-    cage, vertices, faces = limb
-    seen = []
-    words = []
-    binding = flbc.bind(
-        vertices, faces, cage, domain=solid.mesh,
-        callback=lambda p: (seen.append(p.iteration), words.append(repr(p)))[0],
-    )
-    assert seen and seen == sorted(seen)
-    assert f"iteration {seen[-1]}" in words[-1]
-    with pytest.raises(flbc.InputError, match=rf"control_points.*\({len(cage)}, 2\).*, 3\)"):
-        binding.deform(cage.points[:, :2])
