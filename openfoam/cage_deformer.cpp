@@ -92,7 +92,7 @@ class Motion {
       : evaluator_(std::move(binding.cage), std::move(binding.domain),
                    std::move(binding.domain_weights), OutsidePoints::kKeep,
                    Foam::Pstream::parRun() ? 1 : 0) {
-    const auto rest = io::control_polygons<Dim>(io::to_polygons(evaluator_.cage()));
+    const auto rest = io::control_polygons<Dim>(io::cage_polygons(evaluator_.cage()));
     for (const auto& pose : poses) {
       const auto file = in_case(mesh, pose.file);
       displacements_.push_back(io::read_pose<Dim>(file, rest, "the cage of the binding") -

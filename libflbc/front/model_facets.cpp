@@ -160,7 +160,7 @@ ModelElements<Dim> load_model_elements(const std::string& path) {
 
 template <int Dim>
 void write_cage(const std::string& path, const Cage<Dim>& cage, double height) {
-  io::write_model(path, {io::to_polygons(cage, height)});
+  io::write_model(path, {io::cage_polygons(cage, height)});
 }
 
 template <int Dim>

@@ -118,7 +118,7 @@ RestCage<Dim>::RestCage(const std::string& path)
 
 template <int Dim>
 RestCage<Dim>::RestCage(const Cage<Dim>& cage, std::string name)
-    : polygons_(io::control_polygons<Dim>(io::to_polygons(cage))),
+    : polygons_(io::control_polygons<Dim>(io::cage_polygons(cage))),
       name_(std::move(name)),
       points_(cage.points) {
 }

@@ -125,20 +125,18 @@ std::string make_page(const AnyBinding& any, const Polygons& polygons,
     constexpr int kDim = kDimOf<std::decay_t<decltype(binding)>>;
     const auto moved = poses_of<kDim>(poses);
     const auto& cage = binding.cage;
-    view::PageContent<kDim> content;
-    content.title = title;
-    content.model_file = "model.obj";
-    content.weights_file = "binding.npz";
-    content.cage_file = "cage.obj";
-    content.cage.points = cage.points;
-    content.cage.facets = cage.facets;
-    content.cage.edges = view::edges_of_cage<kDim>({}, cage.facets);
-    content.points = binding.rest();
+    view::PageContent<kDim> content{
+        title,
+        "model.obj",
+        "binding.npz",
+        "cage.obj",
+        {cage.points, cage.facets, view::edges_of_cage<kDim>({}, cage.facets)},
+        binding.rest(),
+        surface_of<kDim>(binding, polygons)};
     for (std::size_t k = 0; k < moved.size(); ++k) {
       content.poses.push_back(
           {"pose " + std::to_string(k + 1), static_cast<double>(k + 1), moved[k]});
     }
-    content.surface = surface_of<kDim>(binding, polygons);
     return without_gil([&] {
       content.weights = view::limit_influences(binding, view::kMostInfluences);
       return view::make_page(content);

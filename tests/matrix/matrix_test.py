@@ -306,8 +306,8 @@ def mirror(result):
     images, partners = result.partners(result.cage), result.partners(result.model)
     # Few influences cannot be symmetric in the plane itself: a point needs pairs of them.
     most = {"reduce4": 4, "export": 4, "reduce8": 8}.get(result.operation, 99)
-    beside = (np.abs(result.model[:, 0]) > 1e-9) | (most // 2 > result.dim)
-    assert np.array_equal(result.weights[partners][:, images][beside], result.weights[beside])
+    off_plane = (np.abs(result.model[:, 0]) > 1e-9) | (most // 2 > result.dim)
+    assert np.array_equal(result.weights[partners][:, images][off_plane], result.weights[off_plane])
 
 
 def sums_and_reproduction(result):

@@ -191,7 +191,7 @@ PolygonSoup control_polygons<2>(const PolygonSoup& soup) {
 }
 
 template <int Dim>
-PolygonSoup to_polygons(const Cage<Dim>& cage, double height) {
+PolygonSoup cage_polygons(const Cage<Dim>& cage, double height) {
   PolygonSoup soup;
   for (Index i = 0; i < cage.size(); ++i) {
     Vector<3> point = Vector<3>::Constant(height);
@@ -218,8 +218,8 @@ PointList<Dim> read_pose(const std::string& path, const PolygonSoup& rest,
   return to_points<Dim>(pose, path);
 }
 
-template PolygonSoup to_polygons(const Cage<2>&, double);
-template PolygonSoup to_polygons(const Cage<3>&, double);
+template PolygonSoup cage_polygons(const Cage<2>&, double);
+template PolygonSoup cage_polygons(const Cage<3>&, double);
 template PointList<2> read_pose(const std::string&, const PolygonSoup&, const std::string&);
 template PointList<3> read_pose(const std::string&, const PolygonSoup&, const std::string&);
 template PointList<2> to_points(const PolygonSoup&, const std::string&);

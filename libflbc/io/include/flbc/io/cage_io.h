@@ -33,7 +33,7 @@ PolygonSoup control_polygons(const PolygonSoup& soup);
 //! A sound cage as files have it: triangles, in 2D closed polylines.
 //! \param height  2D: the z of all points
 template <int Dim>
-PolygonSoup to_polygons(const Cage<Dim>& cage, double height = 0);
+PolygonSoup cage_polygons(const Cage<Dim>& cage, double height = 0);
 
 //! The control points in the file of a pose.
 //! \param rest  as returned by control_polygons() \param name  of its file, for messages
