@@ -20,7 +20,6 @@
 #include <Eigen/Geometry>
 
 #include "base/distance_to_segment.h"
-#include "cage/box_tree.h"
 #include "flbc/errors.h"
 #include "model/model_scan.h"
 
@@ -316,9 +315,9 @@ Loop simplified(Loop loop, double tolerance) {
   return corners;
 }
 
-// Whether segments from a to b and from c to d, whose boxes meet, have a point in common, unless
-// they share an end.
+// Whether segments from a to b and from c to d have a point in common, unless they share an end.
 bool cross(const Vector<2>& a, const Vector<2>& b, const Vector<2>& c, const Vector<2>& d) {
+  if (!Box(a).extend(b).intersects(Box(c).extend(d))) return false;
   if (a == c || a == d || b == c || b == d) return false;
   const auto side = [](const Vector<2>& from, const Vector<2>& to, const Vector<2>& p) {
     return (to.x() - from.x()) * (p.y() - from.y()) - (to.y() - from.y()) * (p.x() - from.x());
@@ -327,21 +326,24 @@ bool cross(const Vector<2>& a, const Vector<2>& b, const Vector<2>& c, const Vec
 }
 
 bool have_crossing(const std::vector<Loop>& loops) {
-  std::vector<std::pair<Vector<2>, Vector<2>>> edges;
-  std::vector<Box> boxes;
+  using Segment = std::pair<Vector<2>, Vector<2>>;  // from left to right
+  const auto is_left = [](const auto& p, const auto& q) { return p.x() < q.x(); };
+  std::vector<Segment> edges;
   for (const auto& loop : loops) {
     Vector<2> last = loop.back();
     for (const auto& corner : loop) {
-      edges.emplace_back(last, corner);
-      boxes.emplace_back(Box(last).extend(corner));
+      edges.push_back(std::minmax(last, corner, is_left));
       last = corner;
     }
   }
-  const auto pairs = close_pairs<2>(boxes, 0);
-  return std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
-    const auto &e = edges[pair.first], &f = edges[pair.second];
-    return cross(e.first, e.second, f.first, f.second);
-  });
+  std::sort(edges.begin(), edges.end(),
+            [&](const Segment& e, const Segment& f) { return is_left(e.first, f.first); });
+  for (auto e = edges.begin(); e != edges.end(); ++e) {
+    for (auto f = e + 1; f != edges.end() && f->first.x() <= e->second.x(); ++f) {
+      if (cross(e->first, e->second, f->first, f->second)) return true;
+    }
+  }
+  return false;
 }
 
 // With as few corners as the tolerance permits. It is lowered where simplified lines would cross.
