@@ -46,8 +46,8 @@ class Hull {
 
   // Positive outside.
   int side(const FacetCorners<3>& corners, Index point) const {
-    using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
-    const auto at = [&](Index v) { return Point(points_(0, v), points_(1, v), points_(2, v)); };
+    using Exact = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
+    const auto at = [&](Index v) { return Exact(points_(0, v), points_(1, v), points_(2, v)); };
     return CGAL::orientation(at(corners(0)), at(corners(1)), at(corners(2)), at(point));
   }
 
