@@ -15,7 +15,6 @@
 
 #include "base/instantiate.h"
 #include "base/messages.h"
-#include "base/shape_checks.h"
 #include "cage/extent.h"
 #include "caging/cage_steps.h"
 #include "caging/coarsening.h"
@@ -417,7 +416,12 @@ void check_input(const PointList<Dim>& points, const FacetList<Dim>& facets,
     throw InputError("vertex " + std::to_string(v) + " at " + format_point(points.col(v)) +
                      " is not finite");
   }
-  check_indices(facets, points.cols(), {"model", "facet", "vertex", "vertices"});
+  for (Index s = 0; s < facets.cols(); ++s) {
+    if (facets.col(s).minCoeff() >= 0 && facets.col(s).maxCoeff() < points.cols()) continue;
+    throw InputError("facet " + std::to_string(s) +
+                     " of the model refers to a vertex that does not exist; there are " +
+                     std::to_string(points.cols()));
+  }
   const auto defect = extent_defect<Dim>(points, "model", "vertex 0");
   if (!defect.empty()) throw InputError(defect);
   const double size = bounding_box_diagonal<Dim>(points);

@@ -32,7 +32,9 @@ Side opposite(Side side) {
 
 template <int Dim>
 Eigen::Matrix<double, Dim, Dim> corners_of(const CageDraft<Dim>& draft, Index f) {
-  return draft.points(Eigen::all, draft.facets[f].corners);
+  Eigen::Matrix<double, Dim, Dim> corners;
+  for (int k = 0; k < Dim; ++k) corners.col(k) = draft.points.col(draft.facets[f].corners(k));
+  return corners;
 }
 
 // The plane perpendicular to a ridge.
@@ -177,7 +179,10 @@ std::vector<std::set<Index>> merge_equal(CageDraft<Dim>& draft) {
   std::vector<std::set<Index>> parts_of;
   std::size_t kept = 0;
   for (const auto& facet : draft.facets) {
-    const auto [entry, is_new] = first_with.emplace(sorted<Dim>(facet.corners), kept);
+    std::array<Index, Dim> corners;
+    for (int k = 0; k < Dim; ++k) corners[k] = facet.corners(k);
+    std::sort(corners.begin(), corners.end());
+    const auto [entry, is_new] = first_with.emplace(corners, kept);
     if (is_new) {
       draft.facets[kept++] = facet;
       parts_of.emplace_back();
@@ -217,6 +222,14 @@ std::vector<bool> sides_inside(const CageDraft<Dim>& draft, const Cells<Dim>& ce
   return is_inside;
 }
 
+// Toward the inside, from corners with outward normals.
+template <int Dim>
+Vector<Dim> inward(const CageDraft<Dim>& draft, const std::vector<Index>& facets) {
+  Vector<Dim> sum = Vector<Dim>::Zero();
+  for (const Index f : facets) sum -= facet_normal<Dim>(corners_of(draft, f)).normalized();
+  return sum.normalized();
+}
+
 }  // namespace
 
 template <int Dim>
@@ -227,6 +240,7 @@ void number_parts(CageDraft<Dim>& draft) {
   }
   for (std::size_t f = 0; f < draft.facets.size(); ++f) {
     draft.facets[f].part = parts.find(static_cast<Index>(f));
+    draft.facets[f].is_double = false;
   }
 }
 
@@ -260,7 +274,47 @@ bool keep_boundary(CageDraft<Dim>& draft) {
   return true;
 }
 
+template <int Dim>
+void split_touching_corners(CageDraft<Dim>& draft) {
+  const auto corner = [&](Side side, Index vertex) {
+    const auto& corners = draft.facets[side / 2].corners;
+    int k = 0;
+    while (corners(k) != vertex) ++k;
+    return Dim * (side / 2) + k;
+  };
+  UnionFind fans(static_cast<Index>(Dim * draft.facets.size()));
+  for (const auto& entry : collect_ridges(draft)) {
+    const auto& ridge = entry.first;  // not a structured binding, which clang cannot capture
+    for_each_wedge(draft, ridge, entry.second, [&](Side a, Side b) {
+      if (a % 2 == 0 || b % 2 == 0) return;
+      for (const Index vertex : ridge) fans.unite(corner(a, vertex), corner(b, vertex));
+    });
+  }
+  std::map<Index, std::map<Index, std::vector<Index>>> facets_at;  // per vertex and fan
+  for (Index f = 0; f < static_cast<Index>(draft.facets.size()); ++f) {
+    for (int k = 0; k < Dim; ++k) {
+      facets_at[draft.facets[f].corners(k)][fans.find(Dim * f + k)].push_back(f);
+    }
+  }
+  const double gap = 10 * kMergeTolerance * bounding_box_diagonal<Dim>(draft.points);
+  for (const auto& [vertex, fans_here] : facets_at) {
+    if (fans_here.size() == 1) continue;
+    draft.changes.push_back(describe_control_point<Dim>(draft.points, vertex) + " is split into " +
+                            std::to_string(fans_here.size()) + ", " + format_number(gap) +
+                            " apart, because the cage only touches itself there");
+    for (auto fan = std::next(fans_here.begin()); fan != fans_here.end(); ++fan) {
+      const auto copy = static_cast<Index>(draft.points.cols());
+      draft.points.conservativeResize(Dim, copy + 1);
+      draft.points.col(copy) = draft.points.col(vertex) + gap * inward(draft, fan->second);
+      for (const Index f : fan->second) {
+        for (Index& v : draft.facets[f].corners) v = v == vertex ? copy : v;
+      }
+    }
+  }
+}
+
 FLBC_INSTANTIATE_FUNCTION(number_parts)
 FLBC_INSTANTIATE_FUNCTION(keep_boundary)
+FLBC_INSTANTIATE_FUNCTION(split_touching_corners)
 
 }  // namespace flbc

@@ -29,4 +29,10 @@ void number_parts(CageDraft<Dim>& draft);
 template <int Dim>
 bool keep_boundary(CageDraft<Dim>& draft);
 
+//! Control points at which the solid only touches itself get a copy for each of its corners there,
+//! at a distance that is visible to meshers.
+//! \param draft  with outward normals
+template <int Dim>
+void split_touching_corners(CageDraft<Dim>& draft);
+
 }  // namespace flbc

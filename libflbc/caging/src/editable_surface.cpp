@@ -22,7 +22,10 @@ template <int Dim>
 bool has_repeated(const std::vector<FacetCorners<Dim>>& facets) {
   std::set<std::array<Index, Dim>> seen;
   for (const auto& corners : facets) {
-    if (!seen.insert(sorted<Dim>(corners)).second) return true;
+    std::array<Index, Dim> sorted;
+    std::copy(corners.data(), corners.data() + Dim, sorted.begin());
+    std::sort(sorted.begin(), sorted.end());
+    if (!seen.insert(sorted).second) return true;
   }
   return false;
 }
@@ -145,7 +148,9 @@ Simplex<Dim> EditableSurface<Dim>::facet_with(const FacetCorners<Dim>& corners, 
 
 template <int Dim>
 Simplex<Dim> EditableSurface<Dim>::facet(Index number) const {
-  return {points_(Eigen::all, facets_[number])};
+  Simplex<Dim> simplex;
+  for (int k = 0; k < Dim; ++k) simplex.corners.col(k) = points_.col(facets_[number](k));
+  return simplex;
 }
 
 template <int Dim>

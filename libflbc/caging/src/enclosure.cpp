@@ -169,10 +169,10 @@ bool Enclosure<Dim>::meets(const Simplex<Dim>& facet) const {
 
 template <int Dim>
 bool Enclosure<Dim>::is_strictly_inside(const Cage<Dim>& cage) const {
-  std::vector<Simplex<Dim>> facets;
-  for (const auto& facet : cage.facets.colwise()) {
-    facets.push_back({cage.points(Eigen::all, facet)});
-    if (meets(facets.back())) return false;
+  std::vector<Simplex<Dim>> facets(static_cast<std::size_t>(cage.facets.cols()));
+  for (Index f = 0; f < cage.facets.cols(); ++f) {
+    for (int k = 0; k < Dim; ++k) facets[f].corners.col(k) = cage.points.col(cage.facets(k, f));
+    if (meets(facets[f])) return false;
   }
   for (Index part = 0; part < representatives_.cols(); ++part) {
     if (!has_odd_crossings<Dim>(representatives_.col(part), facets)) return false;
@@ -210,8 +210,9 @@ Distances distances(const Cage<Dim>& cage, const Enclosure<Dim>& model) {
   const auto coordinates = spread_coordinates<Dim>();
   Distances result;
   double sum = 0, total = 0;
-  for (const auto& facet : cage.facets.colwise()) {
-    const Eigen::Matrix<double, Dim, Dim> corners = cage.points(Eigen::all, facet);
+  for (Index f = 0; f < cage.facets.cols(); ++f) {
+    Eigen::Matrix<double, Dim, Dim> corners;
+    for (int k = 0; k < Dim; ++k) corners.col(k) = cage.points.col(cage.facets(k, f));
     const double part = facet_normal<Dim>(corners).norm() / static_cast<double>(coordinates.size());
     for (const auto& weights : coordinates) {
       const double distance = model.distance(corners * weights);

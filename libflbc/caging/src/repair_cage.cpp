@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/messages.h"
-#include "base/shape_checks.h"
 #include "caging/cells.h"
 #include "caging/enclosure.h"
 #include "caging/repair_steps.h"
@@ -27,6 +26,20 @@ template <int Dim>
 std::vector<Defect> first_defect(const Cage<Dim>& cage) {
   auto defects = find_defects(cage, 1);
   return defects.empty() ? find_self_intersections(cage, 1) : defects;
+}
+
+template <int Dim>
+void check_numbers_of(const Cage<Dim>& cage) {
+  for (Index v = 0; v < cage.size(); ++v) {
+    if (cage.points.col(v).allFinite()) continue;
+    throw InputError(describe_control_point<Dim>(cage.points, v) + " is not finite");
+  }
+  for (Index s = 0; s < cage.facets.cols(); ++s) {
+    if (cage.facets.col(s).minCoeff() >= 0 && cage.facets.col(s).maxCoeff() < cage.size()) continue;
+    throw InputError("facet " + std::to_string(s) +
+                     " refers to a control point that does not exist; there are " +
+                     std::to_string(cage.size()));
+  }
 }
 
 // Indices of the control points used by facets; others are removed.
@@ -109,10 +122,20 @@ bool is_closed(const CageDraft<Dim>& draft) {
   });
 }
 
+// Sheets that closing has doubled enclose nothing. What is outside of other parts hangs on them.
+template <int Dim>
+void drop_sheets(CageDraft<Dim>& draft) {
+  auto changes = draft.changes;
+  drop_repeated_facets(draft);
+  draft.changes = std::move(changes);
+  drop_flaps(draft, true);
+}
+
 // The union of all parts, without walls inside. \return none if an open part remains, or if
 // rounding of crossings leaves a defect
 template <int Dim>
 std::optional<RepairedCage<Dim>> unite(const CageDraft<Dim>& parts, double& measure) {
+  const bool are_closed = is_closed(parts);
   // Facets may cross where close points have been merged, so the second attempt merges none.
   for (const double tolerance : {kMergeTolerance, 0.0}) {
     auto draft = parts;
@@ -126,7 +149,9 @@ std::optional<RepairedCage<Dim>> unite(const CageDraft<Dim>& parts, double& meas
       clean(draft);
       draft.changes = std::move(changes);
     }
+    if (are_closed) drop_sheets(draft);
     if (!keep_boundary(draft) || draft.facets.empty()) continue;
+    split_touching_corners(draft);
     auto united = finish(draft);
     measure = signed_measure<Dim>(united.cage, united.cage.points.col(0));
     if (first_defect(united.cage).empty()) return united;
@@ -140,7 +165,7 @@ RepairedCage<Dim> repaired_without_figures(const Cage<Dim>& cage, double& measur
   auto draft = draft_of(cage);
   clean(draft);
   drop_repeated_facets(draft);
-  drop_flaps(draft);
+  drop_flaps(draft, false);
   const bool was_closed = is_closed(draft);
   orient_alike(draft);
   close_holes(draft);
@@ -166,7 +191,7 @@ RepairedCage<Dim> repaired_without_figures(const Cage<Dim>& cage, double& measur
 
 template <int Dim>
 RepairedCage<Dim> repair_cage(const Cage<Dim>& cage) {
-  check_elements(cage.points, cage.facets, kCageNames);
+  check_numbers_of(cage);
   double measure = 0;
   auto repaired = repaired_without_figures(cage, measure);
   repaired.measure_before = measure;

@@ -62,7 +62,9 @@ bool is_flat(const CageDraft<3>& draft, const FacetCorners<3>& corners) {
 
 template <int Dim>
 double size_of(const CageDraft<Dim>& draft, const FacetCorners<Dim>& corners) {
-  return facet_normal<Dim>(draft.points(Eigen::all, corners)).norm();
+  Eigen::Matrix<double, Dim, Dim> points;
+  for (int k = 0; k < Dim; ++k) points.col(k) = draft.points.col(corners(k));
+  return facet_normal<Dim>(points).norm();
 }
 
 // Finds control points on edges.
@@ -109,11 +111,15 @@ class PointsOnEdges {
 
 // The smallest patch that has an open border and meets two other patches elsewhere; -1: none.
 template <int Dim>
-Index find_flap(const std::vector<Index>& patch_of_facet, const RidgeMap<Dim>& ridges) {
+Index find_flap(const CageDraft<Dim>& draft, const std::vector<Index>& patch_of_facet,
+                const RidgeMap<Dim>& ridges, bool only_double) {
   const std::size_t count = patch_of_facet.size();
-  std::vector<bool> is_open(count, false), is_crowded(count, false);
+  std::vector<bool> is_open(count, false), is_crowded(count, false), stays(count, false);
   std::vector<Index> size(count, 0);
-  for (const Index patch : patch_of_facet) ++size[patch];
+  for (std::size_t f = 0; f < count; ++f) {
+    ++size[patch_of_facet[f]];
+    if (only_double && !draft.facets[f].is_double) stays[patch_of_facet[f]] = true;
+  }
   for (const auto& [ridge, facets] : ridges) {
     for (const Index f : facets) {
       if (facets.size() == 1) is_open[patch_of_facet[f]] = true;
@@ -122,7 +128,7 @@ Index find_flap(const std::vector<Index>& patch_of_facet, const RidgeMap<Dim>& r
   }
   Index flap = -1;
   for (Index patch = 0; patch < static_cast<Index>(count); ++patch) {
-    if (!is_open[patch] || !is_crowded[patch]) continue;
+    if (!is_open[patch] || !is_crowded[patch] || stays[patch]) continue;
     if (flap < 0 || size[patch] < size[flap]) flap = patch;
   }
   return flap;
@@ -207,11 +213,13 @@ void drop_repeated_facets(CageDraft<Dim>& draft) {
   std::map<std::pair<Index, std::array<Index, Dim>>, Index> first_with;
   std::vector<bool> is_dropped(draft.facets.size(), false);
   for (std::size_t f = 0; f < draft.facets.size(); ++f) {
-    const auto& facet = draft.facets[f];
-    const auto [entry, is_new] = first_with.emplace(
-        std::pair(facet.part, sorted<Dim>(facet.corners)), static_cast<Index>(f));
+    std::array<Index, Dim> corners;
+    for (int k = 0; k < Dim; ++k) corners[k] = draft.facets[f].corners(k);
+    std::sort(corners.begin(), corners.end());
+    const auto [entry, is_new] =
+        first_with.emplace(std::pair(draft.facets[f].part, corners), static_cast<Index>(f));
     if (is_new) continue;
-    is_dropped[f] = true;
+    is_dropped[f] = draft.facets[entry->second].is_double = true;
     draft.changes.push_back(name_of_facet<Dim>(draft.facets[f].number) + " is the same as " +
                             name_of_facet<Dim>(draft.facets[entry->second].number) +
                             " and is removed");
@@ -220,11 +228,11 @@ void drop_repeated_facets(CageDraft<Dim>& draft) {
 }
 
 template <int Dim>
-void drop_flaps(CageDraft<Dim>& draft) {
+void drop_flaps(CageDraft<Dim>& draft, bool only_double) {
   for (;;) {
     const auto ridges = collect_ridges(draft);
     const auto patch_of_facet = collect_patches(draft, ridges);
-    const Index flap = find_flap<Dim>(patch_of_facet, ridges);
+    const Index flap = find_flap(draft, patch_of_facet, ridges, only_double);
     if (flap < 0) return;
     std::vector<bool> is_dropped(draft.facets.size(), false);
     for (std::size_t f = 0; f < draft.facets.size(); ++f) {

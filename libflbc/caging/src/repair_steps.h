@@ -17,8 +17,9 @@ template <int Dim>
 struct CageDraft {
   struct Facet {
     FacetCorners<Dim> corners;
-    Index number;    //!< original index; -1: new
-    Index part = 0;  //!< see number_parts()
+    Index number;            //!< original index; -1: new
+    Index part = 0;          //!< see number_parts()
+    bool is_double = false;  //!< whether it stands for several of its part
   };
   PointList<Dim> points;           //!< original points, then new ones
   std::vector<Facet> facets;       //!< remaining facets
@@ -55,9 +56,9 @@ template <int Dim>
 void drop_repeated_facets(CageDraft<Dim>& draft);
 
 //! Where more than two facets meet, removes facets of parts with an open border, smallest part
-//! first.
+//! first. \param only_double  others stay
 template <int Dim>
-void drop_flaps(CageDraft<Dim>& draft);
+void drop_flaps(CageDraft<Dim>& draft, bool only_double);
 
 //! Orients neighboring triangles consistently, like the majority of their shell. No effect in 2D.
 void orient_alike(CageDraft<2>& draft);

@@ -161,7 +161,9 @@ ExactKernel::Triangle_3 exact_triangle(const CageDraft<3>& draft, Index f) {
 }
 
 Vector<3> normal_of(const CageDraft<3>& draft, Index f) {
-  return facet_normal<3>(draft.points(Eigen::all, draft.facets[f].corners));
+  Eigen::Matrix3d corners;
+  for (int k = 0; k < 3; ++k) corners.col(k) = draft.points.col(draft.facets[f].corners(k));
+  return facet_normal<3>(corners);
 }
 
 ExactKernel::Triangle_2 flat(const Projection& projection, const ExactKernel::Triangle_3& t) {
