@@ -12,7 +12,6 @@
 #include "flbc/errors.h"
 #include "flbc/evaluator.h"
 #include "flbc/io/files.h"
-#include "flbc/io/point_file.h"
 #include "flbc/io/weights_io.h"
 #include "front/bound_model.h"
 #include "front/load.h"
@@ -131,8 +130,6 @@ std::vector<std::string> name_outputs(const std::vector<Pose<Dim>>& poses,
   names.reserve(poses.size());
   for (const auto& pose : poses) names.push_back(with_number(pattern, pose.number));
   return names;
-}
-
 }
 
 OutsidePoints outside_of(const DeformArguments& arguments, OutsidePoints of_binding) {

@@ -21,12 +21,10 @@ std::string in_words(std::string key) {
 
 // "0.25, point 7, place (1, 2)"
 std::string shown(const Json& fact) {
-  if (fact.is_null()) return "-";
   if (fact.is_string()) return fact.get<std::string>();
   if (fact.is_number_float()) {
-    constexpr int kDigits = 10;  // coordinates far from the origin need them
     char text[32];
-    std::snprintf(text, sizeof text, "%.*g", kDigits, fact.get<double>());
+    std::snprintf(text, sizeof text, "%.6g", fact.get<double>());
     return text;
   }
   if (!fact.is_structured()) return fact.dump();
@@ -43,6 +41,7 @@ std::string shown(const Json& fact) {
 void add_facts(TextTable& table, const std::string& group, const Json& facts) {
   constexpr std::size_t kMostNumbers = 3;
   for (const auto& [key, fact] : facts.items()) {
+    if (fact.is_null()) continue;
     const auto is_object = [](const Json& part) { return part.is_object(); };
     if (fact.is_object() && std::any_of(fact.begin(), fact.end(), is_object)) {
       add_facts(table, in_words(key) + " ", fact);

@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "flbc/observer.h"
+#include "flbc/options.h"
 
 namespace flbc::app {
 
