@@ -4,13 +4,11 @@
 # the tests, except those of installed files, browsers, and Blender, which run code without
 # sanitizers. Options go to ctest. TARGETS limits the build:
 # TARGETS="io_tests fuzz_tests" scripts/sanitize.sh -R 'Weights|Fuzz'
-# FLBC_MUTATIONS=N calls each public function N times with damaged arguments
-# (tests/fuzz/mutation_test.cpp).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 if [[ ${1:-} == -h || ${1:-} == --help ]]; then
-  sed -n '2,8s/^# //p' scripts/sanitize.sh
+  sed -n '2,6s/^# //p' scripts/sanitize.sh
   exit
 fi
 # Readers are tested with headers that request more memory than available, which the program must

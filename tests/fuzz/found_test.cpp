@@ -1,43 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Public functions with damaged arguments return or throw flbc::Error. FLBC_MUTATIONS in the
-// environment is the number of seeds per function.
-#include <cstdlib>
+// What damaged arguments of public functions once broke. python/tests/test_mutations.py damages
+// more.
+#include <functional>
 
 #include "flbc/cage_facts.h"
 #include "flbc/gradients.h"
 #include "flbc/pointwise.h"
 #include "flbc/solver.h"
-#include "fuzz/mutations.h"
+#include "support/errors.h"
+#include "support/sample_meshes.h"
 #include "support/test.h"
 
 namespace flbc::testing {
 namespace {
-
-std::uint32_t calls_per_function() {
-  const char* const number = std::getenv("FLBC_MUTATIONS");
-  return number == nullptr ? 100 : static_cast<std::uint32_t>(std::stoul(number));
-}
-
-class FuzzMutations : public ::testing::TestWithParam<fuzz::Call> {};
-
-TEST_P(FuzzMutations, AreAcceptedOrRefused) {
-  const auto calls = calls_per_function();
-  std::uint32_t accepted = 0;
-  for (std::uint32_t seed = 0; seed < calls && !HasFailure(); ++seed) {
-    try {
-      if (fuzz::accepts(GetParam(), seed)) ++accepted;
-    } catch (const std::exception& error) {
-      ADD_FAILURE() << "seed " << seed << ": " << error.what();
-    }
-  }
-  EXPECT_TRUE(accepted > 0 && accepted < calls) << accepted << " of " << calls;
-}
-
-INSTANTIATE_TEST_SUITE_P(Calls, FuzzMutations, ::testing::ValuesIn(fuzz::all_calls()),
-                         [](const auto& call) { return call.param.name; });
-
-// ---- what damaged arguments once broke
-// -------------------------------------------------------------------------------
 
 template <int Dim>
 Sample<Dim> corner() {
