@@ -84,71 +84,22 @@ def rough(count, seed):
     return loop([(radius * math.cos(angle), radius * math.sin(angle)) for angle, radius in corners])
 
 
-def nested(gap, count=12):
-    return loops(ring(count), ring(count, 1.0 - gap))
-
-
 def cages():
     """Names, whether it has to be solved (True), refused (False) or either (None), and cages."""
-    yield from ((f"needle_{w:g}", True if w > 1e-6 else None, needle(w))
-                for w in (0.1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-9, 1e-12))
-    yield from ((f"strip_{h:g}_{n}", True, strip(h, n))
-                for h, n in ((0.1, 10), (1e-2, 10), (1e-2, 100), (1e-3, 40)))
-    yield from ((f"strip_{h:g}_{n}", None, strip(h, n))
-                for h, n in ((1e-4, 10), (1e-6, 4), (1e-9, 4), (1e-13, 2)))
-    yield from ((f"star_{n}_{r:g}", True, star(n, r))
-                for n, r in ((2, 0.1), (5, 0.1), (5, 0.01), (20, 0.3), (20, 1e-3), (100, 0.8),
-                             (750, 0.95)))
-    yield from ((f"comb_{n}_{g:g}", True if g > 1e-6 else None, comb(n, g))
-                for n, g in ((3, 0.5), (3, 1e-2), (10, 1e-3), (40, 0.1), (3, 1e-6), (3, 1e-9),
-                             (3, 0.0)))
-    yield from ((f"spiral_{n}_{t}_{w:g}", True, spiral(n, t, w))
-                for n, t, w in ((40, 1, 0.3), (200, 3, 0.1), (400, 5, 0.1), (200, 3, 0.01)))
-    yield from ((f"zigzag_{n}_{h:g}", None, zigzag(n, h))
-                for n, h in ((10, 0.5), (10, 0.05), (60, 0.1)))
-    yield from ((f"rough_{n}", True, rough(n, n)) for n in (4, 7, 15, 60, 200, 800, 1500))
-    yield from ((f"ellipse_{n}_{s:g}", True if s > 1e-5 else None, loop(ring(n, squeeze=s)))
-                for n, s in ((4, 1.0), (300, 1.0), (1500, 1.0), (100, 0.01), (20, 1e-4),
-                             (20, 1e-7)))
-    yield from ((f"nested_{g:g}", True if g >= 1e-3 else None, nested(g))
-                for g in (0.9, 0.1, 1e-2, 1e-3, 1e-5, 1e-8, 1e-12, 0.0))
-    yield ("nested_four_deep", True,
-           loops(ring(8), ring(8, 0.8), ring(8, 0.6), ring(8, 0.4)))
-    yield "holes_many", True, loops(rectangle(10, 10), *[
-        corners if k % 2 == 0 else corners[::-1]
-        for k, corners in enumerate(rectangle(0.5, 0.5, 1 + 2 * (i % 4), 1 + 2 * (i // 4))
-                                    for i in range(16))])
+    yield "needle_0.01", True, needle(1e-2)
+    yield "strip_0.001_40", True, strip(1e-3, 40)
+    yield "star_5_0.01", True, star(5, 0.01)
+    yield from ((f"comb_{n}_{g:g}", True if g > 0 else None, comb(n, g)) for n, g in ((10, 1e-3), (3, 0.0)))
+    yield "spiral_200_3_0.01", True, spiral(200, 3, 0.01)
+    yield "zigzag_10_0.05", None, zigzag(10, 0.05)
+    yield "rough_60", True, rough(60, 60)
+    yield "ellipse_20_0.0001", True, loop(ring(20, squeeze=1e-4))
+    yield "nested_0.001", True, loops(ring(12), ring(12, 1 - 1e-3))
+    yield "nested_four_deep", True, loops(ring(8), ring(8, 0.8), ring(8, 0.6), ring(8, 0.4))
     square = rectangle(1.0, 1.0)
-    yield "touch_at_a_corner", None, loops(square, rectangle(1.0, 1.0, 1.0, 1.0)[::-1])
-    yield "touch_along_a_side", None, loops(square, rectangle(1.0, 1.0, 1.0, 0.0)[::-1])
-    yield "touch_nearly", None, loops(square, rectangle(1.0, 1.0, 1.0 + 1e-9, 0.0)[::-1])
-    yield "hole_touches_corner", False, loops(square, [(0.0, 0.0), (0.5, 0.2), (0.2, 0.5)])
     yield "hole_touches_side", False, loops(square, [(0.5, 0.0), (0.7, 0.5), (0.3, 0.5)])
-    yield "hole_crosses", False, loops(square, rectangle(0.5, 0.5, 0.75, 0.25))
-    yield "apart", True, loops(square, rectangle(1.0, 1.0, 3.0, 0.0)[::-1])
-    yield "apart_far", None, loops(square, rectangle(1.0, 1.0, 1e9, 0.0)[::-1])
     yield "apart_uneven", None, loops(square, rectangle(1e-7, 1e-7, 3.0, 0.0)[::-1])
+    yield "close_points_1e-09", None, loop([(0.0, 0.0), (1.0, 0.0), (1.0, 1e-9), (1.0, 1.0), (0.0, 1.0)])
+    yield "far_1e+12", None, moved(loop(ring(6)), offset=1e12)
+    yield "size_1e-160", None, moved(loop(ring(6)), scale=1e-160)
     yield "eight", False, loop([(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)])
-    yield "waist", False, loop([(0.0, 0.0), (1.0, 0.0), (0.5, 0.5), (1.0, 1.0), (0.0, 1.0),
-                                (0.5, 0.5)])
-    yield "on_a_line", False, loop([(0.0, 0.0), (1.0, 1.0), (2.0, 2.0), (3.0, 3.0)])
-    yield "on_one_point", False, loop([(1.0, 1.0)] * 4)
-    yield "twice_a_point", False, loop([(0.0, 0.0), (1.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
-    yield "points_on_sides", True, loop([(0.0, 0.0), (0.5, 0.0), (1.0, 0.0), (1.0, 0.3),
-                                         (1.0, 1.0), (0.1, 1.0), (0.0, 1.0)])
-    yield from ((f"close_points_{d:g}", True if d > 1e-6 else None,
-                 loop([(0.0, 0.0), (1.0, 0.0), (1.0, d), (1.0, 1.0), (0.0, 1.0)]))
-                for d in (1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 1e-17))
-    yield from ((f"slit_{d:g}", None,
-                 loop([(0.0, 0.0), (1.0, 0.0), (1.0, 0.5 - d), (0.5, 0.5), (1.0, 0.5 + d),
-                       (1.0, 1.0), (0.0, 1.0)])) for d in (1e-3, 1e-7, 1e-12))
-    hexagon = loop(ring(6))
-    yield from ((f"far_{o:g}", True if o < 1e8 else None, moved(hexagon, offset=o))
-                for o in (1e3, -1e6, 1e8, 1e12, 1e16, 1e200))
-    yield from ((f"size_{s:g}", True if 1e-30 < s < 1e30 else None, moved(hexagon, scale=s))
-                for s in (1e-6, 1e-20, 1e-100, 1e-160, 1e-310, 1e20, 1e100, 1e160, 1e308))
-    yield "reverse", True, loop(ring(9)[::-1])
-    yield "bent_thin", True, loop([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.99, 1.0), (0.99, 0.01),
-                                   (0.0, 0.01)])
-    yield "two_points", False, loop([(0.0, 0.0), (1.0, 0.0)])
-    yield "loose_point", False, ([*rectangle(1.0, 1.0), (0.5, 0.5)], [[0, 1, 2, 3]])
