@@ -93,31 +93,6 @@ TYPED_TEST(Bind, LeavesTheWeightsThatTheStepsGive) {
   EXPECT_EQ(openmesh::get_weights(this->model_).dense(), all);
 }
 
-TYPED_TEST(Bind, MasksHoldExactlyAndReachExtendsWeights) {
-  const auto& [cage, domain, name] = this->sample_;
-  const auto mean_weight = [&](double reach) {
-    auto options = this->options_;
-    options.solver.reach.assign(cage.size(), 1);
-    options.solver.reach[0] = reach;
-    openmesh::bind(this->model_, cage, domain, options);
-    return openmesh::get_weights(this->model_).dense().row(0).mean();
-  };
-  EXPECT_GT(mean_weight(4), 1.1 * mean_weight(0.25));
-
-  const Eigen::VectorXd distances = (this->rest_.colwise() - cage.points.col(0)).colwise().norm();
-  const double far = distances.mean();
-  std::vector<Index> region;
-  for (Index v = 0; v < static_cast<Index>(distances.size()); ++v) {
-    if (distances[v] > far) region.push_back(v);
-  }
-  this->options_.masks = {{{0}, region}};
-  const auto report = openmesh::bind(this->model_, cage, domain, this->options_);
-  const auto weights = openmesh::get_weights(this->model_).dense();
-  for (const Index v : region) EXPECT_EQ(weights(0, v), 0) << v;
-  EXPECT_GT(weights.row(0).maxCoeff(), 0);
-  EXPECT_LT(report.quality.max_reproduction_error, 1e-12);
-}
-
 TYPED_TEST(Bind, TheObserverSeesTheSolveAndMayCancelIt) {
   const auto& [cage, domain, name] = this->sample_;
   auto options = this->options_;
@@ -303,38 +278,6 @@ TYPED_TEST(Bind, VerticesOutsideAreNamedOrFollowTheCage) {
             TypeParam::kRounding);
 }
 
-TYPED_TEST(Bind, VerticesOutsideStayIfTheyAreKept) {
-  const auto& cage = this->sample_.cage;
-  constexpr int kVertex = 11;
-  put_outside<TypeParam::kDim>(this->model_, cage, kVertex, 1);
-  const auto rest = this->points();
-  this->options_.outside = openmesh::OutsidePoints::kKeep;
-  for (const Index most : {0, 5}) {
-    this->options_.max_influences = most;
-    const auto report = openmesh::bind(this->model_, cage, this->sample_.mesh, this->options_);
-    EXPECT_EQ(report.outside, 1);
-    EXPECT_LT(report.quality.max_reproduction_error, 1e-12);
-    EXPECT_TRUE(openmesh::get_weights(this->model_).dense().col(kVertex).isZero(0));
-    EXPECT_EQ(openmesh::deform(this->model_, cage), 0);
-    EXPECT_LT((this->points() - rest).cwiseAbs().maxCoeff(), TypeParam::kRounding);
-    EXPECT_EQ(openmesh::deform(this->model_, this->random_pose(5)), 0);
-    EXPECT_EQ(this->points().col(kVertex), rest.col(kVertex));
-    EXPECT_GT((this->points() - rest).cwiseAbs().maxCoeff(), 1e-3);
-    openmesh::restore_rest(this->model_);
-    EXPECT_EQ(this->points(), rest);
-    // It is bound, to where it is.
-    EXPECT_EQ(openmesh::bind_new_vertices(this->model_), 0);
-    // Another cage may have moved it.
-    const typename TestFixture::Mesh::VertexHandle kept(kVertex);
-    auto moved = this->model_.point(kept);
-    moved[0] += static_cast<typename TestFixture::Mesh::Scalar>(0.5);
-    this->model_.set_point(kept, moved);
-    EXPECT_EQ(openmesh::deform(this->model_, this->random_pose(5)), 0);
-    EXPECT_EQ(this->model_.point(kept), moved);
-    openmesh::restore_rest(this->model_);
-  }
-}
-
 TYPED_TEST(Bind, AKeptVertexAtTheOriginIsBound) {
   auto cage = this->sample_.cage;
   constexpr int kVertex = 11;
@@ -365,32 +308,6 @@ TYPED_TEST(Bind, WeightsAreRefusedAfterClean) {
     expect_refused<InputError>("vertices was bound",
                                [&] { openmesh::deform(this->model_, this->sample_.cage); });
   }
-}
-
-// Its weights may be negative, so that they are not reduced with the others.
-TYPED_TEST(Bind, VerticesOutsideFollowAnAffineMapIfTheyAreExtended) {
-  constexpr int kVertex = 11, kMost = 5;
-  put_outside<TypeParam::kDim>(this->model_, this->sample_.cage, kVertex, 1);
-  const auto rest = this->points();
-  this->options_.outside = openmesh::OutsidePoints::kExtend;
-  this->options_.max_influences = kMost;
-  const auto report =
-      openmesh::bind(this->model_, this->sample_.cage, this->sample_.mesh, this->options_);
-  EXPECT_EQ(report.outside, 1);
-  EXPECT_LT(report.quality.max_reproduction_error, 1e-11);
-  const WeightMatrix weights = openmesh::get_weights(this->model_).dense();
-  for (Index k = 0; k < weights.cols(); ++k) {
-    if (k == kVertex) continue;
-    EXPECT_LE((weights.col(k).array() != 0).count(), kMost);
-    EXPECT_GE(weights.col(k).minCoeff(), 0);
-  }
-  EXPECT_LT(weights.col(kVertex).minCoeff(), 0);
-  // An affine map of the control points moves the vertex as well.
-  Eigen::Matrix<double, TypeParam::kDim, TypeParam::kDim> map =
-      1.5 * Eigen::Matrix<double, TypeParam::kDim, TypeParam::kDim>::Identity();
-  map(0, 1) = 0.3;
-  openmesh::deform(this->model_, PointList<TypeParam::kDim>(map * this->sample_.cage.points));
-  EXPECT_LT((this->points() - map * rest).cwiseAbs().maxCoeff(), 10 * TypeParam::kRounding);
 }
 
 TYPED_TEST(Bind, FilesKeepABinding) {

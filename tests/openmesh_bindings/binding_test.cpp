@@ -102,6 +102,7 @@ TEST_IN_2D_AND_3D(MeshBinding, CopiesFilesAndReductionsKeepIt) {
     Sheet<Dim> sheet;
     sheet.mesh.set_point(OpenMesh::VertexHandle(kOutside), {0.5, 1.2, 0.4});
     sheet.options.outside = outside;
+    sheet.options.persistent = outside != OutsidePoints::kKeep;
     const auto expected =
         bind<Dim>(sheet.sample.cage, sheet.sample.mesh, openmesh::points_of<Dim>(sheet.mesh),
                   openmesh::edge_list<Dim>(sheet.mesh), sheet.options);
@@ -129,24 +130,6 @@ TEST_IN_2D_AND_3D(MeshBinding, CopiesFilesAndReductionsKeepIt) {
       for (const auto v : mesh.vertices()) EXPECT_EQ(mesh.point(v), sheet.mesh.point(v));
     }
   }
-}
-
-// The reduction adopts influences of neighbors, unless they are masked.
-TEST_IN_2D_AND_3D(MeshBinding, ReductionsObeyMasks) {
-  Sheet<Dim> sheet;
-  sheet.options.mirror_axis = -1;
-  sheet.options.max_influences = 0;
-  sheet.bind();
-  const auto masked_weight = [&] {
-    const auto weights = openmesh::get_weights(sheet.mesh).dense();
-    return weights(sheet.right, sheet.left).cwiseAbs().maxCoeff();
-  };
-  EXPECT_EQ(masked_weight(), 0);
-  openmesh::sparsify(sheet.mesh, Dim + 1);
-  EXPECT_EQ(masked_weight(), 0);
-  // Other weights are not masked.
-  openmesh::set_weights(sheet.mesh, openmesh::get_weights(sheet.mesh));
-  EXPECT_TRUE(binding_of<Dim>(sheet.mesh).masks.empty());
 }
 
 TEST_IN_2D_AND_3D(MeshBinding, MirrorImagesFollowTheirVertices) {
@@ -210,31 +193,6 @@ TEST_IN_2D_AND_3D(MeshBinding, NewVerticesObeyTheMasksOfTheirNeighbors) {
       openmesh::restore_rest(mesh, weights);
     }
   }
-}
-
-class MeshBindingFile : public FolderTest {};
-
-TEST_F(MeshBindingFile, SkinsObeyMasks) {
-  Sheet<3> sheet;
-  sheet.options.max_influences = 0;
-  sheet.bind();
-  openmesh::SkinOptions options;
-  options.max_influences = 4;
-  auto pose = sheet.sample.cage.points;
-  for (const Index i : sheet.right) pose(2, i) += 1;
-  openmesh::write_skin<3>(path("skin.glb"), sheet.mesh, {pose}, options);
-  const GlbFile file(content("skin.glb"));
-  const Eigen::MatrixXd rest = file.skinned(file.joints()), moved = file.skinned(file.joints(0));
-  const auto sources = file.sources();
-  for (std::size_t v = 0; v < sources.size(); ++v) {
-    const auto p = static_cast<Index>(sources[v]);
-    const double height = rest(2, static_cast<Index>(v));
-    EXPECT_NEAR(height, 0.4, 1e-6);
-    if (std::binary_search(sheet.left.begin(), sheet.left.end(), p)) {
-      EXPECT_NEAR(moved(2, static_cast<Index>(v)), height, 1e-7);
-    }
-  }
-  EXPECT_GT((moved - rest).cwiseAbs().maxCoeff(), 0.5);
 }
 
 }  // namespace

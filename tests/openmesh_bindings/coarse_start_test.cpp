@@ -10,19 +10,6 @@
 namespace flbc::testing {
 namespace {
 
-TEST(CoarseStart, IsTakenOnMeshesOfTheMeshers) {
-  const auto cage = regular_polygon(32, 0.6);
-  const auto domain = triangulate(cage, {3000});
-  auto mesh = openmesh::to_mesh<DoubleTri>(domain);
-  const auto report = openmesh::solve(mesh, cage);
-  ASSERT_EQ(report.coarse_levels.size(), 1U);
-  EXPECT_LT(report.coarse_levels[0].vertices, report.vertices / 3);
-  // Bound on the same mesh of the interior, too.
-  DoubleTri model;
-  model.add_vertex({0.1, 0.2, 0});
-  EXPECT_EQ(openmesh::bind(model, cage, domain).solve.coarse_levels.size(), 1U);
-}
-
 // All that saves time in solve() of a cage and a mesh is used here, too.
 template <int Dim>
 void expect_solve_of_cage_and_mesh(const Cage<Dim>& cage, const DomainMesh<Dim>& domain) {

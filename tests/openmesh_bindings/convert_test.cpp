@@ -137,29 +137,6 @@ TEST(ConvertTets, DomainsComeBack) {
   }
 }
 
-template <int Dim, class Mesh>
-void expect_matrices(const Mesh& mesh, const DomainMesh<Dim>& domain) {
-  EXPECT_EQ(openmesh::points_of<Dim>(mesh), domain.points);
-  std::multiset<std::vector<Index>> edges;
-  for (const auto& edge : edges_of_cells(domain).ends) {
-    edges.insert({std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
-  }
-  EXPECT_EQ(unordered(openmesh::edges_of(mesh)), edges);
-  const auto list = openmesh::edge_list<Dim>(mesh), expected = edges_of_cells(domain);
-  EXPECT_EQ(list.ends.size(), expected.ends.size());
-  double sum = 0;
-  for (const double weight : list.weights) sum += weight;
-  for (const double weight : expected.weights) sum -= weight;
-  EXPECT_NEAR(sum, 0, 1e-9);
-}
-
-TEST(ConvertMatrices, PointsAndEdges) {
-  const auto flat = make_sample<2>(Shape::kCorner, 3, 0.2);
-  expect_matrices<2>(openmesh::to_mesh<DoubleTri>(flat.mesh), flat.mesh);
-  const auto solid = make_sample<3>(Shape::kCorner, 2, 0.2);
-  expect_matrices<3>(openmesh::to_mesh(solid.mesh), solid.mesh);
-}
-
 TEST(ConvertMatrices, PointsAreSetAndTheirNumberIsChecked) {
   const auto sample = make_sample<2>(Shape::kBox, 2);
   auto mesh = openmesh::to_mesh<DoubleTri>(sample.mesh);

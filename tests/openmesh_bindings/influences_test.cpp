@@ -133,34 +133,6 @@ TYPED_TEST(MeshWeights, DeformAsArraysDo) {
   expect_refused<Error>("do not match a cage with", [&] { openmesh::deform(this->mesh_, other); });
 }
 
-TYPED_TEST(MeshWeights, SparsifyKeepsWhatCounts) {
-  constexpr int kDimension = TestFixture::kDim;
-  const Index most = kDimension + 2;
-  const PointList<kDimension> rest = this->sample_.cage.points * this->weights_;
-  const auto edges = edges_of_cells(DomainMesh<kDimension>{rest, this->sample_.mesh.cells});
-  double costs[2];
-  for (const auto reduction : {openmesh::Reduction::kPoisson, openmesh::Reduction::kQuadratic}) {
-    openmesh::set_weights(this->mesh_, this->weights_);
-    // Where the mesh is does not matter.
-    openmesh::deform(this->mesh_, this->pose_);
-    openmesh::ReductionOptions options;
-    options.reduction = reduction;
-    const auto quality = openmesh::sparsify(this->mesh_, most, options);
-    EXPECT_LT(quality.max_reproduction_error, 1e-12);
-    const auto few = openmesh::get_weights(this->mesh_).dense();
-    EXPECT_LE((few.array() != 0).colwise().count().maxCoeff(), most);
-    EXPECT_GE(few.minCoeff(), 0);
-    EXPECT_LT((few.colwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
-    EXPECT_LT((this->sample_.cage.points * few - rest).cwiseAbs().maxCoeff(), 1e-12);
-    openmesh::deform(this->mesh_, this->sample_.cage);
-    EXPECT_LT((this->points() - rest).cwiseAbs().maxCoeff(), TestFixture::kExact ? 1e-12 : 1e-6);
-    costs[static_cast<int>(reduction)] =
-        poisson_cost<kDimension>(this->sample_.cage.points, rest, edges, this->weights_, few, {});
-  }
-  EXPECT_LE(costs[static_cast<int>(openmesh::Reduction::kPoisson)],
-            costs[static_cast<int>(openmesh::Reduction::kQuadratic)]);
-}
-
 TYPED_TEST(MeshWeights, SparsifyLeavesTheOthersIfAsked) {
   openmesh::ReductionOptions options;
   options.into = "few";

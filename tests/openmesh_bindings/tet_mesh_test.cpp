@@ -54,22 +54,6 @@ TEST(TetMesh, KeepsPointsAndCells) {
   }
 }
 
-TEST(TetMesh, EulerCharacteristics) {
-  for (const auto& [mesh, tunnels] : meshes()) {
-    const auto tets = TetMesh::from(mesh);
-    const auto count = [](std::size_t n) { return static_cast<int>(n); };
-    EXPECT_EQ(count(tets.n_vertices()) - count(tets.n_edges()) + count(tets.n_faces()) -
-                  count(tets.n_cells()),
-              1 - tunnels);
-    int vertices = 0, edges = 0, faces = 0;
-    for (const auto v : tets.vertices()) vertices += tets.is_boundary(v);
-    for (const auto e : tets.edges()) edges += tets.is_boundary(e);
-    for (const auto f : tets.faces()) faces += tets.is_boundary(f);
-    EXPECT_EQ(vertices - edges + faces, 2 - 2 * tunnels);
-    EXPECT_EQ(2 * edges, 3 * faces);
-  }
-}
-
 TEST(TetMesh, FacesAndCells) {
   for (const auto& [mesh, tunnels] : meshes()) {
     const auto tets = TetMesh::from(mesh);
@@ -101,30 +85,6 @@ TEST(TetMesh, FacesAndCells) {
       }
     }
     EXPECT_EQ(different.size(), tets.n_faces());
-  }
-}
-
-// Faces look out of their first cell, so the boundary is a closed surface that looks outward.
-TEST(TetMesh, BoundaryIsAClosedSurface) {
-  for (const auto& [mesh, tunnels] : meshes()) {
-    const auto tets = TetMesh::from(mesh);
-    std::map<std::pair<int, int>, int> directed_edges;
-    double volume = 0;
-    for (const auto f : tets.faces()) {
-      if (!tets.is_boundary(f)) continue;
-      const auto v = tets.fv_range(f);
-      for (std::size_t k = 0; k < 3; ++k) ++directed_edges[{v[k].idx(), v[(k + 1) % 3].idx()}];
-      volume += mesh.points.col(v[0].idx())
-                    .dot(mesh.points.col(v[1].idx()).cross(mesh.points.col(v[2].idx()))) /
-                6;
-    }
-    for (const auto& [edge, count] : directed_edges) {
-      EXPECT_EQ(count, 1);
-      EXPECT_EQ(directed_edges.count({edge.second, edge.first}), 1u);
-    }
-    double expected = 0;
-    for (Index s = 0; s < mesh.num_cells(); ++s) expected += signed_measure(mesh, s);
-    EXPECT_NEAR(volume, expected, 1e-12 * expected);
   }
 }
 

@@ -84,23 +84,5 @@ TYPED_TEST(TetProperty, AssigningKeepsAndResizes) {
   }
 }
 
-TEST(TetProperties, OfTheMesh) {
-  TetMesh mesh;
-  MPropHandleT<std::string> handle;
-  mesh.add_property(handle, "note");
-  mesh.property(handle) = "text";
-  const TetMesh& constant = mesh;
-  EXPECT_EQ(constant.property(handle), "text");
-  EXPECT_EQ(constant.mproperty(handle)[0], "text");
-  mesh.assign(box(1));
-  mesh.mproperty(handle)[0] += "s";
-  EXPECT_EQ(constant.property(handle), "texts");
-  MPropHandleT<Wide<double>> row;
-  mesh.add_property(row, "row");
-  mesh.mproperty(row).set_shape(1, 4);
-  mesh.property(row)[3] = 2;
-  EXPECT_EQ(mesh.mproperty(row)[0][3], 2);
-}
-
 }  // namespace
 }  // namespace flbc::openmesh

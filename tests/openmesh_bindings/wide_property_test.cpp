@@ -75,17 +75,6 @@ TYPED_TEST(WideProperty, GivesNewElementsZeroRows) {
   }
 }
 
-TYPED_TEST(WideProperty, ClearsItsRowsAndKeepsItsShape) {
-  const auto handle = add_filled<typename TestFixture::Vertices>(this->mesh_, "rows", 2, 9);
-  auto& rows = this->mesh_.property(handle);
-  rows.clear();
-  EXPECT_EQ(rows.n_elements(), 0U);
-  EXPECT_EQ(rows.width(), 9U);
-  rows.resize(4);
-  EXPECT_EQ(rows.bytes(), 4 * 2 * 9 * sizeof(typename TypeParam::Scalar));
-  EXPECT_TRUE(is_zero(rows, 0, 4));
-}
-
 TYPED_TEST(WideProperty, SwapsAndCopiesElements) {
   using Scalar = typename TypeParam::Scalar;
   const auto handle = add_filled<typename TestFixture::Edges>(this->mesh_, "rows", 4, 13);
