@@ -42,23 +42,6 @@ Binding<Dim> bound(OutsidePoints outside, bool with_outside, Index max_influence
   return bind<Dim>(sample.cage, sample.mesh, model<Dim>(with_outside), {}, options);
 }
 
-TEST_IN_2D_AND_3D(BindTest, PointsFollowAffineMapsOfTheCage) {
-  const auto cage = box<Dim>().cage;
-  Eigen::Matrix<double, Dim, Dim> map = Eigen::Matrix<double, Dim, Dim>::Constant(0.3);
-  map.diagonal().setLinSpaced(-1, 2);
-  const auto points = model<Dim>(false);
-  for (const Index few : {0, Dim + 1, Dim + 2}) {
-    const auto binding = bound<Dim>(OutsidePoints::kFail, false, few);
-    EXPECT_EQ(binding.offsets.cols(), 0);
-    EXPECT_LT((binding.deform(map * cage.points) - map * points).cwiseAbs().maxCoeff(), 1e-13);
-    EXPECT_GE(binding.report.quality.min_weight, 0);
-    for (Index p = 0; few > 0 && p < points.cols(); ++p) EXPECT_LE(binding.weights.count(p), few);
-    EXPECT_EQ(binding.report.mesher, "");
-    EXPECT_EQ(binding.report.solve.status, SolveStatus::kConverged);
-    EXPECT_GT(binding.report.solve.mesh_error, 0);
-  }
-}
-
 TEST_IN_2D_AND_3D(BindTest, PointsOutsideFollowTheirPolicy) {
   const auto cage = box<Dim>().cage;
   const auto points = model<Dim>(true);

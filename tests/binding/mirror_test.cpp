@@ -50,43 +50,6 @@ Index image_of(const PointList<Dim>& points, Index p, double twice = 1) {
   return -1;
 }
 
-TEST_IN_2D_AND_3D(MirrorTest, MirroredPointsHaveMirroredWeights) {
-  const auto [cage, mesh, name] = with_fine_cage<Dim>(Shape::kBox, 4, 8);
-  const auto points = mirrored_points<Dim>();
-  BindOptions options;
-  options.mirror_axis = 0;
-  for (const bool masked : {false, true}) {
-    if (masked) options.masks = {{{0}, {2, 4, 6}}};
-    for (const Index most : {0, 8, Dim + 1}) {
-      options.max_influences = most;
-      const auto binding = bind<Dim>(cage, mesh, points, mirrored_edges(), options);
-      for (Index p = 0; p < points.cols(); ++p) {
-        const Index q = image_of<Dim>(points, p);
-        if (q < 0 || (q == p && most == Dim + 1)) continue;
-        const Eigen::VectorXd here = binding.weights.at(p), there = binding.weights.at(q);
-        for (Index i = 0; i < cage.size(); ++i) {
-          ASSERT_EQ(here[i], there[image_of<Dim>(cage.points, i)]) << p << ' ' << i;
-        }
-        EXPECT_LE((here.array() != 0).count(), most > 0 ? most : cage.size());
-      }
-      for (const Index p : {2, 4, 6}) {
-        if (!masked) break;
-        EXPECT_EQ(binding.weights.at(p)[0], 0);
-        EXPECT_EQ(binding.weights.at(p + 1)[image_of<Dim>(cage.points, 0)], 0);
-      }
-      EXPECT_GE(binding.report.quality.min_weight, 0);
-      EXPECT_LT((binding.deform(cage.points) - points).cwiseAbs().maxCoeff(), 1e-13);
-    }
-  }
-  options = {};
-  options.max_influences = 0;
-  const auto free = bind<Dim>(cage, mesh, points, mirrored_edges(), options).weights.dense();
-  options.mirror_axis = 0;
-  const auto alike = bind<Dim>(cage, mesh, points, mirrored_edges(), options).weights.dense();
-  EXPECT_GT((free - alike).norm(), 1e-6) << "the mesh is symmetric";
-  EXPECT_LT((free - alike).cwiseAbs().maxCoeff(), 0.1);
-}
-
 // Two mirrored lists of weights, exactly.
 template <int Dim>
 void expect_mirrored(const SparseWeights& weights, Index p, Index q,
@@ -250,19 +213,6 @@ TEST_IN_2D_AND_3D(MirrorTest, MasksEndAlikeOnFlatQuads) {
   }
 }
 
-TEST_IN_2D_AND_3D(MirrorTest, PointsOutsideDoNotSpoilTheOthers) {
-  const auto [cage, mesh, name] = with_fine_cage<Dim>(Shape::kBox, 2, 8);
-  auto points = mirrored_points<Dim>();
-  points(Dim - 1, 0) = points(Dim - 1, 1) = -0.02;
-  BindOptions options;
-  options.mirror_axis = 0;
-  options.outside = OutsidePoints::kExtend;
-  Rig<Dim> rig(cage, mesh, points, mirrored_edges(), options);
-  const auto all = rig.weights_of_points();
-  const auto reduced = rig.binding().reduced({2 * cage.size()}).weights;  // to no fewer
-  EXPECT_LT((all.dense() - reduced.dense()).cwiseAbs().maxCoeff(), 1e-12);
-}
-
 // The nearest points of the cage are not unique in a notch, and in the plane over one.
 TEST(MirrorTest, PointsOutsideInNotchesAreMirrored) {
   Cage<2> cage{PointList<2>(2, 7), FacetList<2>(2, 7)};
@@ -294,25 +244,6 @@ TEST(MirrorTest, PointsOutsideInNotchesAreMirrored) {
       EXPECT_LT((deform<2>(binding.weights, cage.points) - attached).cwiseAbs().maxCoeff(), 1e-13);
     }
   }
-}
-
-TEST_IN_2D_AND_3D(MirrorTest, TheCureOfAConflictIsSymmetric) {
-  const auto [cage, mesh, name] = with_fine_cage<Dim>(Shape::kBox, 2, 4);
-  const auto points = mirrored_points<Dim>();
-  BindOptions options;
-  options.mirror_axis = 0;
-  options.masks = {{{}, {0, 4, 40, 48}}};
-  for (Index i = 1; i < cage.size(); ++i) options.masks[0].control_points.push_back(i);
-  try {
-    bind<Dim>(cage, mesh, points, {}, options);
-    FAIL();
-  } catch (const MaskConflict& conflict) {
-    auto& left = options.masks[0].control_points;
-    for (const Index i : conflict.control_points) {
-      left.erase(std::remove(left.begin(), left.end(), i), left.end());
-    }
-  }
-  EXPECT_NO_THROW(bind<Dim>(cage, mesh, points, {}, options));
 }
 
 TEST(MirrorTest, QuadsThatAreCutDifferentlyMustBeFlat) {

@@ -55,46 +55,6 @@ void expect_obeyed(const Binding<Dim>& binding, const PointList<Dim>& control_po
   EXPECT_LT((binding.deform(control_points) - points).cwiseAbs().maxCoeff(), 1e-13);
 }
 
-TEST_IN_2D_AND_3D(ModelMasksTest, WeightsAreExactlyZeroAfterEachStep) {
-  const auto [cage, mesh, name] = box_in_grid<Dim>();
-  const Grid<Dim> grid(0.07);
-  BindOptions options;
-  options.masks = {grid.mask(cage.points, 0.6, 0.4)};
-  for (const Index most : {0, 8, Dim + 1}) {
-    options.max_influences = most;
-    for (const Reduction reduction : {Reduction::kPoisson, Reduction::kQuadratic}) {
-      options.reduction = reduction;
-      const auto binding = bind<Dim>(cage, mesh, grid.points, grid.edges, options);
-      expect_obeyed(binding, cage.points, grid.points, options.masks[0]);
-      EXPECT_GE(binding.report.quality.min_weight, 0);
-      EXPECT_EQ(binding.report.note, "");
-    }
-  }
-}
-
-TEST_IN_2D_AND_3D(ModelMasksTest, ARigResumesWithOtherMasks) {
-  const auto [cage, mesh, name] = box_in_grid<Dim>();
-  const Grid<Dim> grid(0.07);
-  BindOptions options;
-  Rig<Dim> rig(cage, mesh, grid.points, grid.edges, options);
-  rig.solve();
-  for (const double to : {0.3, 0.4}) {
-    options.masks = {grid.mask(cage.points, 0.6, to)};
-    rig.set_options(options);
-    rig.solve();
-    const auto resumed = rig.bind();
-    expect_obeyed(resumed, cage.points, grid.points, options.masks[0]);
-    const auto fresh = bind<Dim>(cage, mesh, grid.points, grid.edges, options);
-    EXPECT_LE(resumed.report.solve.iterations, fresh.report.solve.iterations);
-    const WeightMatrix difference = resumed.weights.dense() - fresh.weights.dense();
-    EXPECT_LT(difference.squaredNorm() / static_cast<double>(grid.points.cols()), 1e-2);
-  }
-  const auto before = rig.bind().weights;
-  options.masks = {grid.mask(cage.points, -1, 0.4)};
-  expect_refused("masked vertices cannot follow", [&] { rig.set_options(options); });
-  EXPECT_TRUE(rig.bind().weights == before);
-}
-
 TEST_IN_2D_AND_3D(ModelMasksTest, PointsOutsideObey) {
   const auto [cage, mesh, name] = box_in_grid<Dim>();
   const Grid<Dim> grid(-0.1);
@@ -123,22 +83,6 @@ TEST_IN_2D_AND_3D(ModelMasksTest, PointsOutsideThatCannotObeyAreRefused) {
   EXPECT_NO_THROW(bind<Dim>(cage, mesh, grid.points, grid.edges, options));
 }
 
-TEST_IN_2D_AND_3D(ModelMasksTest, MasksEndAtFacets) {
-  const auto [cage, mesh, name] = box_in_grid<Dim>();
-  const Grid<Dim> grid(0);
-  BindOptions options;
-  options.masks = {grid.mask(cage.points, 0.6, 2)};  // everywhere, on their facets too
-  for (Index p = 0; p < grid.points.cols(); ++p) {
-    const auto x = grid.points.col(p);
-    const bool is_far = x[0] >= 0.4 && x[0] < 1;  // here the weights need these control points
-    auto& points = options.masks[0].points;
-    if (is_far) points.erase(std::remove(points.begin(), points.end(), p), points.end());
-  }
-  const auto binding = bind<Dim>(cage, mesh, grid.points, grid.edges, options);
-  expect_piece(binding.report.note, "are on facets of masked control points");
-  EXPECT_LT((binding.deform(cage.points) - grid.points).cwiseAbs().maxCoeff(), 1e-12);
-}
-
 // Vertices on a facet, as files store them, are on it from either side.
 TEST_IN_2D_AND_3D(ModelMasksTest, MasksEndAtFacetsWithinThePrecisionOfFiles) {
   const auto [cage, mesh, name] = box_in_grid<Dim>();
@@ -161,15 +105,6 @@ TEST_IN_2D_AND_3D(ModelMasksTest, MasksEndAtFacetsWithinThePrecisionOfFiles) {
     for (const Index i : options.masks[0].control_points) movers += weights[i] != 0 ? 1 : 0;
     EXPECT_LE(movers, p < 3 ? Dim : Dim - 1) << p;
   }
-}
-
-TEST_IN_2D_AND_3D(ModelMasksTest, ConflictsNameTheVertexOfTheModel) {
-  const auto [cage, mesh, name] = box_in_grid<Dim>();
-  const Grid<Dim> grid(0.07);
-  BindOptions options;
-  options.masks = {grid.mask(cage.points, 0.3, 0.4)};
-  std::string first = "the first is vertex " + std::to_string(2);
-  expect_refused(first, [&] { bind<Dim>(cage, mesh, grid.points, grid.edges, options); });
 }
 
 TEST_IN_2D_AND_3D(ModelMasksTest, AConflictHasItsPointsAndItsCure) {
