@@ -56,7 +56,9 @@ TEST_IN_2D_AND_3D(PointwiseTest, EqualAtTheCenterOfARegularCage) {
 TEST_IN_2D_AND_3D(PointwiseTest, LinearOnFacetsAndContinuousTowardThem) {
   for (const auto& sample : cages<Dim>()) {
     const auto& cage = sample.cage;
-    for (const auto coordinates : non_negative_coordinates<Dim>()) {
+    auto all = non_negative_coordinates<Dim>();
+    all.push_back(Coordinates::kMeanValue);
+    for (const auto coordinates : all) {
       SCOPED_TRACE(sample.name + ", coordinates " + std::to_string(static_cast<int>(coordinates)));
       EXPECT_EQ(pointwise_coordinates(cage, cage.points, coordinates),
                 WeightMatrix::Identity(cage.size(), cage.size()));
@@ -100,7 +102,8 @@ TEST_IN_2D_AND_3D(PointwiseTest, FollowRotationScaleAndOrientation) {
     Eigen::Matrix<double, Dim, Dim> rotation = Eigen::Matrix<double, Dim, Dim>::Identity();
     rotation.template topLeftCorner<2, 2>() = Eigen::Rotation2Dd(0.7).toRotationMatrix();
     // The blend depends on which vertices on a common circle are used.
-    for (const auto coordinates : {Coordinates::kMaxEntropy, Coordinates::kMaxLikelihood}) {
+    for (const auto coordinates :
+         {Coordinates::kMeanValue, Coordinates::kMaxEntropy, Coordinates::kMaxLikelihood}) {
       const auto weights = pointwise_coordinates(sample.cage, points, coordinates);
       for (const double scale : {1e-25, 3.0, 1e25}) {
         auto moved = reversed(sample.cage);

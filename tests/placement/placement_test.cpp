@@ -172,42 +172,6 @@ TEST_IN_2D_AND_3D(PlacementTest, NearestIsTheNearestPointOfTheCage) {
   }
 }
 
-TEST_IN_2D_AND_3D(PlacementTest, PointsThatAreKeptHaveNoWeights) {
-  PlacementTest<Dim> t;
-  const auto& cage = t.sample.cage;
-  for (const double part : {-0.01, 1e-7, 0.2}) {
-    const auto points = t.off_the_facets(part * t.size);
-    const auto placement = place_points(cage, t.sample.mesh, points, OutsidePoints::kKeep);
-    const auto weights = weights_at(cage, t.sample.mesh, t.weights, placement);
-    const auto outside = points_outside(cage, points);
-    std::vector<bool> is_outside(static_cast<std::size_t>(points.cols()), false);
-    for (const Index p : outside) is_outside[p] = true;
-    EXPECT_EQ(outside.empty(), part < 1e-6);
-    const auto near = t.weights_at_points(points, OutsidePoints::kNearest);
-    for (Index p = 0; p < weights.num_points(); ++p) {
-      EXPECT_EQ(weights.has_weights(p), !is_outside[p]);
-      if (is_outside[p]) {
-        EXPECT_EQ(placement.points.col(p), points.col(p));
-      } else {
-        EXPECT_EQ(weights.at(p), near.col(p));
-      }
-    }
-    // They have none in any reduction either.
-    const auto few = sparsify<Dim>(cage.points, placement.points, weights, {Dim + 1});
-    EdgeList edges;
-    for (Index p = 0; p + 1 < weights.num_points(); ++p) edges.ends.push_back({p, p + 1});
-    const auto smooth =
-        reduce_by_poisson<Dim>(cage.points, placement.points, edges, weights, {}, {Dim + 1});
-    for (const auto& reduced : {few, smooth}) {
-      for (Index p = 0; p < weights.num_points(); ++p) {
-        ASSERT_EQ(reduced.has_weights(p), !is_outside[p]);
-        const double sum = is_outside[p] ? 0 : 1;
-        EXPECT_NEAR(reduced.at(p).sum(), sum, 1e-12);
-      }
-    }
-  }
-}
-
 TEST_IN_2D_AND_3D(PlacementTest, AttachedPointsAreThoseThatTheWeightsReproduce) {
   PlacementTest<Dim> t;
   const auto& cage = t.sample.cage;
