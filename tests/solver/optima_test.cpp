@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The library's solvers against optima of an interior-point method (tests/data/references): three
-// iterations and a fourth method that have nothing in common but the problem.
+// The library's solvers against optima of an interior-point method (tests/data/references), with
+// which they have nothing in common but the problem.
 #include "flbc/harmonic.h"
-#include "flbc/options.h"
+#include "flbc/published_penalty.h"
 #include "solver/methods/splitting/compact_splitting.h"
 #include "support/reference_optimum.h"
 #include "support/solver_options.h"
@@ -67,10 +67,6 @@ SolverOptions accurate(const LbcProblem<Dim>& problem, Method method, NonNegativ
   options.method = method;
   options.non_negative = non_negative;
   double penalty = 300;
-  if (method == Method::kGradient) {
-    options.max_iterations = 30000;
-    penalty = Dim == 2 ? 1e5 : 1e6;
-  }
   if (method == Method::kLbc2014) {
     options.max_iterations = 8000;
     penalty = Dim == 2 ? 3 : 0.03;
@@ -102,10 +98,6 @@ void expect_found(Method method, NonNegative non_negative) {
 TEST_IN_2D_AND_3D(OptimaTest, WeightsFindBothOptima) {
   expect_found<Dim>(Method::kWeights, NonNegative::kOff);
   expect_found<Dim>(Method::kWeights, NonNegative::kConstraint);
-}
-
-TEST_IN_2D_AND_3D(OptimaTest, GradientsFindTheUnconstrainedOptimum) {
-  expect_found<Dim>(Method::kGradient, NonNegative::kOff);
 }
 
 TEST_IN_2D_AND_3D(OptimaTest, TheOriginalSolverFindsTheUnconstrainedOptimum) {

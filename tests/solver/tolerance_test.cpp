@@ -175,10 +175,6 @@ void expect_gradient_promise_kept(const LbcProblem<Dim>& problem,
   for (const double tolerance : tolerances) {
     SCOPED_TRACE(tolerance);
     options.tolerance = tolerance;
-#ifdef _WIN32
-    // TetGen places vertices differently here, and the mesh of the arm takes more than usual.
-    options.max_iterations = 100000;
-#endif
     const auto [weights, report] = solve(problem, options);
     EXPECT_EQ(report.status, SolveStatus::kConverged);
     EXPECT_LT(mean_squared_difference(problem.mesh, weights.dense(), exact),
@@ -203,9 +199,9 @@ void expect_promises_kept_on(const Model& model) {
   const auto cage = load_cage<Dim>(model.file);
   const auto mesh = mesh_of(cage, model.vertices);
   expect_promise_kept(cage, mesh);
-  std::vector<double> tolerances = {1e-4, 1e-5, 1e-6};
-  while (tolerances.back() < model.finest) tolerances.pop_back();
-  expect_gradient_promise_kept(smooth_problem(Sample<Dim>{cage, mesh, ""}), tolerances);
+  if constexpr (Dim == 2) {  // in 3D, finer tolerances take thousands of iterations
+    expect_gradient_promise_kept(smooth_problem(Sample<Dim>{cage, mesh, ""}), {1e-4, 1e-5, 1e-6});
+  }
 }
 
 class LongTolerance : public ::testing::TestWithParam<Model> {};
@@ -217,10 +213,10 @@ INSTANTIATE_TEST_SUITE_P(Models, LongTolerance,
                          ::testing::Values(Model{"woody", "2d/woody-control-edgeset.obj", 2000},
                                            Model{"cactus", "2d/cactus-control-edgeset.obj", 2000},
                                            Model{"logo", "2d/LBClogo-control-edgeset.obj", 2000},
-                                           Model{"horse", "3d/horse_cage.obj", 2000, 1e-5},
+                                           Model{"horse", "3d/horse_cage.obj", 2000},
                                            Model{"shark", "3d/shark_cage.obj", 2000},
-                                           Model{"beast", "3d/beast_cage.obj", 2000, 1e-5},
-                                           Model{"arm", "3d/arm_cage.obj", 950, 1e-4}),
+                                           Model{"beast", "3d/beast_cage.obj", 2000},
+                                           Model{"arm", "3d/arm_cage.obj", 950}),
                          name_of_model);
 
 }  // namespace

@@ -12,7 +12,6 @@ struct Model {
   const char* name;
   const char* file;
   Index vertices;
-  double finest = 0;  //!< tolerance to test; finer ones take thousands of iterations
 
   bool is_planar() const { return file[0] == '2'; }
 };
