@@ -458,69 +458,6 @@ TEST_F(GltfDocumentTest, WhatIsReplacedGoes) {
   }
 }
 
-// Meshes that share their numbers in any way, and numbers that nothing uses.
-TEST_F(GltfDocumentTest, RandomDocumentsKeepWhatDoesNotMove) {
-  std::mt19937 random(11);
-  const auto draw = [&](std::size_t count) {
-    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
-  };
-  const auto unused = [](const GlbChunks& file) {
-    std::multiset<std::string> content;
-    for (const auto number : file.unused()[0]) content.insert(file.accessor(number));
-    return content;
-  };
-  for (int round = 0; round < 30; ++round) {
-    NewGlb file(R"({"scene":0,"scenes":[{"nodes":[0,1,2,3]}],"nodes":[],"meshes":[]})");
-    std::vector<std::size_t> positions, places, faces;
-    for (int k = 0; k < 4; ++k) {
-      const Points points = (k + 1) * corners();
-      positions.push_back(k % 2 == 0 ? file.add<float>(points) : file.add<std::uint8_t>(points));
-      places.push_back(file.add<float>(Points(Points::Random(2, 4))));
-      faces.push_back(file.add<std::uint16_t>(kFaces));
-    }
-    file.json["images"].push_back({{"bufferView", file.add_view("\x89PNG\r\n\x1a\nodd")}});
-    for (int mesh = 0; mesh < 3; ++mesh) {
-      auto primitives = Json::array();
-      for (std::size_t p = 0; p <= draw(3); ++p) {
-        primitives.push_back({{"indices", faces[draw(4)]}});
-        primitives.back()["attributes"] = {{"POSITION", positions[draw(4)]},
-                                           {"TEXCOORD_0", places[draw(4)]}};
-      }
-      file.json["meshes"].push_back({{"primitives", primitives}});
-    }
-    for (int node = 0; node < 4; ++node) {
-      file.json["nodes"].push_back({{"mesh", draw(3)}, {"translation", {10 * node, 0, 0}}});
-    }
-    const GlbChunks before(file.glb());
-    const auto model = read(file);
-    PointList<3> wanted = io::to_points<3>(model.model().soup, "");
-    for (int moves = 0; moves < 3; ++moves) {
-      wanted(2, static_cast<Eigen::Index>(draw(static_cast<std::size_t>(wanted.cols())))) += 0.25;
-    }
-    const auto after = moved(model, wanted);
-    EXPECT_EQ(unused(after), unused(before));
-    EXPECT_TRUE(after.unused()[1].empty());
-    EXPECT_EQ(after.view(after.json["images"][0]["bufferView"]), "\x89PNG\r\n\x1a\nodd");
-    for (std::size_t node = 0; node < 4; ++node) {
-      const auto primitives = [node](const GlbChunks& chunks) {
-        return chunks
-            .json["meshes"][chunks.json["nodes"][node]["mesh"].get<std::size_t>()]["primitives"];
-      };
-      const auto old_ones = primitives(before), new_ones = primitives(after);
-      ASSERT_EQ(old_ones.size(), new_ones.size());
-      for (std::size_t p = 0; p < old_ones.size(); ++p) {
-        const auto content = [p](const GlbChunks& chunks, const Json& all) {
-          return chunks.accessor(all[p]["indices"]) +
-                 chunks.accessor(all[p]["attributes"]["TEXCOORD_0"]);
-        };
-        EXPECT_EQ(content(after, new_ones), content(before, old_ones));
-      }
-    }
-    const auto again = io::to_points<3>(ModelFile(path("moved.glb")).model().soup, "");
-    EXPECT_LT((again - wanted).cwiseAbs().maxCoeff(), 1e-6 * 40);
-  }
-}
-
 // Readers that decode them would show the old places.
 TEST_F(GltfDocumentTest, CompressedCopiesOfWhatMovesGo) {
   auto original = tetrahedron();

@@ -100,25 +100,6 @@ TYPED_TEST(DomainFile, InvalidMeshesAreReportedWithTheFile) {
   });
 }
 
-TYPED_TEST(DomainFile, CutAnywhereIsAnErrorOrTheWholeMesh) {
-  constexpr int Dim = TypeParam::value;
-  const DomainMesh<Dim> mesh = this->simplex(1);
-  this->for_formats(mesh, [&](const std::string& file, const std::string& extension) {
-    const std::string whole = this->content("domain." + extension);
-    int errors = 0;
-    for (std::size_t length = 0; length < whole.size(); ++length) {
-      this->make("domain." + extension, whole.substr(0, length));
-      try {
-        EXPECT_EQ(read_domain<Dim>(file).cells, mesh.cells) << "cut at " << length;
-      } catch (const InputError& error) {
-        EXPECT_EQ(std::string(error.what()).rfind(file, 0), 0u) << error.what();
-        ++errors;
-      }
-    }
-    EXPECT_GT(errors, static_cast<int>(whole.size()) / 2);
-  });
-}
-
 TYPED_TEST(DomainFile, OtherExtensionsAreRefused) {
   constexpr int Dim = TypeParam::value;
   const DomainMesh<Dim> mesh = awkward_mesh<Dim>();

@@ -168,28 +168,6 @@ TEST_F(PolygonFile, MalformedOff) {
       });
 }
 
-// A cage as written by other programs: single precision, separate corners.
-TEST_F(PolygonFile, StlCages) {
-  PolygonSoup cube;
-  for (int k = 0; k < 8; ++k) cube.points.emplace_back(k % 2 / 3.0, k / 2 % 2 / 7.0, k / 4);
-  cube.polygons = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                   {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-  for (const bool is_text : {true, false}) {
-    SCOPED_TRACE(is_text);
-    Model model{cube};
-    model.is_text = is_text;
-    write_model(path("cube.stl"), model);
-    const auto cage = std::get<Cage<3>>(to_cage(read_polygons(path("cube.stl")), "cube.stl"));
-    EXPECT_TRUE(find_defects(cage).empty());
-    EXPECT_EQ(cage.facets.cols(), 12);
-    ASSERT_EQ(cage.size(), 8);
-    for (const auto& point : cube.points) {
-      const Vector<3> rounded = point.cast<float>().cast<double>();
-      EXPECT_TRUE(((cage.points.colwise() - rounded).array() == 0).colwise().all().any());
-    }
-  }
-}
-
 TEST_F(PolygonFile, FilesThatCannotBeOpened) {
   expect_unopenable({"obj", "off", "ply", "stl"}, read_polygons,
                     [](const auto& file) { write_model(file, {awkward_soup()}); });
@@ -202,32 +180,6 @@ TEST_F(PolygonFile, PointsThatAreNotFiniteAreNotWritten) {
   expect_error<InputError>([&] { write_model(path("soup.off"), {soup}); }, {"not finite"});
   EXPECT_TRUE(names().empty());
 }
-
-// The numbers of elements are those that the models' descriptions give.
-struct Sample {
-  const char* file;
-  std::size_t points, polygons, polylines;
-};
-
-class SampleFile : public ::testing::TestWithParam<Sample> {};
-
-TEST_P(SampleFile, HasItsElements) {
-  const std::string file = std::string(FLBC_MODELS_DIR) + "/" + GetParam().file;
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the real models are absent";
-  const PolygonSoup soup = read_polygons(file);
-  EXPECT_EQ(soup.points.size(), GetParam().points);
-  EXPECT_EQ(soup.polygons.size(), GetParam().polygons);
-  EXPECT_EQ(soup.polylines.size(), GetParam().polylines);
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    All, SampleFile,
-    ::testing::Values(Sample{"3d/horse_cage.obj", 51, 98, 0}, Sample{"3d/arm_cage.obj", 58, 112, 0},
-                      Sample{"3d/armadillo_cage.obj", 110, 216, 0},
-                      Sample{"2d/woody_model.obj", 694, 1267, 0},
-                      Sample{"2d/woody-control-edgeset.obj", 26, 0, 1},
-                      Sample{"2d/LBClogo-control-edgeset.obj", 6, 0, 1},
-                      Sample{"defective/inconsistent_orientation_cage.obj", 8, 12, 0}));
 
 }  // namespace
 }  // namespace flbc::io

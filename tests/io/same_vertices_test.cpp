@@ -129,31 +129,6 @@ TEST(SameVertices, PolygonsMayBeDividedInOtherWays) {
   }
 }
 
-// Of all orders of the vertices of a cube, those pass in which each triangle is half of a side.
-TEST(SameVertices, TrianglesAreHalvesOfSides) {
-  std::mt19937 random(3);
-  auto numbers = in_order(8);
-  const auto sides = cube().polygons;
-  int num_passing = 0;
-  for (int k = 0; k < 4000; ++k) {
-    std::shuffle(numbers.begin(), numbers.end(), random);
-    const auto pose = renumbered(cut_cube(0), numbers, random);
-    const bool are_halves =
-        std::all_of(pose.polygons.begin(), pose.polygons.end(), [&](const auto& triangle) {
-          return std::any_of(sides.begin(), sides.end(), [&](const auto& side) {
-            return std::all_of(triangle.begin(), triangle.end(), [&](Index vertex) {
-              return std::count(side.begin(), side.end(), vertex) > 0;
-            });
-          });
-        });
-    num_passing += are_halves;
-    for (const auto& rest : {cube(), cut_cube(0), cut_cube(1)}) {
-      EXPECT_EQ(are_same(rest, pose), are_halves);
-    }
-  }
-  EXPECT_GT(num_passing, 0);
-}
-
 TEST(SameVertices, OtherVerticesAreRefused) {
   auto pose = cube();
   pose.points.pop_back();
