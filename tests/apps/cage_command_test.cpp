@@ -13,18 +13,6 @@ class CageCommand : public CommandLineTest {
   }
 };
 
-TEST_F(CageCommand, CagesOfSamplesAreSoundAndSolved) {
-  for (const std::string name : {"2d/figure", "2d/letter", "3d/limb", "3d/torus"}) {
-    const auto model = name + "_model.obj";
-    expect("cage " + model + " -o cage.obj --control-points 40", 0, " control points, ");
-    const auto report = check("cage.obj", model);
-    EXPECT_TRUE(report["fine"]) << name;
-    EXPECT_LE(report["cage"]["control_points"], 40);
-    EXPECT_EQ(report["model"]["outside"], 0);
-    expect("solve cage.obj --vertices 600 --model " + model + " -o weights.npy -q");
-  }
-}
-
 TEST_F(CageCommand, CurvesKeepTheirHeight) {
   const auto curve = file("curve.obj", "v 0 0 3\nv 1 2 3\nv 3 1 3\nl 1 2 3\n");
   expect("cage " + curve + " -q -o cage.obj", 0, "");

@@ -126,45 +126,6 @@ TEST_F(CheckCommand, ModelsOutsideAreCountedAndNamed) {
                0, {"209 of 386 vertices are outside the cage"});
 }
 
-template <int Dim>
-void expect_measures(const Json& json, const std::string& cage_file, const PointList<Dim>& points,
-                     const std::string& weights_file) {
-  const auto cage = std::get<Cage<Dim>>(io::to_cage(io::read_polygons(cage_file), cage_file));
-  const auto quality = measure_quality(cage.points, points, io::read_weights(weights_file).dense());
-  EXPECT_EQ(json["weights"]["min_weight"].get<double>(), quality.min_weight);
-  EXPECT_EQ(json["weights"]["mean_influences"].get<double>(), quality.mean_influences);
-  EXPECT_NEAR(json["weights"]["max_reproduction_error"].get<double>(),
-              quality.max_reproduction_error, 1e-14);
-  EXPECT_EQ(json["weights"]["points"], points.cols());
-  EXPECT_EQ(json["fine"], true);
-}
-
-TEST_F(CheckCommand, WeightsOfModelsAndOnMeshes) {
-  const auto check = [&](const std::string& name, const std::string& domain_file) {
-    SCOPED_TRACE(name);
-    solve(name, domain_file);
-    const auto cage = name + "_cage.obj", model = name + "_model.obj";
-    const auto result = expect_check(cage + " --model " + model + " --weights w.npy --json m.json",
-                                     0, {"worst partition"});
-    expect_no_piece(result.output, "mesh ");
-    expect_check(cage + " --domain " + domain_file + " --weights v.npy --json d.json", 0,
-                 {"worst linearity", "mesh influence ratio"});
-    return std::pair(json_in("m.json"), json_in("d.json"));
-  };
-  {
-    const auto [at_model, on_mesh] = check("2d/letter", "d.obj");
-    expect_measures<2>(at_model, "2d/letter_cage.obj", points_in<2>("2d/letter_model.obj"),
-                       "w.npy");
-    expect_measures<2>(on_mesh, "2d/letter_cage.obj", io::read_domain<2>("d.obj").points, "v.npy");
-    EXPECT_EQ(on_mesh["weights"]["control_points_found"], 24);
-    EXPECT_NEAR(on_mesh["weights"]["mesh"]["influence_ratio"].get<double>(), 1, 1e-3);
-  }
-  const auto [at_model, on_mesh] = check("3d/limb", "d.mesh");
-  expect_measures<3>(at_model, "3d/limb_cage.obj", points_in<3>("3d/limb_model.obj"), "w.npy");
-  expect_measures<3>(on_mesh, "3d/limb_cage.obj", io::read_domain<3>("d.mesh").points, "v.npy");
-  EXPECT_FALSE(at_model["weights"].contains("mesh"));
-}
-
 // What the program delivers by default passes its own check, and beats harmonic coordinates in what
 // it minimizes.
 TEST_F(CheckCommand, DefaultResultsAreFine) {
@@ -183,20 +144,6 @@ TEST_F(CheckCommand, DefaultResultsAreFine) {
     EXPECT_LE(weighted, objective * (1 + 1e-6));
     EXPECT_LT(weighted, 0.9 * mesh["harmonic_weighted_variation"].get<double>());
   }
-}
-
-// An extremum that no solve leaves.
-TEST_F(CheckCommand, DeepExtremaAreNotFine) {
-  ASSERT_NO_FATAL_FAILURE(solve("2d/ring", "d.obj"));
-  auto weights = io::read_weights("v.npy").dense();
-  Eigen::Index inside = 0;  // on the cage, one of two weights is 0.5 at least
-  ASSERT_LT(weights.colwise().maxCoeff().minCoeff(&inside), 0.5);
-  weights(3, inside) += 2;
-  io::write_weights("x.npy", weights);
-  expect("check 2d/ring_cage.obj --domain d.obj --weights x.npy --json x.json", 2);
-  const auto highest = json_in("x.json")["weights"]["mesh"]["highest_maximum"];
-  EXPECT_EQ(highest["point"], inside);
-  EXPECT_GT(highest["value"], 1);
 }
 
 TEST_F(CheckCommand, WeightsThatAreNoCoordinatesAreStatus2) {
@@ -223,19 +170,6 @@ TEST_F(CheckCommand, WeightsThatAreNoCoordinatesAreStatus2) {
   io::write_weights("x.npy", weights);
   expect_check("2d/ring_cage.obj --model 2d/ring_model.obj --weights x.npy", 2,
                {"worst reproduction"}, {"do not reproduce it"});
-}
-
-TEST_F(CheckCommand, NegativeWeightsAreReportedOnly) {
-  const auto cage = file("cage.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nl 1 2 3 4 1\n");
-  const auto model = file("model.obj", "v 2 2 0\nv 2 2 0\n");
-  WeightMatrix weights(4, 2);
-  weights << 0.25, 0.75,  //
-      0.25, -0.25,        //
-      0.25, 0.75,         //
-      0.25, -0.25;
-  io::write_weights("w.npy", weights);
-  expect_check(cage + " --model " + model + " --weights w.npy", 0,
-               {"-0.25, point 1, place (2, 2)"});
 }
 
 TEST_F(CheckCommand, FilesThatDoNotBelongAndWrongUsage) {

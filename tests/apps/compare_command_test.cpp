@@ -50,20 +50,6 @@ TEST_F(CompareCommand, TheMeshWithoutAModelHasTheRowOfCheck) {
   }
 }
 
-TEST_F(CompareCommand, ThePageShowsOnlyPicturesThatExist) {
-  for (const std::string arguments :
-       {"2d/figure_cage.obj", "3d/limb_cage.obj", "3d/limb_cage.obj 3d/limb_model.obj"}) {
-    std::filesystem::remove_all("compared");
-    expect("compare " + arguments + " -q --vertices 300 --methods meanvalue -o compared");
-    const auto page = slurp("compared/index.html");
-    for (std::size_t at = 0; (at = page.find("<img src=\"", at)) != std::string::npos; ++at) {
-      const auto begin = at + 10;
-      const auto name = page.substr(begin, page.find('"', begin) - begin);
-      EXPECT_TRUE(std::filesystem::exists("compared/" + name)) << arguments << name;
-    }
-  }
-}
-
 // All coordinates but bbw and green reproduce affine maps, so the measures of poses are known.
 TEST_F(CompareCommand, DistortionOfAffinePosesIsThatOfTheMap) {
   for (const std::string dim : {"2d", "3d"}) {
@@ -95,22 +81,6 @@ TEST_F(CompareCommand, DistortionOfAffinePosesIsThatOfTheMap) {
   }
 }
 
-// Reach and influences count the same weights with other thresholds, by definition.
-TEST_F(CompareCommand, CountsOfWeightsAreThoseOfTheFiles) {
-  expect("compare 2d/figure_cage.obj -q --vertices 500 --methods local,harmonic -o compared");
-  const auto columns = json_in("compared/table.json")["columns"];
-  for (const auto& [name, facts] : columns.items()) {
-    const auto weights = io::read_weights("compared/weights_" + name + ".npy").dense();
-    const Eigen::ArrayXXd size = weights.cwiseAbs();
-    EXPECT_NEAR(facts["reach"].get<double>(), (size > 0.01).cast<double>().mean(), 1e-12) << name;
-    EXPECT_EQ(facts["max_influences"], (size > 1e-4).cast<int>().colwise().sum().maxCoeff());
-  }
-  EXPECT_NEAR(columns["harmonic"]["total_variation"].get<double>(), 1, 1e-9);
-  EXPECT_LT(columns["local"]["reach"], columns["harmonic"]["reach"]);
-  EXPECT_GT(columns["local"]["distortion"], 0) << "of the generated poses";
-  expect_piece(slurp("compared/index.html"), "share of the model vertices");
-}
-
 TEST_F(CompareCommand, ReplacesOnlyItsOwnFilesWithoutForce) {
   const std::string compare =
       "compare 2d/figure_cage.obj -q --vertices 300 --methods meanvalue -o compared";
@@ -121,31 +91,12 @@ TEST_F(CompareCommand, ReplacesOnlyItsOwnFilesWithoutForce) {
   expect(compare + " --force");
 }
 
-TEST_F(CompareCommand, PicturesAreSeenAsThoseOfDraw) {
-  const std::string cage = "3d/limb_cage.obj", model = "3d/limb_model.obj";
-  const auto grid = [&](const std::string& options) {
-    expect("compare " + cage + " " + model +
-           " -q --vertices 300 --methods meanvalue --pictures svg" + options + " -o compared");
-    return slurp("compared/functions.svg");
-  };
-  const auto usual = grid("");
-  EXPECT_NE(grid(" --up x"), usual);
-  expect("compare 2d/figure_cage.obj --up z -o compared", 1, "models in 3D");
-}
-
 TEST_F(CompareCommand, AMethodThatFailsSaysWhyAndTheOthersContinue) {
   expect("compare 3d/limb_cage.obj -q --vertices 500 --methods blended,meanvalue -o compared");
   const auto report = json_in("compared/table.json");
   EXPECT_EQ(report["columns"].size(), 1U);
   expect_piece(report["failures"]["blended"].get<std::string>(), "in 2D");
   expect_piece(slurp("compared/index.html"), "blended failed: ");
-}
-
-TEST_F(CompareCommand, ReportsTheThreadsThatItUsed) {
-  const auto command = "OMP_NUM_THREADS=1 " + std::string(FLBC_PROGRAM) +
-                       " compare 2d/letter_cage.obj -q --methods meanvalue -o compared";
-  ASSERT_EQ(status_of(command), 0);
-  EXPECT_EQ(json_in("compared/table.json")["threads"], 1);
 }
 
 TEST_F(CompareCommand, GreenCoordinatesAndBiharmonicWeightsDeformModels) {

@@ -57,21 +57,6 @@ TEST_F(ConvertCommand, Transpose) {
   EXPECT_TRUE(bit_equal(read("b.npy"), weights));
 }
 
-TEST_F(ConvertCommand, WhatModelsLoseIsTold) {
-  const auto model = file("a.obj",
-                          "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0.1 0 0 1\nv 0 1 0 0.2 0.4 0.6\n"
-                          "vt 0 0.5\nf 1/1 2/1 3/1 4/1\n");
-  expect_no_piece(run("convert " + model + " -o b.ply").errors, "lost");
-  EXPECT_EQ(io::read_polygons("b.ply").polygons, (std::vector<std::vector<Index>>{{0, 1, 2, 3}}));
-  expect_converted(model + " -o b.stl",
-                   "the order of the vertices, coordinates beyond single precision, polygons (they "
-                   "are cut into triangles), colors, texture coordinates\n");
-  // As a mesh of the interior.
-  const auto flat = file("flat.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n# a\n");
-  expect_converted(flat + " -o b.vtu", "flat.obj; lost: comments, colors\n");
-  expect_piece(slurp("b.vtu"), "NumberOfCells=\"1\"");
-}
-
 // A triangle that its joint has moved by 5, in a node that is moved by 2.
 TEST_F(ConvertCommand, SkinnedModelsGoBackToTheirBindPose) {
   NewGlb skinned(R"({"scene":0,"scenes":[{"nodes":[0,1]}],"nodes":[

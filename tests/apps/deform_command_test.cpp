@@ -1,69 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc deform as its users and their scripts see it.
 #include "flbc/deform.h"
-#include "flbc/io/mesh_io.h"
 #include "support/command_line.h"
 #include "support/vtu_fields.h"
 
 namespace flbc::testing {
 namespace {
 
-// All lines but those of vertices.
-std::string without_vertices(const std::string& path) {
-  std::istringstream text(slurp(path));
-  std::string rest;
-  for (std::string line; std::getline(text, line);) {
-    if (line.rfind("v ", 0) != 0) rest += line + '\n';
-  }
-  return rest;
-}
-
 class DeformCommand : public CommandLineTest {
  protected:
   Ended expect_deform(const std::string& arguments, int status, const std::string& words) const {
     return expect("deform " + arguments, status, words);
   }
-
-  template <int Dim>
-  void expect_sample_deforms(const std::string& name, const std::string& domain_file) const {
-    SCOPED_TRACE(name);
-    ASSERT_NO_FATAL_FAILURE(solve(name, domain_file));
-    const auto cage = name + "_cage.obj", model = name + "_model.obj";
-    const auto pose = name + "_cage_pose.obj";
-    const auto rest = points_in<Dim>(model);
-    const auto command = model + " --weights w.npy --rest " + cage + " --pose ";
-    const auto size = std::to_string(rest.cols()) + " vertices, 1 pose, ";
-
-    expect_deform(command + cage + " -o same.obj", 0, size);
-    EXPECT_LT((points_in<Dim>("same.obj") - rest).cwiseAbs().maxCoeff(), 1e-12);
-    EXPECT_EQ(without_vertices("same.obj"), without_vertices(model));
-
-    expect_deform(command + pose + " -o o.obj --displacement d.npy", 0, "largest displacement");
-    const auto moved = points_in<Dim>("o.obj");
-    const auto weights = io::read_weights("w.npy").dense();
-    EXPECT_LT((moved - points_in<Dim>(pose) * weights).cwiseAbs().maxCoeff(), 1e-13);
-    EXPECT_EQ(without_vertices("o.obj"), without_vertices(model));
-    const auto lengths = io::read_weights("d.npy").dense();
-    ASSERT_EQ(lengths.rows(), 1);
-    EXPECT_LT((lengths.row(0) - (moved - rest).colwise().norm()).cwiseAbs().maxCoeff(), 1e-13);
-    EXPECT_GT(lengths.maxCoeff(), 0.1);
-
-    const auto output = "moved_" + domain_file;
-    expect_deform(domain_file + " --weights v.npy --pose " + pose + " -o " + output + " -q", 0, "");
-    const auto domain = io::read_domain<Dim>(domain_file);
-    const auto moved_domain = io::read_domain<Dim>(output);
-    EXPECT_EQ(moved_domain.num_cells(), domain.num_cells());
-    const auto expected_domain = deform(io::read_weights("v.npy").dense(), points_in<Dim>(pose));
-    EXPECT_LT((moved_domain.points - expected_domain).cwiseAbs().maxCoeff(), 1e-13);
-  }
 };
-
-TEST_F(DeformCommand, Sample2D) {
-  expect_sample_deforms<2>("2d/figure", "d.obj");
-}
-TEST_F(DeformCommand, Sample3D) {
-  expect_sample_deforms<3>("3d/limb", "d.mesh");
-}
 
 TEST_F(DeformCommand, NormalsOfAnAffineImageAreTheImagesOfNormals) {
   ASSERT_NO_FATAL_FAILURE(solve("3d/limb", "d.mesh"));

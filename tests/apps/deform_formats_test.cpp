@@ -34,22 +34,6 @@ class DeformFormats : public CommandLineTest {
   }
 };
 
-TEST_F(DeformFormats, WhatIsLostIsToldOnce) {
-  const auto model = file("a.obj",
-                          "# by hand\nmtllib a.mtl\nv 0.25 0.25 0.25\nv 0.5 0.25 0.25\n"
-                          "v 0.25 0.5 0.25\nvn 0 0 1\nf 1//1 2//1 3//1\n");
-  const auto rest = simplex<3>("rest.obj");
-  const auto command =
-      model + " --weights " + weights_of<3>(model) + " --pose " + rest + " --pose " + rest + " -o ";
-  const auto errors = deform(command + "o%d.ply").errors;
-  const auto message =
-      "flbc: o%d.ply does not keep all of " + model + "; lost: lines with \"mtllib\", comments\n";
-  const auto place = errors.find(message);
-  EXPECT_NE(place, std::string::npos) << errors;
-  EXPECT_EQ(errors.find("keep", place + message.size()), std::string::npos) << errors;
-  expect_no_piece(deform(command + "o%d.obj").errors, "keep");
-}
-
 // Of the light, from 0 to 1.
 double luminance(const OpenMesh::Vec3uc& color) {
   const auto linear = [&](int k) { return std::pow(color[k] / 255.0, 2.2); };
@@ -108,15 +92,6 @@ TEST_F(DeformFormats, DisplacementsAreShownInColours) {
   const auto refused = deform(command + "o_%d.stl", 1).errors;
   expect_piece(refused, "cannot show displacements");
   EXPECT_FALSE(std::filesystem::exists("o_0.stl"));
-}
-
-TEST_F(DeformFormats, NothingMovesNothingIsShown) {
-  const auto rest = simplex<2>("rest.obj");
-  const auto model = file("a.obj", "v 0.25 0.25 1\nv 0.5 0.25 1\nv 0.25 0.5 1\nf 1 2 3\n");
-  deform(model + " --weights " + weights_of<2>(model) + " --rest " + rest + " --pose " + rest +
-         " --show-displacement -o o.off");
-  const auto shown = read_by_openmesh("o.off", Options(Options::VertexColor));
-  for (const auto v : shown.vertices()) EXPECT_EQ(shown.color(v), OpenMesh::Vec3uc(248, 248, 249));
 }
 
 TEST_F(DeformFormats, DisplacementsOfMeshesAreFields) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc export as its users and their scripts see it.
-#include "flbc/io/mesh_io.h"
 #include "support/command_line.h"
 #include "support/glb_file.h"
 #include "support/model_cages.h"
@@ -28,36 +27,7 @@ class ExportCommand : public CommandLineTest {
              "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
     return model + " --weights " + linear_weights(points_in<3>(model)) + " --cage " + tetrahedron();
   }
-
-  // A sample, moved by its pose: the skin does what flbc deform does with as few influences.
-  void expect_sample(const std::string& name, const std::string& domain_file) const {
-    SCOPED_TRACE(name);
-    const auto cage = name + "_cage.obj", pose = name + "_cage_pose.obj";
-    const auto model = name + "_model.obj";
-    expect("solve " + cage + " --method harmonic -q --vertices 1500 --save-domain " + domain_file +
-           " --model " + model + " -o w.npy");
-    expect("sparsify w.npy --cage " + cage + " --points " + model + " -k 4 -q -o w4.mtx --pose " +
-           cage + " --pose " + pose);
-    expect("deform " + model + " --weights w4.mtx --pose " + pose + " -q -o posed.obj");
-    const auto result = expect_export(model + " --weights w.npy --cage " + cage +
-                                          " -k 4 -o s.glb --pose " + cage + " " + pose + " --fps 4",
-                                      0, "at most 4 influences per vertex (before ");
-    expect_piece(result.errors, "2 poses in 0.25 s");
-    const auto file = skin("s.glb");
-    const double size = bounding_box_diagonal<3>(points_in<3>(model));
-    EXPECT_LT(distance(file.skinned(file.joints()), points_in<3>(model)), 1e-6 * size);
-    EXPECT_LT(distance(file.skinned(file.joints(0)), points_in<3>(model)), 1e-6 * size);
-    EXPECT_LT(distance(file.skinned(file.joints(0.25)), points_in<3>("posed.obj")), 1e-6 * size);
-    EXPECT_GT(distance(points_in<3>(model), points_in<3>("posed.obj")), 0.1 * size);
-  }
 };
-
-TEST_F(ExportCommand, Sample2D) {
-  expect_sample("2d/figure", "d.obj");
-}
-TEST_F(ExportCommand, Sample3D) {
-  expect_sample("3d/limb", "d.mesh");
-}
 
 TEST_F(ExportCommand, InfoTellsWhatIsInASkin) {
   solve("3d/limb", "d.mesh");

@@ -381,22 +381,6 @@ TEST_IN_2D_AND_3D(GltfSkinTest, ErrorsOfStoringAreMeasured) {
               std::sqrt(errors.squaredNorm() / static_cast<double>(errors.size())), 1e-6);
 }
 
-TEST(GltfSkin, PointsInsideAMeshDoNotCount) {
-  Example<3> example;
-  example.surface = gltf::surface_of_model<3>({io::to_polygons(example.sample.mesh)});
-  gltf::SkinOptions options;
-  options.max_influences = 4;
-  const auto skin = example.skin(options);
-  EXPECT_EQ(skin.vertices, static_cast<Index>(example.surface.sources.size()));
-  EXPECT_LT(skin.vertices, example.sample.mesh.num_vertices());
-  EXPECT_EQ(skin.given_influences, 3);
-  EXPECT_EQ(skin.influences, 3);
-  EXPECT_LT(skin.deformation_error.max, 1e-6);
-  const GlbFile file(skin.content);
-  const auto pose = independent_poses<3>(example.sample.cage.points, 1)[0];
-  EXPECT_LT(distance<3>(file, pose, deform<3>(example.weights, pose)), 1e-6);
-}
-
 TEST_IN_2D_AND_3D(GltfSkinTest, WhatDoesNotFitIsRefused) {
   const Example<Dim> example;
   const auto expect_refusal = [&](auto change, const std::string& message) {

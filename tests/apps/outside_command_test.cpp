@@ -19,29 +19,6 @@ class OutsideCommand : public CommandLineTest {
   }
 };
 
-TEST_F(OutsideCommand, AHairHasOneAnswer) {
-  for (const std::string distance : {"0.000000001", "0.000001"}) {
-    SCOPED_TRACE(distance);
-    const auto of = model(distance);
-    expect_piece(run("check " + square() + " --model " + of).output, "none outside");
-    expect(solve(""), 0, "2 vertices within");
-    EXPECT_GE(io::read_weights("w.npy").dense().minCoeff(), 0);
-    EXPECT_EQ(json_in("report.json")["outside"]["on_cage"]["count"], 2);
-    EXPECT_EQ(json_in("report.json")["outside"]["outside"]["count"], 0);
-    expect("check " + square() + " --model " + of + " --weights w.npy");
-    expect("sparsify w.npy --cage " + square() + " --points " + of + " -k 3 -q -o few.npy");
-    expect("run " + square() + ' ' + of + " --vertices 300 -q -o out");
-    EXPECT_EQ(json_in("out/report.json")["solve"]["outside"]["on_cage"]["count"], 2);
-  }
-  const auto of = model("0.00001");
-  expect_piece(run("check " + square() + " --model " + of).output, "2 of 3 vertices are outside");
-  for (const auto& command :
-       {solve(""), "run " + square() + ' ' + of + " --vertices 300 -q -o none"}) {
-    const auto refused = expect(command, 2, "2 of 3 vertices are outside the cage");
-    expect_piece(refused.errors, "--outside nearest");
-  }
-}
-
 // Vertices on the cage, slightly outside it, and duplicated, as in real models.
 TEST_F(OutsideCommand, EmbeddingTakesModelsAsTheyAre) {
   const auto of = file("model.obj",
@@ -278,30 +255,6 @@ TEST_P(BoxInMesh, WhatIsKeptStaysAndTheBorderIsNamed) {
   const auto still = run_box("keep");
   expect_no_piece(still.errors, "jump");
   EXPECT_GT(json_in("out/report.json")["deform"][0]["largest_displacement"], 0.1);
-}
-
-TEST_P(BoxInMesh, AllCommandsTakeVerticesWithoutWeightsOrAtAnOffset) {
-  write_box("pose.obj", moved({1}, {0, 0.5, 0}));
-  for (const std::string policy : {"nearest", "keep"}) {
-    SCOPED_TRACE(policy);
-    expect("solve box.obj --model mesh.obj --vertices 400 -o w.npy --outside " + policy);
-    const auto check = expect("check box.obj --model mesh.obj --weights w.npy --json check.json");
-    EXPECT_EQ(json_in("check.json")["weights"]["without_weights"], policy == "keep" ? 30 : 0);
-    expect("sparsify w.npy --cage box.obj --points mesh.obj -k 4 -q -o few.mtx --report r.json");
-    EXPECT_EQ(json_in("r.json")["after"]["without_weights"], policy == "keep" ? 30 : 0);
-    EXPECT_LT(json_in("r.json")["after"]["max_reproduction_error"], 1e-12);
-    expect("export mesh.obj --cage box.obj --weights w.npy --pose pose.obj -q -o m.glb");
-    expect("export mesh.obj --cage box.obj --weights w.npy --pose pose.obj -k 4 -q -o m.usda");
-    expect("export mesh.obj --cage box.obj --weights w.npy -q -o m.py");
-    expect("view mesh.obj --cage box.obj --weights w.npy -k 4 -q -o m.html");
-    expect("draw --cage box.obj --model mesh.obj --weights w.npy --pose pose.obj -o m.png");
-    // Weights of another model are refused as before.
-    auto other = slurp("mesh.obj");
-    other.replace(other.find("v 4 3 0"), 7, "v 4 3.1 0");
-    file("other.obj", other);
-    expect("deform other.obj --weights w.npy --rest box.obj --pose pose.obj -o x.obj", 2,
-           "the weights do not belong to this model");
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(In, BoxInMesh, ::testing::Values(2, 3));

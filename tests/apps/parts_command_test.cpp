@@ -23,9 +23,8 @@ template <class Dimension>
 class PartsCommand : public CommandLineTest {
  protected:
   static constexpr int kDim = Dimension::value;
-  // Of the whole, of the small and of the large part, by area or volume.
+
   static constexpr int kVertices = kDim == 2 ? 500 : 900;
-  static constexpr int kOfSmall = kVertices / (1 + (1 << kDim));
 
   static Cage<kDim> small() { return box_cage<kDim>(0.5); }
   static Cage<kDim> large() { return box_cage<kDim>(2, 4); }
@@ -47,56 +46,6 @@ class PartsCommand : public CommandLineTest {
 };
 
 TYPED_TEST_SUITE(PartsCommand, Dimensions);
-
-TYPED_TEST(PartsCommand, SolvesEachAsAlone) {
-  constexpr int n = 1 << TypeParam::value;
-  const auto cage = this->both();
-  expect_piece(this->expect("check " + cage, 0).output, "parts   ");
-  const std::string by_gap = "--smoothness 0 --certify ";
-  this->expect("solve " + cage + this->vertices() + by_gap + "--save-domain " + this->domain() +
-                   " -o w.npy --report report.json",
-               0, "2 parts, " + std::to_string(2 * n) + " control points");
-  this->expect("check " + cage + " --domain " + this->domain() + " --weights w.npy", 0);
-  const auto weights = io::read_weights("w.npy").dense();
-  const auto report = json_in("report.json");
-  ASSERT_EQ(report["parts"].size(), 2u);
-  Index next = 2 * n;
-  double objective = 0;
-  for (int k = 0; k < 2; ++k) {
-    const auto alone = this->file("alone.obj", text_of(k == 0 ? this->small() : this->large()));
-    const int share = k == 0 ? this->kOfSmall : this->kVertices - this->kOfSmall;
-    this->expect(
-        "solve " + alone + this->vertices(share) + by_gap + "-q -o alone.npy --report alone.json",
-        0);
-    const auto expected = io::read_weights("alone.npy").dense();
-    std::vector<Index> vertices;
-    for (Index v = 0; v < expected.cols(); ++v) vertices.push_back(v < n ? k * n + v : next++);
-    const WeightMatrix rows = weights(Eigen::all, vertices);
-    EXPECT_EQ(WeightMatrix(rows.middleRows(k * n, n)), expected);
-    EXPECT_EQ(rows.middleRows((1 - k) * n, n).cwiseAbs().maxCoeff(), 0);
-    const auto alone_report = json_in("alone.json");
-    for (const char* name : {"control_points", "vertices", "iterations", "objective", "lower_bound",
-                             "relative_gap", "criterion"}) {
-      EXPECT_EQ(report["parts"][k][name], alone_report[name]) << name;
-    }
-    objective += alone_report["objective"].template get<double>();
-    EXPECT_EQ(report["parts"][k]["first_control_point"], k * n);
-  }
-  EXPECT_EQ(next, weights.cols());
-  EXPECT_EQ(report["objective"], objective);
-  EXPECT_TRUE(report["converged"]);
-  EXPECT_LE(report["relative_gap"], 1e-3);
-}
-
-TYPED_TEST(PartsCommand, MeshFirstThenSolve) {
-  const auto cage = this->both();
-  this->expect("mesh " + cage + this->vertices() + "-o " + this->domain(), 0);
-  this->expect("solve " + cage + " --domain " + this->domain() + " -q -o a.npy", 0);
-  this->expect("solve " + cage + this->vertices() + "-q -o b.npy", 0);
-  const auto a = io::read_weights("a.npy").dense(), b = io::read_weights("b.npy").dense();
-  ASSERT_EQ(a.cols(), b.cols());
-  EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-6);  // files have 15 to 17 digits
-}
 
 TYPED_TEST(PartsCommand, RunDoesAllOfIt) {
   const auto cage = this->both(), of = this->model();
@@ -137,16 +86,6 @@ TYPED_TEST(PartsCommand, RunDoesAllOfIt) {
         "check " + cage + " --model " + of + " --weights " + weights}) {
     this->expect(command, 0);
   }
-}
-
-TYPED_TEST(PartsCommand, EmbedsEachVertexInItsPart) {
-  const auto cage = this->both(), of = this->model();
-  this->expect("solve " + cage + this->vertices() + "--model " + of + " --embed -o w.npy", 0);
-  this->expect("check " + cage + " --model " + of + " --weights w.npy", 0);
-  const auto weights = io::read_weights("w.npy").dense();
-  constexpr int n = 1 << TypeParam::value;
-  EXPECT_EQ(weights.topRightCorner(n, n).cwiseAbs().maxCoeff(), 0);
-  EXPECT_EQ(weights.bottomLeftCorner(n, n).cwiseAbs().maxCoeff(), 0);
 }
 
 // The vertices of the small box leave its part on one side; they follow that part, not the other.

@@ -12,7 +12,7 @@ TEST_F(ProgressLine, IsForTerminalsOnly) {
   flbc::testing::expect_no_piece(expect(solve + "300").errors, "iteration ");
   if (!has_program("script")) GTEST_SKIP() << "no script(1)";
   const auto in_terminal = "script -qec '" + std::string(FLBC_PROGRAM) + " " + solve +
-                           "2500' log.txt >/dev/null </dev/null";
+                           "800' log.txt >/dev/null </dev/null";
   ASSERT_EQ(status_of(in_terminal), 0);
   const auto text = flbc::testing::slurp("log.txt");
   const std::string begin = "\rsolving: iteration ";

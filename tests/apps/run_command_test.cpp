@@ -224,15 +224,6 @@ TEST_F(RunCommand, AnInterruptedRunIsNoObstacle) {
   EXPECT_FALSE(report("out").contains("unfinished"));
 }
 
-TEST_F(RunCommand, VerticesInsideOfAPlanarMeshAreNoControlPoints) {
-  const auto mesh = file("mesh.obj",
-                         "v 0 0 0\nv 1 1 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\n"
-                         "f 1 3 2\nf 3 4 2\nf 4 5 2\nf 5 1 2\n");
-  expect_run("out", mesh + " --vertices 100 --method harmonic", 0, "");
-  EXPECT_EQ(json_in("out/report.json")["check"]["cage"]["control_points"], 4);
-  EXPECT_TRUE(fs::exists("out/model.html"));
-}
-
 TEST_F(RunCommand, StepsThatFailAreNamedAndLeaveWhatWasDone) {
   // Outside: nothing can be solved.
   expect_run("out", "2d/figure_cage.obj 2d/ring_model.obj", 2,

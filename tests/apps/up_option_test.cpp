@@ -142,21 +142,6 @@ TEST_F(UpOption, PagesKnowTheAxis) {
   }
 }
 
-TEST_F(UpOption, RunsTurnPicturesPageAndSkins) {
-  pyramid(2);
-  const auto run = [&](const std::string& options) {
-    expect("run cage.obj model.obj --vertices 200 -q --force -o out" + options);
-  };
-  run("");
-  const auto picture = slurp("out/function.png");
-  expect_piece(slurp("out/model.html"), "\"up\":2");
-  EXPECT_TRUE(GlbFile(slurp("out/model.glb")).root_joint().contains("rotation"));
-  run(" --up y");
-  EXPECT_NE(slurp("out/function.png"), picture);
-  expect_piece(slurp("out/model.html"), "\"up\":1");
-  EXPECT_FALSE(GlbFile(slurp("out/model.glb")).root_joint().contains("rotation"));
-}
-
 TEST_F(UpOption, IsForModelsIn3D) {
   const std::string cage = "2d/ring_cage.obj", model = "2d/ring_model.obj";
   expect("solve " + cage + " --vertices 500 -q --method harmonic --model " + model + " -o w.npy");

@@ -135,15 +135,5 @@ TEST_F(VectorPictures, UnknownFormatsAreNamed) {
   expect_piece(result.errors, "'.jpg'");
 }
 
-TEST_F(VectorPictures, OfARunAsWell) {
-  expect(
-      "run 3d/limb_cage.obj 3d/limb_model.obj --pose 3d/limb_cage_pose.obj --method harmonic "
-      "--vertices 500 --reduction quadratic -q --pictures svg -o out");
-  for (const char* name : {"out/function.svg", "out/deformation.svg"}) {
-    expect_well_formed(slurp(name));
-    EXPECT_GT(slurp(name).size(), 1000U) << name;
-  }
-}
-
 }  // namespace
 }  // namespace flbc::testing

@@ -181,20 +181,6 @@ TEST_IN_2D_AND_3D(ViewPage, InfluencesAreReducedOnlyWhereThereAreTooMany) {
   }
 }
 
-TEST(ViewBase64, IsThatOfTheStandard) {
-  const std::pair<const char*, const char*> examples[] = {{"", ""},
-                                                          {"f", "Zg=="},
-                                                          {"fo", "Zm8="},
-                                                          {"foo", "Zm9v"},
-                                                          {"foob", "Zm9vYg=="},
-                                                          {"fooba", "Zm9vYmE="},
-                                                          {"foobar", "Zm9vYmFy"}};
-  for (const auto& [bytes, text] : examples) EXPECT_EQ(draw::to_base64(bytes), text);
-  std::string all;
-  for (int k = 0; k < 256; ++k) all += static_cast<char>(k);
-  EXPECT_EQ(from_base64(draw::to_base64(all)), all);
-}
-
 TEST(ViewCage, EdgesArePolygonsAndNotTheirDiagonals) {
   const FacetList<3> facets = (FacetList<3>(3, 2) << 0, 0, 1, 2, 2, 3).finished();
   EXPECT_EQ(edges_of_cage<3>({{0, 1, 2, 3}}, facets).size(), 4u);
@@ -210,24 +196,6 @@ class ViewCommand : public testing::CommandLineTest {
     return model + " --weights w.npy --cage " + cage;
   }
 };
-
-TEST_F(ViewCommand, WritesAPageOfASample) {
-  for (const std::string name : {"2d/figure", "3d/limb"}) {
-    const auto arguments = sample_arguments(name);
-    expect("view " + arguments + " --pose " + name + "_cage_pose.obj -k 4 -o p.html", 0,
-           "at most 4 influences per vertex (before ");
-    const auto content = content_of(testing::slurp("p.html"));
-    EXPECT_EQ(content["poses"].size(), 1u);
-    EXPECT_EQ(content["poses"][0]["time"], 1);
-    EXPECT_EQ(content["cage"]["text"], testing::slurp(name + "_cage.obj"));
-    const auto given = io::read_weights("w.npy").dense();
-    const auto shown = weights_in(content, static_cast<Index>(given.rows()));
-    EXPECT_EQ(shown.cols(), given.cols());
-    EXPECT_LE((shown.array() != 0).colwise().count().maxCoeff(), 4);
-    EXPECT_NEAR((shown.colwise().sum().array() - 1).abs().maxCoeff(), 0, 1e-6);
-    std::filesystem::remove("p.html");
-  }
-}
 
 TEST_F(ViewCommand, RefusesWithTheReason) {
   const auto arguments = sample_arguments("2d/figure");

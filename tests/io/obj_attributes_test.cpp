@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/io/model_file.h"
 
-<<<<<<< HEAD
-#include "flbc/io/cage_io.h"
-=======
->>>>>>> b4ade5ee (io: tests that repeat those of the fuzzer, of cages, and of conversions go)
 #include "support/io_files.h"
 
 namespace flbc::testing {
