@@ -17,6 +17,15 @@ namespace {
 
 namespace wraps = CGAL::Alpha_wraps_3::internal;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+#if CGAL_VERSION_NR < 1060000000
+using WrapTraits = wraps::Alpha_wrap_AABB_traits<Kernel>;
+template <class Oracle>
+using Wrapping = wraps::Alpha_wrap_3<Oracle>;
+#else
+using WrapTraits = wraps::Alpha_wrap_AABB_geom_traits<Kernel>;
+template <class Oracle>
+using Wrapping = wraps::Alpha_wrapper_3<Oracle>;
+#endif
 using Point = Kernel::Point_3;
 using Surface = CGAL::Surface_mesh<Point>;
 
@@ -33,7 +42,7 @@ Point point(const Vector<3>& p) {
 // concept.
 class Oracle {
  public:
-  using Geom_traits = wraps::Alpha_wrap_AABB_traits<Kernel>;
+  using Geom_traits = WrapTraits;
   using Box = Enclosure<3>::Box;
 
   explicit Oracle(const Enclosure<3>& model) : model_(model) {}
@@ -110,7 +119,7 @@ class Oracle {
 Cage<3> wrap(const Enclosure<3>& model, const WrapSize& size) {
   const Oracle oracle(model);
   Surface surface;
-  wraps::Alpha_wrap_3<Oracle> wrapping(oracle);
+  Wrapping<Oracle> wrapping(oracle);
   wrapping(size.alpha, size.offset, surface, CGAL::parameters::default_values());
   surface.collect_garbage();
   return to_cage(surface);

@@ -6,7 +6,6 @@
 #include <set>
 #include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -19,6 +18,7 @@
 #include "caging/cells.h"
 #include "caging/surface_tools.h"
 #include "flbc/bounding_box.h"
+#include "meshing/cgal/intersection.h"
 
 namespace flbc {
 
@@ -182,8 +182,8 @@ bool overlap(const CageDraft<3>& draft, Index f, Index g, double tolerance) {
   const Projection projection(larger);
   const auto common =
       CGAL::intersection(flat(projection, larger), flat(projection, exact_triangle(draft, g)));
-  return common && !boost::get<ExactKernel::Point_2>(&*common) &&
-         !boost::get<ExactKernel::Segment_2>(&*common);
+  return common && !shape_in<ExactKernel::Point_2>(*common) &&
+         !shape_in<ExactKernel::Segment_2>(*common);
 }
 
 using LinesOn = std::map<Index, std::vector<ExactKernel::Segment_3>>;
@@ -255,8 +255,8 @@ void cut_at_crossings(CageDraft<2>& draft) {
     const auto common = CGAL::intersection(segment(f), segment(g));
     if (!common) continue;
     std::vector<ExactKernel::Point_2> places;
-    if (const auto* point = boost::get<ExactKernel::Point_2>(&*common)) places = {*point};
-    if (const auto* part = boost::get<ExactKernel::Segment_2>(&*common)) {
+    if (const auto* point = shape_in<ExactKernel::Point_2>(*common)) places = {*point};
+    if (const auto* part = shape_in<ExactKernel::Segment_2>(*common)) {
       places = {part->source(), part->target()};
     }
     places_on[f].insert(places.begin(), places.end());
@@ -279,9 +279,9 @@ void cut_at_crossings(CageDraft<3>& draft) {
   for (const auto& [f, g] : crossing_pairs(draft)) {
     const auto common = CGAL::intersection(exact_triangle(draft, f), exact_triangle(draft, g));
     if (!common) continue;
-    if (const auto* point = boost::get<ExactKernel::Point_3>(&*common)) {
+    if (const auto* point = shape_in<ExactKernel::Point_3>(*common)) {
       for (const Index h : {f, g}) lines_on[h].emplace_back(*point, *point);
-    } else if (const auto* line = boost::get<ExactKernel::Segment_3>(&*common)) {
+    } else if (const auto* line = shape_in<ExactKernel::Segment_3>(*common)) {
       for (const Index h : {f, g}) lines_on[h].push_back(*line);
     } else {
       overlapping.unite(f, g);

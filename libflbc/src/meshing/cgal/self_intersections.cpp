@@ -11,6 +11,7 @@
 #include "cage/box_tree.h"
 #include "flbc/meshing.h"
 #include "meshing/cgal/exact_predicates.h"
+#include "meshing/cgal/intersection.h"
 
 namespace flbc {
 
@@ -75,7 +76,7 @@ Defect describe_pair(const Cage<Dim>& cage, const FacetPair& pair) {
                      (Dim == 2 ? "cross or touch" : "intersect");
   if (const auto common = CGAL::intersection(exact_facet(cage, f), exact_facet(cage, g))) {
     const auto middle = [](const auto& shape) -> Vector<Dim> { return Middle<Dim>()(shape); };
-    text += " near " + format_point(boost::apply_visitor(middle, *common));
+    text += " near " + format_point(visit_shape(middle, *common));
   }
   return {text, {}, {f, g}, DefectKind::kSelfIntersection};
 }
