@@ -110,9 +110,6 @@ flbc draw d.obj --weights dw.npy --cage square.obj --control-point 0 -o p.png
 1 flbc check square.obj --weights w.npy
 flbc check square.obj --weights w.npy --model model.obj
 flbc check square.obj --weights dw.npy --domain d.obj
-# ; write .glb
-1 flbc convert model.obj -o m.glb; flbc export m.glb --weights w.npy --cage square.obj -o x.py
-flbc solve square.obj --model m.glb $V -o v.npy && flbc export m.glb --weights v.npy --cage square.obj -o x.glb
 # add --pose
 1 flbc deform model.obj --weights w.npy -o y.obj
 flbc deform model.obj --weights w.npy --pose pose.obj -o y.obj

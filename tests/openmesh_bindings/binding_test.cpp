@@ -102,7 +102,6 @@ TEST_IN_2D_AND_3D(MeshBinding, CopiesFilesAndReductionsKeepIt) {
     Sheet<Dim> sheet;
     sheet.mesh.set_point(OpenMesh::VertexHandle(kOutside), {0.5, 1.2, 0.4});
     sheet.options.outside = outside;
-    sheet.options.persistent = outside != OutsidePoints::kKeep;
     const auto expected =
         bind<Dim>(sheet.sample.cage, sheet.sample.mesh, openmesh::points_of<Dim>(sheet.mesh),
                   openmesh::edge_list<Dim>(sheet.mesh), sheet.options);

@@ -2,7 +2,7 @@
 // The library's solvers against optima of an interior-point method (tests/data/references), with
 // which they have nothing in common but the problem.
 #include "flbc/harmonic.h"
-#include "flbc/published_penalty.h"
+#include "flbc/options.h"
 #include "solver/methods/splitting/compact_splitting.h"
 #include "support/reference_optimum.h"
 #include "support/solver_options.h"
