@@ -6,6 +6,7 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "commands/commands.h"
@@ -70,10 +71,23 @@ std::string version() {
          "\nlicense of this program: " FLBC_LICENSE;
 }
 
+// Where CLI11 is brief or unclear.
+std::string in_our_words(std::string message) {
+  constexpr std::pair<const char*, const char*> kPhrases[] = {
+      {" excludes ", " cannot be combined with "},
+      {"The following argument was not expected: ", "unexpected argument: "},
+      {"The following arguments were not expected: ", "unexpected arguments: "}};
+  for (const auto& [theirs, ours] : kPhrases) {
+    const auto at = message.find(theirs);
+    if (at != std::string::npos) message.replace(at, std::string(theirs).size(), ours);
+  }
+  return message;
+}
+
 std::string describe_usage_error(const CLI::App* app, const CLI::Error& error) {
   std::string command = "flbc";
   for (const auto* chosen : app->get_subcommands()) command += " " + chosen->get_name();
-  return command + ": " + error.what() + "; see " + command + " --help\n";
+  return command + ": " + in_our_words(error.what()) + "; see " + command + " --help\n";
 }
 
 // Results that were meant for standard output and are lost must not pass for done.

@@ -23,8 +23,9 @@ std::string in_words(std::string key) {
 std::string shown(const Json& fact) {
   if (fact.is_string()) return fact.get<std::string>();
   if (fact.is_number_float()) {
+    constexpr int kDigits = 10;  // coordinates far from the origin need them
     char text[32];
-    std::snprintf(text, sizeof text, "%.6g", fact.get<double>());
+    std::snprintf(text, sizeof text, "%.*g", kDigits, fact.get<double>());
     return text;
   }
   if (!fact.is_structured()) return fact.dump();

@@ -82,10 +82,6 @@ flbc run 3d/limb_model.obj --auto-cage $V -o out
 # save a pose there, and apply it with flbc deform
 0 flbc run square.obj model.obj $V -o out
 flbc deform model.obj --weights out/weights.npy --pose pose.obj -o y.obj
-# wait for it, or use another folder
-4 mkdir out && flock out flbc run square.obj $V -o out
-flbc run square.obj $V -o another
-flbc run square.obj $V -o out
 # use another folder, or --force to replace it
 1 mkdir full && cp w.npy full/weights.npy && flbc run square.obj $V -o full
 flbc run square.obj $V -o another

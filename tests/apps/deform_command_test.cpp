@@ -119,9 +119,6 @@ TEST_F(DeformCommand, LinesThatContinueOthers) {
                        tetrahedron("v 1 0 0\nv 2 0 0\nv 1 1 0\nv 1 0 1\n") + " -q -o o.obj";
   expect_deform(file("model.obj", "v 0.25 0.25 0.5 1 0 \\\n0\n# v 1 2 3 \\\n") + command, 0, "");
   EXPECT_EQ(slurp("o.obj"), "v 1.25 0.25 0.5 1 0 \\\n0\n# v 1 2 3 \\\n");
-  // Readers that pass normals over take the second line for a vertex.
-  expect_deform(file("model.obj", "v 0.25 0.25 0.5\nvn 0 0 1\\\nv 1 2 3\n") + command, 2,
-                "normal (\"vn\") is continued on another line");
 }
 
 TEST_F(DeformCommand, NormalsWithoutFacesAreToldAndStay) {

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // flbc run as its users and their scripts see it: it does what the other commands do one by one.
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include "support/command_line.h"
 #include "support/model_cages.h"
 #include "support/splats.h"
@@ -12,20 +8,6 @@ namespace flbc::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-// As another run holds a folder.
-class HeldFolder {
- public:
-  explicit HeldFolder(const std::string& path) : descriptor_(open(path.c_str(), O_RDONLY)) {
-    EXPECT_EQ(flock(descriptor_, LOCK_EX), 0);
-  }
-  ~HeldFolder() { close(descriptor_); }
-  HeldFolder(const HeldFolder&) = delete;
-  HeldFolder& operator=(const HeldFolder&) = delete;
-
- private:
-  int descriptor_;
-};
 
 using Names = std::set<std::string>;
 
@@ -301,20 +283,6 @@ TEST_F(RunCommand, SplatsGetACageAndMoveAsByDeform) {
   const auto masks = file("masks.json", "[{\"control_points\": [0], \"region\": [0]}]");
   expect_run("out", "out/cage.obj " + splat_file + " --locality " + masks, 1,
              "has splats, which have no weights of their own");
-}
-
-TEST_F(RunCommand, AFolderThatAnotherRunWritesToIsRefused) {
-  expect_run("a", "2d/letter_cage.obj --vertices 300", 0, "report.json");
-  const auto names = names_in("a");
-  const auto before = slurp("a/report.json");
-  {
-    const HeldFolder held("a");
-    expect_run("a", "2d/letter_cage.obj --vertices 300", 4,
-               "another flbc run is writing to this folder");
-    EXPECT_EQ(names_in("a"), names);
-    EXPECT_EQ(slurp("a/report.json"), before);
-  }
-  expect_run("a", "2d/letter_cage.obj --vertices 300", 0, "report.json");
 }
 
 }  // namespace

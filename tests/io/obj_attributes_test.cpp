@@ -59,7 +59,6 @@ TEST_F(ObjAttributesTest, DamagedFiles) {
   const std::string triangle = kThreePoints;
   expect_refusal(triangle + "vt zero 0\n", "model.obj:4: expected a number");
   expect_refusal(triangle + "vn 0 1\n", "model.obj:4: expected a number");
-  expect_refusal(triangle + "vn 0 0 1\\\nv 1 2 3\nf 1 2 3\n", "continued on another line");
   expect_error<IoError>([&] { io::ModelFile(path("absent.obj")); }, {"absent.obj"});
 }
 

@@ -99,7 +99,7 @@ TEST_F(PolygonFile, MalformedObj) {
       "soup.obj", read_polygons,
       {
           {"", ":1: ", "without a vertex"},
-          {std::string("\0\xff\xfe\x01 v\0 garbage\n\x80\n", 18), ": ", "without a vertex"},
+          {std::string("\0\xff\xfe\x01 v\0 garbage\n\x80\n", 18), ":2: ", "without a vertex"},
           {"v 0 0 0\nv abc 0 0\n", ":2: ", "expected a number, found \"abc\""},
           {"v 0 0 nan\n", ":1: ", "expected a finite number, found \"nan\""},
           {"v 0 0 1e999\n", ":1: ", "the number \"1e999\" is too large"},
@@ -131,7 +131,9 @@ TEST_F(PolygonFile, OffVariants) {
       "COFF\n4 2 0\n0 0 0 255 0 0 255\n1 0 0 9 9 9 9\n1 1 0 1 1 1 1\n0 1 0 0 0 0 0\n" + faces,
       "NOFF\n4 2 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0 0 0 1\n0 1 0 0 0 1\n" + faces,
       "STOFF\n4 2 0\n0 0 0 .1 .2\n1 0 0 0 0\n1 1 0 0 1\n0 1 0 0 1\n" + faces,
-      "STCNOFF\n4 2 0\n0 0 0 1 1 1\n1 0 0 1 1 1\n1 1 0 1 1 1\n0 1 0 1 1 1\n" + faces,
+      "STCNOFF\n4 2 0\n0 0 0 0 0 1 .5 .5 .5 1 .1 .2\n1 0 0 0 0 1 .5 .5 .5 1 .1 .2\n"
+      "1 1 0 0 0 1 .5 .5 .5 1 .1 .2\n0 1 0 0 0 1 .5 .5 .5 1 .1 .2\n" +
+          faces,
       "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 0.5 0.5 0.5\n3 2 1 0 7\n",
       "OFF4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n" + faces,
       "4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n" + faces,
@@ -150,7 +152,7 @@ TEST_F(PolygonFile, MalformedOff) {
       "soup.off", read_polygons,
       {
           {"", ":1: ", "it is empty"},
-          {std::string("\0\xff\xfe\x01 garbage\n", 13), ": ", "not an OFF file"},
+          {std::string("\0\xff\xfe\x01 garbage\n", 13), ":1: ", "not an OFF file"},
           {"ON\n", ":1: ", "expected OFF, found \"ON\""},
           {"OFFX 3 1 0\n", ":1: ", "expected OFF, found \"OFFX\""},
           {"4OFF\n", ":1: ", "\"4OFF\" is not supported"},

@@ -372,6 +372,22 @@ std::size_t GltfDocument::add_view(std::string_view bytes, int target) {
   return append("bufferViews", std::move(view));
 }
 
+void GltfDocument::replace(std::size_t accessor, const Eigen::MatrixXd& columns) {
+  auto& description = json["accessors"].at(accessor);
+  const auto count = static_cast<std::size_t>(columns.cols());
+  const auto element = sizeof(float) * static_cast<std::size_t>(columns.rows());
+  const auto [data, stride] = place(description, element, count, "an accessor");
+  char* const begin = binary_.data() + (data - binary_.data());
+  for (Eigen::Index k = 0; k < columns.size(); ++k) {
+    const auto row = static_cast<std::size_t>(k % columns.rows());
+    put_number(static_cast<float>(columns.reshaped()[k]),
+               begin + static_cast<std::size_t>(k / columns.rows()) * stride + row * sizeof(float));
+  }
+  if (description.contains("min")) {
+    set_bounds(description, columns.cast<float>().cast<double>());
+  }
+}
+
 const char* GltfDocument::type_of(Eigen::Index rows) {
   constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
   return rows <= 4 ? kTypes[rows - 1] : "MAT4";

@@ -135,6 +135,9 @@ class GltfDocument {
                : add_accessor<std::uint32_t>(indices, kIndexTarget);
   }
 
+  //! Replaces the numbers of an accessor of floats, where nothing else is.
+  void replace(std::size_t accessor, const Eigen::MatrixXd& columns);
+
   //! Appends to a list of the document. \return the number in it
   std::size_t append(const char* list, GltfJson value);
 

@@ -124,6 +124,7 @@ GltfEdit::GltfEdit(const GltfSource& source) : document(source.path, read_file(s
   accessors_ = numbers_at(document.json, kToAccessors);
   views_ = numbers_at(document.json, kToViews);
   part_meshes(source);
+  find_users();
 }
 
 void drop_compressed_copy(GltfJson& primitive) {
@@ -160,6 +161,26 @@ void GltfEdit::part_meshes(const GltfSource& source) {
   }
 }
 
+void GltfEdit::find_users() {
+  const auto& meshes = document.json["meshes"];
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const auto& primitives = meshes[m].at("primitives");
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      auto lists = primitives[p].value("targets", GltfJson::array());
+      lists.push_back(primitives[p].at("attributes"));
+      for (std::size_t t = 0; t < lists.size(); ++t) {
+        const int target = t + 1 < lists.size() ? static_cast<int>(t) : kBase;
+        for (const auto& [name, number] : lists[t].items()) {
+          const auto& accessor = document.json["accessors"].at(whole(number));
+          if (!accessor.contains("bufferView")) continue;
+          users_[{whole(accessor["bufferView"]), whole(accessor, "byteOffset", 0)}].push_back(
+              {m, p, target, name});
+        }
+      }
+    }
+  }
+}
+
 GltfJson& GltfEdit::primitive(const GltfPart& part, std::size_t number) {
   const auto mesh = whole(node(part.node).at("mesh"));
   return document.json["meshes"].at(mesh).at("primitives").at(number);
@@ -184,6 +205,23 @@ GltfJson& GltfEdit::attributes(const GltfPart& part, std::size_t number, int tar
                          : owner["targets"].at(static_cast<std::size_t>(target));
 }
 
+bool GltfEdit::can_replace(const GltfPart& part, int target, const char* name,
+                           std::size_t accessor) const {
+  const auto& description = document.json["accessors"].at(accessor);
+  if (!description.contains("bufferView") || description.contains("sparse") ||
+      whole(description.at("componentType")) != kGltfFloat) {
+    return false;
+  }
+  const auto mesh = whole(document.json["nodes"].at(part.node).at("mesh"));
+  const auto found =
+      users_.find({whole(description["bufferView"]), whole(description, "byteOffset", 0)});
+  return found != users_.end() &&
+         std::all_of(found->second.begin(), found->second.end(), [&](const User& user) {
+           return user.mesh == mesh && user.target == target && user.name == name &&
+                  std::count(part.primitives.begin(), part.primitives.end(), user.primitive) > 0;
+         });
+}
+
 void GltfEdit::set(const GltfPart& part, int target, const char* name, Eigen::MatrixXd columns) {
   const bool is_finite = columns.cast<float>().allFinite();
   if (!is_finite && std::string_view(name) == "POSITION") {
@@ -196,7 +234,9 @@ void GltfEdit::set(const GltfPart& part, int target, const char* name, Eigen::Ma
     columns =
         columns.unaryExpr([](double x) { return std::isfinite(static_cast<float>(x)) ? x : 0; });
   }
-  const auto accessor = document.add_attribute(columns, std::string_view(name) == "POSITION");
+  auto accessor = whole(attributes(part, part.primitives[0], target).at(name));
+  if (can_replace(part, target, name, accessor)) return document.replace(accessor, columns);
+  accessor = document.add_attribute(columns, std::string_view(name) == "POSITION");
   for (const auto number : part.primitives) attributes(part, number, target)[name] = accessor;
 }
 

@@ -2,8 +2,10 @@
 // Edits the document of a model. What is not edited keeps its bytes.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "flbc/io/model.h"
@@ -44,12 +46,22 @@ class GltfEdit {
   GltfDocument document;
 
  private:
+  using Place = std::pair<std::size_t, std::size_t>;  // buffer view and offset
+  struct User {
+    std::size_t mesh, primitive;
+    int target;  // of morph targets; -1 = none
+    std::string name;
+  };
+
   void part_meshes(const GltfSource& source);
   void drop_unused_compression();
+  void find_users();
   GltfJson& attributes(const GltfPart& part, std::size_t primitive, int target);
   void set(const GltfPart& part, int target, const char* name, Eigen::MatrixXd columns);
+  bool can_replace(const GltfPart& part, int target, const char* name, std::size_t accessor) const;
 
-  std::set<std::size_t> accessors_, views_;  // that the file uses
+  std::map<Place, std::vector<User>> users_;  // of numbers
+  std::set<std::size_t> accessors_, views_;   // that the file uses
 };
 
 //! The .glb file of a model that was read from such a file, with its vertices and normals moved.

@@ -119,9 +119,11 @@ std::vector<Scalar> converted(const std::string& owner, std::size_t count, std::
 template <class Scalar>
 std::vector<Scalar> npy_numbers(const std::string& owner, const NpyHeader& header,
                                 std::string_view bytes) {
-  std::size_t count = 1;
-  for (const auto length : header.shape) {
-    if (length > 0 && count > bytes.size() / static_cast<std::size_t>(length)) {
+  const auto& shape = header.shape;
+  std::size_t count = std::find(shape.begin(), shape.end(), 0) == shape.end() ? 1 : 0;
+  for (const auto length : shape) {
+    if (count == 0) break;
+    if (count > bytes.size() / static_cast<std::size_t>(length)) {
       throw InputError(owner + ": the file ends early");
     }
     count *= static_cast<std::size_t>(length);
