@@ -247,6 +247,7 @@ void CageSolver<Dim>::solve(bool quiet) {
   binding_ = naming(settings_.model, [&] { return rig_->binding(); });
   options.observer = {};
   rig_->set_options(options);
+  rig_->set_solution(Solution(rig_->solution()));  // frees the state of the solver
 }
 
 // Of weights of a method that does not minimize it.

@@ -135,34 +135,43 @@ template <int Dim>
 Binding<Dim> Binding<Dim>::reduced(const SparsifyOptions& limits,
                                    const std::vector<PointList<Dim>>& poses,
                                    Reduction reduction) const {
-  const auto reduce = [&](const ModelPart<Dim>& part, Index most) {
+  const Index most = limits.max_influences;
+  const auto reduce_some = [&](const auto& some_points, const auto& some_edges,
+                               const auto& some_weights, const auto& some_masks, Index at_most) {
     auto few = limits;
-    few.max_influences = most;
-    few.masks = part.masks;
-    return reduce_influences<Dim>(cage.points, part.points, part.edges, part.weights, poses, few,
+    few.max_influences = at_most;
+    few.masks = some_masks;
+    return reduce_influences<Dim>(cage.points, some_points, some_edges, some_weights, poses, few,
                                   reduction);
   };
-  auto result = *this;
-  ModelPart<Dim> part{points, edges, weights, masks};
-  auto of_part = mirror;
-  std::vector<Index> number;
   const bool extends = policy == OutsidePoints::kExtend && !outside.empty();
-  if (extends) {
-    std::vector<Index> inside;
-    for (Index p = 0; p < weights.num_points(); ++p) {
-      if (!std::binary_search(outside.begin(), outside.end(), p)) inside.push_back(p);
+  std::vector<Index> number;
+  SparseWeights few;
+  if (!mirror && !extends) {
+    few = reduce_some(points, edges, weights, masks, most);
+  } else {
+    ModelPart<Dim> part{points, edges, weights, masks};
+    auto of_part = mirror;
+    if (extends) {
+      std::vector<Index> inside;
+      for (Index p = 0; p < weights.num_points(); ++p) {
+        if (!std::binary_search(outside.begin(), outside.end(), p)) inside.push_back(p);
+      }
+      if (inside.empty()) return *this;
+      part = part.taken(inside, number);
+      if (mirror) of_part->partners.clear();
+      for (std::size_t k = 0; mirror && k < inside.size(); ++k) {
+        const Index partner = mirror->partners[inside[k]];  // inside as well
+        of_part->partners.push_back(partner < 0 ? -1 : number[partner]);
+      }
     }
-    if (inside.empty()) return result;
-    part = part.taken(inside, number);
-    if (mirror) of_part->partners.clear();
-    for (std::size_t k = 0; mirror && k < inside.size(); ++k) {
-      const Index partner = mirror->partners[inside[k]];  // inside as well
-      of_part->partners.push_back(partner < 0 ? -1 : number[partner]);
-    }
+    const auto reduce = [&](const ModelPart<Dim>& some, Index at_most) {
+      return reduce_some(some.points, some.edges, some.weights, some.masks, at_most);
+    };
+    few = of_part ? MirroredModel<Dim>(cage, *of_part, part.points).reduced(part, most, reduce)
+                  : reduce(part, most);
   }
-  const Index most = limits.max_influences;
-  auto few = of_part ? MirroredModel<Dim>(cage, *of_part, part.points).reduced(part, most, reduce)
-                     : reduce(part, most);
+  auto result = *this;
   result.weights = !extends ? std::move(few)
                             : SparseWeights::of(cage.size(), weights.num_points(), [&](Index p) {
                                 return number[p] < 0 ? weights.at(p) : few.at(number[p]);

@@ -18,7 +18,7 @@ namespace flbc::io {
 enum class Attributes { kNone, kVertices, kCorners };
 
 struct ModelFormat {
-  void (*read)(const std::string& path, ModelScan& scan) = nullptr;
+  void (*read)(const std::string& path, Extent extent, ModelScan& scan) = nullptr;
   void (*write)(std::ostream& out, const Model& model) = nullptr;
   Attributes attributes = Attributes::kNone;
 };

@@ -503,7 +503,7 @@ class GltfScanner {
 
 }  // namespace
 
-void read_gltf(const std::string& path, ModelScan& scan) {
+void read_gltf(const std::string& path, Extent, ModelScan& scan) {
   refusing_damage(path, [&] { GltfScanner(path, scan).run(); });
 }
 

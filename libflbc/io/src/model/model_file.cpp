@@ -20,12 +20,12 @@
 namespace flbc::io {
 namespace {
 
-ModelScan scan(const std::string& path) {
+ModelScan scan(const std::string& path, Extent extent) {
   // Standard input has no extension.
   const auto& format = format_of(path == "-" ? "-.obj" : path, Content::kModel, "read a model as");
   ModelScan scan;
   scan.text = read_file(path);
-  format.model.read(path, scan);
+  format.model.read(path, extent, scan);
   return scan;
 }
 
@@ -98,12 +98,12 @@ bool are_levels(const PointList<3>& colors) {
 }  // namespace
 
 PolygonSoup read_polygons(const std::string& path) {
-  return scan(path).model.soup;
+  return scan(path, Extent::kGeometry).model.soup;
 }
 
 struct ModelFile::Content {
   explicit Content(const std::string& path)
-      : file(scan(path)), normals(file.model, file.face_normals) {}
+      : file(scan(path, Extent::kEverything)), normals(file.model, file.face_normals) {}
 
   FollowingNormals::Turned turned(const PointList<3>& points,
                                   const Eigen::MatrixXd& jacobians) const {

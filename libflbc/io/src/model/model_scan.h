@@ -37,6 +37,8 @@ struct Site {
   Index index;        //!< of the vertex, normal or polygon
 };
 
+enum class Extent : std::uint8_t { kGeometry, kEverything };
+
 struct ModelScan {
   std::string text{};           //!< the whole file
   Model model{};                //!< its content
@@ -87,14 +89,14 @@ struct VertexAttributes {
   const PointList<3>& colors;
 };
 
-//! Read a file, whose text `scan` has.
+//! Read a file, whose text `scan` has; .ply and .stl support every extent.
 //! \throws as ModelFile does
-void read_obj(const std::string& path, ModelScan& scan);
-void read_off(const std::string& path, ModelScan& scan);
-void read_ply(const std::string& path, ModelScan& scan);
-void read_stl(const std::string& path, ModelScan& scan);
-void read_gltf(const std::string& path, ModelScan& scan);
-void read_svg(const std::string& path, ModelScan& scan);
+void read_obj(const std::string& path, Extent extent, ModelScan& scan);
+void read_off(const std::string& path, Extent extent, ModelScan& scan);
+void read_ply(const std::string& path, Extent extent, ModelScan& scan);
+void read_stl(const std::string& path, Extent extent, ModelScan& scan);
+void read_gltf(const std::string& path, Extent extent, ModelScan& scan);
+void read_svg(const std::string& path, Extent extent, ModelScan& scan);
 
 //! Reads these materials from a .mtl file. \return false if it cannot be read
 bool read_mtl(const std::string& path, std::vector<Material>& materials);

@@ -83,8 +83,12 @@ PointList<Dim> to_matrix(const std::vector<Vector<Dim>>& columns) {
 
 class ObjReader {
  public:
-  ObjReader(const std::string& path, ModelScan& scan)
-      : path_(path), scan_(scan), model_(scan.model), reader_(path, scan.text, {'#', true}) {}
+  ObjReader(const std::string& path, Extent extent, ModelScan& scan)
+      : path_(path),
+        scan_(scan),
+        model_(scan.model),
+        reads_attributes_(extent == Extent::kEverything),
+        reader_(path, scan.text, {'#', true}) {}
 
   void run() {
     while (reader_.next_line()) read_line(reader_.word());
@@ -97,6 +101,7 @@ class ObjReader {
                       "curves and free-form surfaces (\"curv\", \"surf\") are not "
                       "supported; export polygons");
     }
+    if (!reads_attributes_) return;
     drop_dangling_references();
     model_.attributes.texture_coordinates = to_matrix<2>(texture_coordinates_);
     model_.attributes.normals = to_matrix<3>(normals_);
@@ -119,17 +124,25 @@ class ObjReader {
       if (curve_line_ == 0) curve_line_ = reader_.line();
       add_other(model_, "lines with " + in_quotes(keyword));
     } else if (keyword == "mtllib" || keyword == "usemtl") {
+      // Always read, because it may continue on the next line.
       read_material(keyword, rest_of_line(reader_));
-    } else if (keyword == "vt") {
-      read_texture_coordinate();
-    } else if (keyword == "vn") {
-      read_normal();
+    } else if (!reads_attributes_) {
+      return;
+    } else if (keyword == "vt" || keyword == "vn") {
+      const std::int64_t line = reader_.line();
+      keyword == "vt" ? read_texture_coordinate() : read_normal();
+      if (reader_.line() == line) return;
+      // If skipped, the rest would be parsed as a separate line.
+      reader_.fail(
+          "a texture coordinate (\"vt\") or normal (\"vn\") is continued on another line; it must "
+          "be on one");
     } else {
       add_other(model_, "lines with " + in_quotes(keyword));
     }
   }
 
   void read_material(std::string_view keyword, std::string name) {
+    if (!reads_attributes_) return;
     add_other(model_, "lines with " + in_quotes(keyword));
     keyword == "mtllib" ? material_files_.push_back(std::move(name)) : use_material(name);
   }
@@ -156,8 +169,7 @@ class ObjReader {
   // without alpha.
   void read_vertex() {
     const auto numbers = next_numbers(reader_, scan_.text.size(), 2, TripleKind::kPoint);
-    add_sites(scan_, numbers.places, TripleKind::kPoint,
-              static_cast<Index>(model_.soup.points.size()));
+    add(numbers.places, TripleKind::kPoint, model_.soup.points.size());
     model_.soup.points.push_back(numbers.values);
     std::vector<double> others;
     while (reader_.has_word()) others.push_back(reader_.any_number());
@@ -180,6 +192,7 @@ class ObjReader {
       const std::size_t slash = word.find('/');
       vertices.push_back(vertices_.resolve(reader_, corner.vertex, model_.soup.points.size(),
                                            word.substr(0, slash)));
+      if (!reads_attributes_) continue;
       if (is_face) references.push_back(resolve(corner));
       if (!is_face && slash != std::string_view::npos) {
         add_other(model_, "texture coordinates of polylines");
@@ -193,7 +206,7 @@ class ObjReader {
     // A face of two vertices is an edge.
     is_face &= vertices.size() > 2;
     (is_face ? model_.soup.polygons : model_.soup.polylines).push_back(std::move(vertices));
-    if (!is_face) return;
+    if (!reads_attributes_ || !is_face) return;
     model_.attributes.corners.push_back(std::move(references));
     polygon_materials_.push_back(material_);
   }
@@ -237,8 +250,12 @@ class ObjReader {
 
   void read_normal() {
     const auto numbers = next_numbers(reader_, scan_.text.size(), 3, TripleKind::kNormal);
-    add_sites(scan_, numbers.places, TripleKind::kNormal, static_cast<Index>(normals_.size()));
+    add(numbers.places, TripleKind::kNormal, normals_.size());
     normals_.push_back(numbers.values);
+  }
+
+  void add(const std::array<NumberPlace, 3>& places, TripleKind kind, std::size_t index) {
+    if (reads_attributes_) add_sites(scan_, places, kind, static_cast<Index>(index));
   }
 
   // Numbers outside [0, 1] are not colors.
@@ -258,6 +275,7 @@ class ObjReader {
   const std::string& path_;
   ModelScan& scan_;
   Model& model_;
+  bool reads_attributes_;
   TextReader reader_;
   std::int64_t curve_line_ = 0;  // of the first curve or free-form surface; 0 = none
   std::size_t most_others_ = 0;  // numbers after the coordinates of a vertex
@@ -299,8 +317,8 @@ void write_vertices(TextWriter& writer, const Model& model) {
 
 }  // namespace
 
-void read_obj(const std::string& path, ModelScan& scan) {
-  ObjReader(path, scan).run();
+void read_obj(const std::string& path, Extent extent, ModelScan& scan) {
+  ObjReader(path, extent, scan).run();
 }
 
 void write_obj(std::ostream& out, const Model& model) {

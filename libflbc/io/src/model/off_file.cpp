@@ -21,8 +21,11 @@ bool take(std::string_view& text, std::string_view prefix) {
 
 class OffReader {
  public:
-  OffReader(const std::string& path, ModelScan& scan)
-      : scan_(scan), model_(scan.model), reader_(path, scan.text, {'#', false}) {}
+  OffReader(const std::string& path, Extent extent, ModelScan& scan)
+      : scan_(scan),
+        model_(scan.model),
+        reads_attributes_(extent == Extent::kEverything),
+        reader_(path, scan.text, {'#', false}) {}
 
   void run() {
     read_header();
@@ -34,7 +37,7 @@ class OffReader {
       reader_.next_line_of("vertices", v, num_points);
       read_vertex(v);
     }
-    finish_colors();
+    if (reads_attributes_) finish_colors();
     for (Index f = 0; f < num_polygons; ++f) {
       reader_.next_line_of("faces", f, num_polygons);
       read_polygon(num_points);
@@ -42,6 +45,7 @@ class OffReader {
     if (reader_.next_line()) {
       reader_.fail_expected("the end of the file after the last face", reader_.word());
     }
+    if (!reads_attributes_) return;
     keep_finite<2>(model_, model_.attributes.texture_coordinates);
     keep_finite<3>(model_, model_.attributes.normals);
     refer_to_vertices(model_);
@@ -77,6 +81,7 @@ class OffReader {
   void allocate(Index num_points, Index num_polygons) {
     model_.soup.points.reserve(static_cast<std::size_t>(num_points));
     model_.soup.polygons.reserve(static_cast<std::size_t>(num_polygons));
+    if (!reads_attributes_) return;
     if (has_texture_) model_.attributes.texture_coordinates.resize(2, num_points);
     if (has_colors_) model_.attributes.colors.resize(3, num_points);
     if (has_normals_) model_.attributes.normals.resize(3, num_points);
@@ -85,6 +90,7 @@ class OffReader {
   void read_vertex(Index v) {
     const auto point = next_numbers(reader_, scan_.text.size(), 3, TripleKind::kPoint);
     model_.soup.points.push_back(point.values);
+    if (!reads_attributes_) return;
     add_sites(scan_, point.places, TripleKind::kPoint, v);
     if (has_normals_) {
       const auto normal = next_numbers(reader_, scan_.text.size(), 3, TripleKind::kNormal);
@@ -125,7 +131,7 @@ class OffReader {
     auto& elements = num_corners == 2 ? model_.soup.polylines : model_.soup.polygons;
     std::vector<Index>& corners = elements.emplace_back(num_corners);
     for (Index& corner : corners) corner = reader_.index("vertices", 0, num_points);
-    if (reader_.has_word()) add_other(model_, "colors of polygons");
+    if (reads_attributes_ && reader_.has_word()) add_other(model_, "colors of polygons");
   }
 
   // Integers are levels from 0 to 255, other numbers are in [0, 1].
@@ -142,6 +148,7 @@ class OffReader {
 
   ModelScan& scan_;
   Model& model_;
+  bool reads_attributes_;
   TextReader reader_;
   bool has_texture_ = false;
   bool has_colors_ = false;
@@ -153,8 +160,8 @@ class OffReader {
 
 }  // namespace
 
-void read_off(const std::string& path, ModelScan& scan) {
-  OffReader(path, scan).run();
+void read_off(const std::string& path, Extent extent, ModelScan& scan) {
+  OffReader(path, extent, scan).run();
 }
 
 void write_off(std::ostream& out, const Model& model) {

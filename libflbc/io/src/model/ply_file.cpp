@@ -256,7 +256,7 @@ class PlyScanner {
 
 }  // namespace
 
-void read_ply(const std::string& path, ModelScan& scan) {
+void read_ply(const std::string& path, Extent, ModelScan& scan) {
   PlyScanner(path, scan).run();
 }
 

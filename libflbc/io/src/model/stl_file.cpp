@@ -161,7 +161,7 @@ class StlScanner {
 
 }  // namespace
 
-void read_stl(const std::string& path, ModelScan& scan) {
+void read_stl(const std::string& path, Extent, ModelScan& scan) {
   StlScanner(path, scan).run();
 }
 

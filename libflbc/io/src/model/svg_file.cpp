@@ -363,7 +363,7 @@ std::vector<Loop> simplified(const std::vector<Loop>& loops, double tolerance) {
 
 }  // namespace
 
-void read_svg(const std::string& path, ModelScan& scan) {
+void read_svg(const std::string& path, Extent, ModelScan& scan) {
   constexpr int kPixels = 2048;
   constexpr double kTolerance = 2;  // pixels, 0.1% of the longer side
   scan.fixed = path + ": a drawing is only read; write .obj";

@@ -7,6 +7,7 @@
 #include <ostream>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "flbc/errors.h"
 #include "weights/npy_header.h"
@@ -38,13 +39,20 @@ SparseWeights read_npy(const std::string& path, std::string content) {
   return WeightMatrix(Eigen::Map<const WeightMatrix>(numbers.data(), num_controls, num_points));
 }
 
-void write_npy(std::ostream& out, const SparseWeights& sparse) {
-  const WeightMatrix weights = sparse.dense();
-  // In memory the numbers of a point are contiguous, which is C order for #points x n.
-  const std::string header = npy_header("<f8", {weights.cols(), weights.rows()});
-  out.write(header.data(), static_cast<std::streamsize>(header.size()));
-  out.write(reinterpret_cast<const char*>(weights.data()),
-            static_cast<std::streamsize>(sizeof(double)) * weights.size());
+void write_npy(std::ostream& out, const SparseWeights& weights) {
+  const auto n = static_cast<std::size_t>(weights.num_control_points());
+  out << npy_header("<f8", {weights.num_points(), weights.num_control_points()});
+  constexpr std::size_t kAtOnce = 1 << 16;  // numbers
+  std::vector<double> rows;
+  for (Index p = 0; p < weights.num_points(); ++p) {
+    const std::size_t start = rows.size();
+    rows.resize(start + n);
+    weights.visit(p, [&](Index i, double weight) { rows[start + i] = weight; });
+    if (rows.size() < kAtOnce && p + 1 < weights.num_points()) continue;
+    out.write(reinterpret_cast<const char*>(rows.data()),
+              static_cast<std::streamsize>(sizeof(double) * rows.size()));
+    rows.clear();
+  }
 }
 
 }  // namespace flbc::io
