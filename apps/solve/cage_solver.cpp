@@ -247,7 +247,8 @@ void CageSolver<Dim>::solve(bool quiet) {
   binding_ = naming(settings_.model, [&] { return rig_->binding(); });
   options.observer = {};
   rig_->set_options(options);
-  rig_->set_solution(Solution(rig_->solution()));  // frees the state of the solver
+  // Frees the state of the solver.
+  if (!is_meshless(settings_)) rig_->set_solution(Solution(rig_->solution()));
 }
 
 // Of weights of a method that does not minimize it.
