@@ -14,7 +14,7 @@ declare -A groups=(
     libcli11-dev nlohmann-json3-dev libpng-dev libcairo2-dev libgtest-dev
     pybind11-dev python3-dev python3-numpy"
   [netgen]="libnglib-dev"
-  [tests]="poppler-utils librsvg2-bin clang-format codespell mkdocs mkdocs-material
+  [tests]="make poppler-utils librsvg2-bin clang-format codespell mkdocs mkdocs-material
     libjs-katex python3-scipy python3-pytest python3-distributed python3-matplotlib mypy"
   [browser]="chromium fonts-dejavu-core"
   [clang]="clang libclang-rt-14-dev libomp-14-dev"
@@ -41,7 +41,10 @@ for name in program "$@"; do
   packages+=(${groups[$name]:-$name})
   case $name in
     openfoam) [ -e $headers/src/dynamicMesh/lnInclude ] || needs_headers=yes ;;
-    web) needs_sources tetgen pugixml ;;
+    web)
+      needs_sources tetgen pugixml
+      command -v npm >/dev/null || packages+=(npm)  # other packages of Node.js have it
+      ;;
     windows | aarch64) needs_sources tetgen pugixml zlib libpng1.6 openmesh ;;
   esac
 done

@@ -13,7 +13,6 @@ if [ "${1:-}" = --fast ]; then
 fi
 scripts/install_dependencies.sh web
 if [ ! -d web/decoders/node_modules ]; then
-  command -v npm >/dev/null || { echo "web.sh: npm is missing (Debian: npm)" >&2; exit 1; }
   npm ci --prefix web/decoders --ignore-scripts --no-audit --no-fund
 fi
 export NODE_PATH=/usr/share/nodejs  # of the tools that Emscripten calls
