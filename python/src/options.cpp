@@ -175,7 +175,7 @@ py::object as_python(const std::shared_ptr<const Proof>& proof) {
   arrays["smoothness"] = proof->smoothness;
   arrays["masked"] =
       py::array_t<Index>({proof->masked.cols(), Eigen::Index(2)}, proof->masked.data());
-  return std::move(arrays);
+  return arrays;
 }
 
 }  // namespace flbc::python

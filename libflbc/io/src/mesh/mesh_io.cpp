@@ -37,8 +37,8 @@ DomainMesh<2> from_soup(const std::string& path, const PolygonSoup& soup) {
 }
 
 template <int Dim>
-const MeshFormat<Dim>& mesh_format(const std::string& path, const std::string& action) {
-  const std::string phrase = action + " a " + std::to_string(Dim) + "D mesh as";
+const MeshFormat<Dim>& mesh_format(const std::string& path, const char* action) {
+  const auto phrase = std::string(action) + " a " + std::to_string(Dim) + "D mesh as";
   return format_of(path, kMesh<Dim>, phrase.c_str()).template mesh<Dim>();
 }
 

@@ -21,8 +21,8 @@ namespace flbc::io {
 namespace {
 
 ModelScan scan(const std::string& path, Extent extent) {
-  // Standard input has no extension.
-  const auto& format = format_of(path == "-" ? "-.obj" : path, Content::kModel, "read a model as");
+  const std::string name = path == "-" ? "-.obj" : path;  // standard input has no extension
+  const auto& format = format_of(name, Content::kModel, "read a model as");
   ModelScan scan;
   scan.text = read_file(path);
   format.model.read(path, extent, scan);
