@@ -5,6 +5,7 @@
 
 #include "flbc/deform.h"
 #include "flbc/pointwise.h"
+#include "flbc/sparsify.h"
 #include "support/errors.h"
 #include "support/refined_sample.h"
 #include "support/test.h"
@@ -210,6 +211,38 @@ TEST_IN_2D_AND_3D(RigTest, MasksFollowTheModelInAReshapedCage) {
         reshaped.weights_of_points().dense() - made.weights_of_points().dense();
     EXPECT_LT(difference.squaredNorm() / static_cast<double>(difference.size()), 2e-6);
   }
+}
+
+// A small change of the weights changes reduced ones less than a reduction that chooses anew, and
+// hardly costs more.
+TEST_IN_2D_AND_3D(RigTest, AReductionStartsFromTheLastOne) {
+  const auto [cage, mesh, name] = with_fine_cage<Dim>(Shape::kBox, 4, 8);
+  const auto edges = edges_of_cells(mesh);
+  BindOptions options;
+  options.max_influences = Dim + 2;
+  Rig<Dim> rig(cage, mesh, mesh.points, edges, options);
+  const auto first = rig.bind().weights;
+  EXPECT_TRUE(rig.bind().weights == first);
+  double jump = 0, jump_anew = 0;
+  for (const double smoothness : {0.004, 0.003, 0.006}) {
+    options.solver.smoothness = smoothness;
+    const WeightMatrix before = rig.bind().weights.dense();
+    const WeightMatrix before_anew =
+        rig.binding().reduced({options.max_influences}).weights.dense();
+    rig.set_options(options);
+    rig.solve();
+    const auto all = rig.binding();
+    const auto few = rig.bind().weights;
+    const auto anew = all.reduced({options.max_influences}).weights;
+    jump += (few.dense() - before).norm();
+    jump_anew += (anew.dense() - before_anew).norm();
+    const auto cost = [&](const SparseWeights& reduced) {
+      return poisson_cost<Dim>(cage.points, mesh.points, edges, all.weights, reduced, {});
+    };
+    EXPECT_LE(cost(few), 1.05 * cost(anew));
+    for (Index p = 0; p < few.num_points(); ++p) EXPECT_LE(few.count(p), options.max_influences);
+  }
+  EXPECT_LT(jump, jump_anew);
 }
 
 TEST_IN_2D_AND_3D(RigTest, AShapeInWhichMasksCannotBeObeyedIsRefused) {

@@ -499,7 +499,9 @@ class Work {
   val reduce(const Json& options, const Report& report) {
     SparsifyOptions limits{options.value("influences", 8)};
     limits.progress = [&](double done) { report("reducing influences", done); };
+    limits.start = few_;
     bound_ = rig().binding().reduced(limits);
+    few_ = bound_->weights;
     return from_json({{"influences", limits.max_influences}});
   }
 
@@ -587,6 +589,7 @@ class Work {
   view::ShownCage<Dim> shown_;
   std::unique_ptr<Rig<Dim>> rig_;      // once there is a mesh
   std::optional<Binding<Dim>> bound_;  // of the last solve
+  SparseWeights few_{};                // of the last reduction
   Json solver_given_ = Json::object();
   Report report_;  // of the present step
   double first_excess_ = 0;

@@ -93,7 +93,8 @@ class Rig {
   //! The binding of the points with all influences.
   Binding<Dim> binding();
 
-  //! The same reduced to BindOptions::max_influences each.
+  //! The same reduced to BindOptions::max_influences each, from the influences of the last call
+  //! where they fit, so that a small change has a small effect.
   Binding<Dim> bind();
 
  private:
@@ -117,6 +118,7 @@ class Rig {
   static void constrain(Placed& placed, const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                         const PointList<Dim>& points, const BindOptions& options);
   SparseWeights evaluated(const Placement<Dim>& placement) const;
+  void drop_weights();
 
   Cage<Dim> cage_;
   DomainMesh<Dim> mesh_{};
@@ -129,6 +131,8 @@ class Rig {
   bool is_given_ = false;                  // and converged, by set_solution()
   Placed placed_{};
   SparseWeights weights_{};  // at the placed points
+  SparseWeights few_{};      // of the last bind()
+  bool is_reduced_ = false;  // whether few_ are of the present weights and options
 };
 
 }  // namespace flbc

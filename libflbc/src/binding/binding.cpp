@@ -141,6 +141,11 @@ Binding<Dim> Binding<Dim>::reduced(const SparsifyOptions& limits,
     auto few = limits;
     few.max_influences = at_most;
     few.masks = some_masks;
+    const auto& start = few.start;
+    if (start.num_points() != some_weights.num_points() ||
+        start.num_control_points() != cage.size()) {
+      few.start = {};
+    }
     return reduce_influences<Dim>(cage.points, some_points, some_edges, some_weights, poses, few,
                                   reduction);
   };

@@ -269,7 +269,7 @@ const Solution& Rig<Dim>::solve(const Budget& budget) {
     solver->solve(budget, options_.observer);
     solver_ = std::move(solver);
   }
-  weights_ = {};
+  drop_weights();
   report_.solve_seconds = watch.seconds();
   return solution();
 }
@@ -284,7 +284,7 @@ void Rig<Dim>::set_solution(Solution solution) {
   }
   is_given_ = solution.report.status == SolveStatus::kConverged;
   solution_ = std::move(solution);
-  weights_ = {};
+  drop_weights();
 }
 
 template <int Dim>
@@ -324,7 +324,7 @@ const Solution& Rig<Dim>::reshape(const PointList<Dim>& control_points, const Bu
     is_given_ = false;
   }
   placed_ = std::move(placed);
-  weights_ = {};
+  drop_weights();
   return solution();
 }
 
@@ -339,7 +339,7 @@ void Rig<Dim>::set_model(PointList<Dim> points, EdgeList edges) {
   placed_ = std::move(placed);
   points_ = std::move(points);
   edges_ = std::move(edges);
-  weights_ = {};
+  drop_weights();
 }
 
 template <int Dim>
@@ -364,12 +364,14 @@ void Rig<Dim>::set_options(const BindOptions& options) {
   }
   if (differ(options_, options)) {
     is_given_ = false;
-    weights_ = {};
+    drop_weights();
   }
+  is_reduced_ = is_reduced_ && options.max_influences == options_.max_influences &&
+                options.reduction == options_.reduction;
   options_ = options;
   if (!changed) return;
   placed_ = std::move(*changed);
-  weights_ = {};
+  drop_weights();
 }
 
 template <int Dim>
@@ -443,15 +445,26 @@ std::string Rig<Dim>::note() const {
 template <int Dim>
 Binding<Dim> Rig<Dim>::bind() {
   const ThreadScope threads(options_.solver.threads);
-  const auto all = binding();
-  if (options_.max_influences == 0) return all;
+  auto bound = binding();
+  if (options_.max_influences == 0) return bound;
   const Stopwatch watch;
-  SparsifyOptions limits{options_.max_influences};
-  const auto& observer = options_.observer;
-  if (observer.poll) limits.progress = [&](double) { observer.poll(); };
-  auto few = all.reduced(limits, {}, options_.reduction);
-  few.report.sparsify_seconds = watch.seconds();
-  return few;
+  if (!is_reduced_) {
+    SparsifyOptions limits{options_.max_influences};
+    const auto& observer = options_.observer;
+    if (observer.poll) limits.progress = [&](double) { observer.poll(); };
+    limits.start = few_;
+    few_ = bound.reduced(limits, {}, options_.reduction).weights;
+    is_reduced_ = true;
+  }
+  bound.weights = few_;
+  bound.report.sparsify_seconds = watch.seconds();
+  return bound;
+}
+
+template <int Dim>
+void Rig<Dim>::drop_weights() {
+  weights_ = {};
+  is_reduced_ = false;
 }
 
 template class Rig<2>;

@@ -100,16 +100,19 @@ class PoissonDescent {
   // \param points  Dim x P
   // \param given  of P points, target weights
   // \param projected  of P points, the nearest feasible weights
+  // \param start  of P points, or empty
   PoissonDescent(const PoissonEnergy& energy, const EdgeGraph& graph,
                  const PointList<Dim>& control_points, const PointList<Dim>& points,
                  const SparseWeights& given, const SparseWeights& projected,
-                 const SparsifyOptions& options, const PointMasks& masks)
+                 const SparseWeights& start, const SparsifyOptions& options,
+                 const PointMasks& masks)
       : energy_(energy),
         graph_(graph),
         control_points_(control_points),
         points_(points),
         given_(given),
         projected_(projected),
+        given_start_(start),
         options_(options),
         masks_(masks),
         sparsifier_(control_points, options),
@@ -164,7 +167,8 @@ class PoissonDescent {
       const bool chooses = std::none_of(neighbours.begin(), neighbours.end(), [&](const auto& one) {
         return starts[one.point] == Start::kChosen;
       });
-      const bool is_taken = !chooses && start_like_neighbor(point, starts, work);
+      const bool is_taken =
+          start_as_before(point, work) || (!chooses && start_like_neighbor(point, starts, work));
       starts[point] = is_taken ? Start::kTaken : Start::kChosen;
       changed[point] = is_taken || start_alone(point, work);
       moments_.col(point) = moments_of(weights_[point]);
@@ -246,11 +250,28 @@ class PoissonDescent {
     return more != given;
   }
 
+  bool needs_few(Index point) const {
+    return options_.threshold == 0 && projected_.count(point) > options_.max_influences;
+  }
+
+  // Takes the influences of an earlier reduction.
+  // \return false if there are none, or no need
+  bool start_as_before(Index point, typename PointSparsifier<Dim>::Workspace& work) {
+    if (given_start_.num_points() == 0 || !needs_few(point)) return false;
+    const auto support = positive_entries(given_start_.at(point));
+    if (support.empty() || static_cast<Index>(support.size()) > options_.max_influences)
+      return false;
+    if (!masks_.permits(point, support)) return false;
+    auto& qp = work.selection.qp();
+    qp.aim_at(points_.col(point)) = given_.at(point);
+    return qp.solve(support, std::numeric_limits<double>::infinity(), weights_[point]);
+  }
+
   // Takes the best support of the neighbors that have started, as with_one_more() would choose one.
   // \return false if there is none, or no need
   bool start_like_neighbor(Index point, const std::vector<Start>& starts,
                            typename PointSparsifier<Dim>::Workspace& work) {
-    if (options_.threshold > 0 || projected_.count(point) <= options_.max_influences) return false;
+    if (!needs_few(point)) return false;
     auto& qp = work.selection.qp();
     qp.aim_at(points_.col(point)) = given_.at(point);
     PointWeights& best = weights_[point];
@@ -445,6 +466,7 @@ class PoissonDescent {
   const PointList<Dim>& points_;
   const SparseWeights& given_;
   const SparseWeights& projected_;
+  const SparseWeights& given_start_;
   SparsifyOptions options_;
   const PointMasks& masks_;
   PointSparsifier<Dim> sparsifier_;
@@ -484,6 +506,11 @@ SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const Poin
   const PointList<Dim> sorted_points = points(Eigen::all, order);
   const auto sorted_given = take_points(given, order);
   const auto sorted_projected = take_points(projected, order);
+  SparseWeights sorted_start;
+  if (options.start.num_points() > 0) {
+    check_size(options.start, control_points.cols(), points.cols());
+    sorted_start = take_points(options.start, order);
+  }
   SparsifyOptions sorted_options = options;
   for (auto& mask : sorted_options.masks) renumber(mask.points, place);
   const auto sorted_masks = masks_of(sorted_options, sorted_given);
@@ -491,7 +518,7 @@ SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const Poin
   for (auto& ends : sorted_edges.ends) renumber(ends, place);
   const EdgeGraph graph(sorted_points, sorted_given, sorted_edges, sorted_masks);
   PoissonDescent<Dim> descent(energy, graph, control_points, sorted_points, sorted_given,
-                              sorted_projected, options, sorted_masks);
+                              sorted_projected, sorted_start, options, sorted_masks);
   {
     const StagePart part(kStart / 2, kStart);
     descent.start();
