@@ -218,7 +218,8 @@ class Work {
   val call(const std::string& name, const val& given, const Report& report) {
     const auto options = [&] { return to_json(given); };
     const auto text = [&](const char* key, const char* usual = "") {
-      return given.hasOwnProperty(key) ? given[key].template as<std::string>() : usual;
+      const bool is_given = given.hasOwnProperty(key) && !given[key].isUndefined();
+      return is_given ? given[key].template as<std::string>() : usual;
     };
     const auto places = [&] { return matrix_in<PointList<Dim>>(given["points"]); };
     const auto pose = [&] { return pose_in(given["points"]); };
