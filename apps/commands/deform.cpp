@@ -5,12 +5,10 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <sstream>
 
 #include "commands/commands.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
-#include "flbc/evaluator.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
 #include "front/bound_model.h"
@@ -19,7 +17,6 @@
 #include "front/poses.h"
 #include "front/system/held_signals.h"
 #include "poses/outside.h"
-#include "solve/progress_bar.h"
 
 namespace flbc::app {
 namespace {

@@ -243,6 +243,16 @@ TEST_IN_2D_AND_3D(RigTest, AReductionStartsFromTheLastOne) {
     for (Index p = 0; p < few.num_points(); ++p) EXPECT_LE(few.count(p), options.max_influences);
   }
   EXPECT_LT(jump, jump_anew);
+  // With more influences it chooses anew, and for another model as well.
+  options.max_influences = Dim + 6;
+  rig.set_options(options);
+  const auto anew = rig.binding().reduced({options.max_influences}).weights;
+  EXPECT_TRUE(rig.bind().weights == anew);
+  const PointList<Dim> turned = mesh.points.rowwise().reverse();
+  rig.set_model(turned, edges_of_cells(DomainMesh<Dim>{
+                            turned, (mesh.num_vertices() - 1 - mesh.cells.array()).matrix()}));
+  const auto of_other = rig.binding().reduced({options.max_influences}).weights;
+  EXPECT_TRUE(rig.bind().weights == of_other);
 }
 
 TEST_IN_2D_AND_3D(RigTest, AShapeInWhichMasksCannotBeObeyedIsRefused) {

@@ -283,6 +283,7 @@ class Work {
   void show_cage(Cage<Dim> cage, const std::string& file) {
     rig_.reset();
     bound_.reset();
+    few_ = {};
     cage_ = std::move(cage);
     shown_ = app::load_shown_cage<Dim>(file);
   }

@@ -93,8 +93,8 @@ class Rig {
   //! The binding of the points with all influences.
   Binding<Dim> binding();
 
-  //! The same reduced to BindOptions::max_influences each, from the influences of the last call
-  //! where they fit, so that a small change has a small effect.
+  //! The same reduced to BindOptions::max_influences each. Starts from the influences of the last
+  //! call for this model and number, so that a small change has a small effect.
   Binding<Dim> bind();
 
  private:

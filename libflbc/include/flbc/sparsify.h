@@ -25,9 +25,9 @@ struct SparsifyOptions {
   //! reduction.
   std::function<void(double done)> progress{};
   std::vector<Mask> masks{};  //!< of the points; masked weights become exactly 0
-  //! Of the points, from an earlier reduction; may be empty. reduce_by_poisson() starts from these
-  //! influences, so that a small change of the weights has a small effect. Binding::reduced()
-  //! ignores those of another number of points or control points.
+  //! Of the points, from an earlier reduction to as many influences; may be empty.
+  //! reduce_by_poisson() starts from them, so that a small change of the weights has a small
+  //! effect. Binding::reduced() ignores those of another number of points or control points.
   SparseWeights start{};
 };
 

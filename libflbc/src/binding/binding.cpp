@@ -136,24 +136,24 @@ Binding<Dim> Binding<Dim>::reduced(const SparsifyOptions& limits,
                                    const std::vector<PointList<Dim>>& poses,
                                    Reduction reduction) const {
   const Index most = limits.max_influences;
-  const auto reduce_some = [&](const auto& some_points, const auto& some_edges,
-                               const auto& some_weights, const auto& some_masks, Index at_most) {
+  // \param part  a binding or a ModelPart
+  const auto reduce = [&](const auto& part, Index at_most) {
     auto few = limits;
     few.max_influences = at_most;
-    few.masks = some_masks;
+    few.masks = part.masks;
     const auto& start = few.start;
-    if (start.num_points() != some_weights.num_points() ||
+    if (start.num_points() != part.weights.num_points() ||
         start.num_control_points() != cage.size()) {
       few.start = {};
     }
-    return reduce_influences<Dim>(cage.points, some_points, some_edges, some_weights, poses, few,
+    return reduce_influences<Dim>(cage.points, part.points, part.edges, part.weights, poses, few,
                                   reduction);
   };
   const bool extends = policy == OutsidePoints::kExtend && !outside.empty();
   std::vector<Index> number;
   SparseWeights few;
   if (!mirror && !extends) {
-    few = reduce_some(points, edges, weights, masks, most);
+    few = reduce(*this, most);
   } else {
     ModelPart<Dim> part{points, edges, weights, masks};
     auto of_part = mirror;
@@ -170,9 +170,6 @@ Binding<Dim> Binding<Dim>::reduced(const SparsifyOptions& limits,
         of_part->partners.push_back(partner < 0 ? -1 : number[partner]);
       }
     }
-    const auto reduce = [&](const ModelPart<Dim>& some, Index at_most) {
-      return reduce_some(some.points, some.edges, some.weights, some.masks, at_most);
-    };
     few = of_part ? MirroredModel<Dim>(cage, *of_part, part.points).reduced(part, most, reduce)
                   : reduce(part, most);
   }

@@ -339,6 +339,7 @@ void Rig<Dim>::set_model(PointList<Dim> points, EdgeList edges) {
   placed_ = std::move(placed);
   points_ = std::move(points);
   edges_ = std::move(edges);
+  few_ = {};
   drop_weights();
 }
 
@@ -366,8 +367,11 @@ void Rig<Dim>::set_options(const BindOptions& options) {
     is_given_ = false;
     drop_weights();
   }
-  is_reduced_ = is_reduced_ && options.max_influences == options_.max_influences &&
-                options.reduction == options_.reduction;
+  if (options.max_influences != options_.max_influences ||
+      options.reduction != options_.reduction) {
+    few_ = {};
+    is_reduced_ = false;
+  }
   options_ = options;
   if (!changed) return;
   placed_ = std::move(*changed);

@@ -254,13 +254,12 @@ class PoissonDescent {
     return options_.threshold == 0 && projected_.count(point) > options_.max_influences;
   }
 
-  // Takes the influences of an earlier reduction.
+  // Takes the influences of an earlier reduction to the same number.
   // \return false if there are none, or no need
   bool start_as_before(Index point, typename PointSparsifier<Dim>::Workspace& work) {
     if (given_start_.num_points() == 0 || !needs_few(point)) return false;
     const auto support = positive_entries(given_start_.at(point));
-    if (support.empty() || static_cast<Index>(support.size()) > options_.max_influences)
-      return false;
+    if (static_cast<Index>(support.size()) != options_.max_influences) return false;
     if (!masks_.permits(point, support)) return false;
     auto& qp = work.selection.qp();
     qp.aim_at(points_.col(point)) = given_.at(point);
