@@ -7,7 +7,6 @@
 #include <new>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "commands/commands.h"
 #include "flbc/errors.h"
@@ -26,30 +25,6 @@ int fail(int exit_status, const char* what) {
 bool has_command(const CLI::App& app, const std::string& name) {
   return !app.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; })
               .empty();
-}
-
-// Names that options had before. Scripts may still use them, but --help does not show them.
-struct OldName {
-  const char *command, *old_name, *name;
-};
-constexpr OldName kOldNames[] = {{"run", "--deformed", "--pose"},
-                                 {"deform", "--cage", "--pose"},
-                                 {"export", "--cages", "--pose"}};
-
-// The arguments with the names that options have now, in reverse order, as CLI11 wants them.
-std::vector<std::string> arguments_of(int argc, char** argv) {
-  std::vector<std::string> arguments(argv + 1, argv + argc);
-  const std::string command = arguments.empty() ? "" : arguments.front();
-  for (auto& argument : arguments) {
-    if (argument == "--") break;
-    const auto end = std::min(argument.find('='), argument.size());
-    for (const auto& [of, old_name, name] : kOldNames) {
-      if (command != of || argument.compare(0, end, old_name) != 0) continue;
-      argument.replace(0, end, name);
-      break;
-    }
-  }
-  return {arguments.rbegin(), arguments.rend()};
 }
 
 // An empty name, as of an unset variable in a script, must not pass for an option left out.
@@ -125,7 +100,7 @@ int run(int argc, char** argv) {
     throw flbc::OptionError("unknown command '" + std::string(argv[1]) + "'; see flbc --help");
   }
   try {
-    app.parse(arguments_of(argc, argv));
+    app.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help and --version
     const int status = app.exit(request);
     require_output();

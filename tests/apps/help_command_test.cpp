@@ -37,32 +37,6 @@ class HelpCommands : public CommandLineTest {
   }
 };
 
-// Names that options had before still work, and --help does not show them.
-TEST_F(HelpCommands, OldNamesOfPosesAreHiddenAliases) {
-  const auto cage = tetrahedron();
-  const auto model = file("model.obj", "v 0.25 0.25 0.25\n");
-  const auto weights = linear_weights(PointList<3>::Constant(3, 1, 0.25));
-  const std::pair<std::string, std::string> uses[] = {
-      {"run " + cage + " -o out", "--deformed"},
-      {"deform " + model + " --weights " + weights + " -o o.obj", "--cage"},
-      {"export " + model + " --weights " + weights + " --cage " + cage + " -o o.glb", "--cages"}};
-  for (const auto& [use, old_name] : uses) {
-    const auto options = options_of(use.substr(0, use.find(' ')));
-    EXPECT_EQ(options.count("--pose"), 1U) << use;
-    EXPECT_EQ(options.count(old_name), 0U) << use;
-    for (const auto& middle : {" ", "="}) {
-      expect(use + " " + old_name + middle + "a_%d_%d.obj", 1, "there must be one %d in the name");
-    }
-  }
-  const auto deform = "deform " + model + " --weights " + weights + " -q -o ";
-  expect(deform + "new.obj --pose " + cage);
-  expect(deform + "old.obj --cage " + cage);
-  expect(deform + "equal.obj --cage=" + cage);
-  EXPECT_NE(slurp("new.obj"), "");
-  EXPECT_EQ(slurp("old.obj"), slurp("new.obj"));
-  EXPECT_EQ(slurp("equal.obj"), slurp("new.obj"));
-}
-
 TEST_F(HelpCommands, ParserNamesTheCommandAndVersionTheComponents) {
   for (const auto& command : commands()) {
     const auto refused = run(command + " --no-such-option");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/binding.h"
+#include "flbc/rig.h"
 
 #include <cmath>
 #include <limits>
@@ -39,7 +40,7 @@ Binding<Dim> bound(OutsidePoints outside, bool with_outside, Index max_influence
   BindOptions options;
   options.outside = outside;
   options.max_influences = max_influences;
-  return bind<Dim>(sample.cage, sample.mesh, model<Dim>(with_outside), {}, options);
+  return Rig<Dim>(sample.cage, sample.mesh, model<Dim>(with_outside), {}, options).bind();
 }
 
 TEST_IN_2D_AND_3D(BindTest, PointsOutsideFollowTheirPolicy) {
@@ -72,18 +73,18 @@ TEST_IN_2D_AND_3D(BindTest, MeshesTheCageAndSaysHow) {
           EXPECT_EQ(meshing.vertices, 77);
           return sample.mesh;
         }}}};
-  const auto binding = bind<Dim>(sample.cage, model<Dim>(false), {}, options, meshers);
+  const auto binding = Rig<Dim>(sample.cage, model<Dim>(false), {}, options, meshers).bind();
   EXPECT_EQ(binding.report.mesher, "mine");
   EXPECT_TRUE(binding.weights ==
-              bind<Dim>(sample.cage, sample.mesh, model<Dim>(false), {}, options).weights);
+              Rig<Dim>(sample.cage, sample.mesh, model<Dim>(false), {}, options).bind().weights);
 }
 
 TEST_IN_2D_AND_3D(BindTest, RefusesWhatItCannotBind) {
   const auto sample = box<Dim>();
   const auto refused = [&](const char* words, const PointList<Dim>& points, const EdgeList& edges,
                            const BindOptions& options) {
-    expect_refused<Error>(words,
-                          [&] { bind<Dim>(sample.cage, sample.mesh, points, edges, options); });
+    expect_refused<Error>(
+        words, [&] { Rig<Dim>(sample.cage, sample.mesh, points, edges, options).bind(); });
   };
   refused("no vertices", PointList<Dim>(Dim, 0), {}, {});
   PointList<Dim> infinite = model<Dim>(false);

@@ -127,7 +127,7 @@ TEST_IN_2D_AND_3D(MirrorTest, PointsAtTheToleranceStayTogether) {
   BindOptions options;
   options.mirror_axis = 0;
   options.outside = OutsidePoints::kKeep;
-  const auto binding = bind<Dim>(cage, mesh, points, {}, options);
+  const auto binding = Rig<Dim>(cage, mesh, points, {}, options).bind();
   EXPECT_EQ(binding.outside, (std::vector<Index>{0, 1}));
   EXPECT_LT((binding.deform(cage.points) - points).cwiseAbs().maxCoeff(), 1e-12);
 }
@@ -167,7 +167,7 @@ TEST_IN_2D_AND_3D(MirrorTest, DuplicatesOnOneSideStayTogether) {
     if (masked) options.masks = {{{0}, {3, 4}}};
     for (const Index most : {0, 8}) {
       options.max_influences = most;
-      const auto binding = bind<Dim>(cage, mesh, points, mirrored_edges(), options);
+      const auto binding = Rig<Dim>(cage, mesh, points, mirrored_edges(), options).bind();
       for (std::size_t k = 0; k < copied.size(); ++k) {
         const Index copy = count + static_cast<Index>(k);
         EXPECT_TRUE(binding.weights.at(copy) == binding.weights.at(copied[k])) << k;

@@ -63,7 +63,7 @@ TEST_IN_2D_AND_3D(ModelMasksTest, PointsOutsideObey) {
   for (const auto policy :
        {OutsidePoints::kExtend, OutsidePoints::kNearest, OutsidePoints::kKeep}) {
     options.outside = policy;
-    const auto binding = bind<Dim>(cage, mesh, grid.points, grid.edges, options);
+    const auto binding = Rig<Dim>(cage, mesh, grid.points, grid.edges, options).bind();
     expect_obeyed(binding, cage.points, grid.points, options.masks[0]);
   }
 }
@@ -77,10 +77,11 @@ TEST_IN_2D_AND_3D(ModelMasksTest, PointsOutsideThatCannotObeyAreRefused) {
   for (const double from : {-1.0, 0.0}) {
     options.masks = {grid.mask(cage.points, from, -1)};
     options.masks[0].points = {0};
-    expect_refused("vertex 0 at", [&] { bind<Dim>(cage, mesh, grid.points, grid.edges, options); });
+    expect_refused("vertex 0 at",
+                   [&] { Rig<Dim>(cage, mesh, grid.points, grid.edges, options).bind(); });
   }
   options.outside = OutsidePoints::kNearest;
-  EXPECT_NO_THROW(bind<Dim>(cage, mesh, grid.points, grid.edges, options));
+  EXPECT_NO_THROW(Rig<Dim>(cage, mesh, grid.points, grid.edges, options).bind());
 }
 
 // Vertices on a facet, as files store them, are on it from either side.
@@ -96,7 +97,7 @@ TEST_IN_2D_AND_3D(ModelMasksTest, MasksEndAtFacetsWithinThePrecisionOfFiles) {
   for (Index i = 0; i < cage.size(); ++i) {
     if (cage.points(Dim - 1, i) == 0) options.masks[0].control_points.push_back(i);
   }
-  const auto binding = bind<Dim>(cage, mesh, points, {}, options);
+  const auto binding = Rig<Dim>(cage, mesh, points, {}, options).bind();
   expect_piece(binding.report.note, "6 of 6 masked vertices are on facets");
   EXPECT_LT((binding.deform(cage.points) - points).cwiseAbs().maxCoeff(), 2 * rounding);
   for (Index p = 0; p < 6; ++p) {
@@ -121,7 +122,7 @@ TEST_IN_2D_AND_3D(ModelMasksTest, AConflictHasItsPointsAndItsCure) {
   }
   std::vector<Index> cure;
   try {
-    bind<Dim>(cage, mesh, grid.points, grid.edges, options);
+    Rig<Dim>(cage, mesh, grid.points, grid.edges, options).bind();
     FAIL();
   } catch (const MaskConflict& conflict) {
     EXPECT_EQ(conflict.points, beyond);
@@ -133,7 +134,7 @@ TEST_IN_2D_AND_3D(ModelMasksTest, AConflictHasItsPointsAndItsCure) {
   EXPECT_EQ(freed, cure);
   EXPECT_FALSE(options.masks[0].control_points.empty());
   for (const Index i : freed) EXPECT_GT(cage.points(0, i), 0.3);
-  const auto binding = bind<Dim>(cage, mesh, grid.points, grid.edges, options);
+  const auto binding = Rig<Dim>(cage, mesh, grid.points, grid.edges, options).bind();
   expect_obeyed(binding, cage.points, grid.points, options.masks[0]);
   EXPECT_TRUE(relax_masks(cage, grid.points, options.masks, freed) == options.masks);
   EXPECT_TRUE(freed.empty());
@@ -154,7 +155,7 @@ TEST_IN_2D_AND_3D(ModelMasksTest, RelaxedMasksFitTheMirror) {
   for (const Index i : freed) {
     EXPECT_TRUE(std::binary_search(freed.begin(), freed.end(), mirror.images()[i])) << i;
   }
-  const auto binding = bind<Dim>(cage, mesh, grid.points, grid.edges, options);
+  const auto binding = Rig<Dim>(cage, mesh, grid.points, grid.edges, options).bind();
   Mask left{{}, {0, 1, 2}};
   for (const Index i : first) {
     if (!std::binary_search(freed.begin(), freed.end(), i)) left.control_points.push_back(i);

@@ -56,7 +56,8 @@ TEST_IN_2D_AND_3D(RigTest, SolvesInSlicesToTheWeightsOfBind) {
   auto sliced = rig<Dim>();
   while (sliced.solve({10}).report.status != SolveStatus::kConverged) {
   }
-  EXPECT_TRUE(sliced.bind().weights == bind<Dim>(cage, mesh, model<Dim>(mesh), {}, {}).weights);
+  EXPECT_TRUE(sliced.bind().weights ==
+              Rig<Dim>(cage, mesh, model<Dim>(mesh), {}, {}).bind().weights);
 }
 
 TEST_IN_2D_AND_3D(RigTest, AReshapedCageHasTheWeightsOfANewOne) {

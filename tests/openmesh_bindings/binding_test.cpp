@@ -103,8 +103,9 @@ TEST_IN_2D_AND_3D(MeshBinding, CopiesFilesAndReductionsKeepIt) {
     sheet.mesh.set_point(OpenMesh::VertexHandle(kOutside), {0.5, 1.2, 0.4});
     sheet.options.outside = outside;
     const auto expected =
-        bind<Dim>(sheet.sample.cage, sheet.sample.mesh, openmesh::points_of<Dim>(sheet.mesh),
-                  openmesh::edge_list<Dim>(sheet.mesh), sheet.options);
+        Rig<Dim>(sheet.sample.cage, sheet.sample.mesh, openmesh::points_of<Dim>(sheet.mesh),
+                 openmesh::edge_list<Dim>(sheet.mesh), sheet.options)
+            .bind();
     ASSERT_EQ(expected.outside, std::vector<Index>{kOutside});
     sheet.bind();
     for (auto mesh : {sheet.mesh, stored<Dim>(sheet.mesh)}) {

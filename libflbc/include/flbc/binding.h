@@ -25,7 +25,7 @@
 
 namespace flbc {
 
-//! Options of bind().
+//! Options of a Rig.
 struct BindOptions {
   //! Number of vertices of the domain mesh; 0: the minimum that element quality allows. It is
   //! increased if a cage needs more.
@@ -37,7 +37,7 @@ struct BindOptions {
   //! n x F: these functions phi instead of those of SolverOptions::phi, for a given mesh of F
   //! cells; empty: none.
   WeightMatrix phi{};
-  //! Of the solve; poll() also during the reduction. What it throws leaves bind().
+  //! Of the solve; poll() also during the reduction. What it throws leaves Rig::bind().
   Observer observer{};
   Index max_influences = 8;                   //!< per point; 0 = keep all weights
   Reduction reduction = Reduction::kPoisson;  //!< how influences are reduced
@@ -53,7 +53,7 @@ struct BindOptions {
   int mirror_axis = -1;
 };
 
-//! Report of bind().
+//! Report of a binding.
 struct BindReport {
   SolveReport solve{};    //!< on the domain mesh
   std::string method{};   //!< name of the method or of the coordinates
@@ -155,22 +155,5 @@ void validate(const Binding<Dim>& binding);
 template <int Dim>
 Binding<Dim> bound_by(Cage<Dim> cage, const PointList<Dim>& points, SparseWeights weights,
                       EdgeList edges = {}, const std::vector<Mask>& masks = {});
-
-//! Binds points: meshes the interior of the cage, solves, evaluates the weights at the points, and
-//! reduces influences. With OutsidePoints::kExtend, points outside keep all their weights, because
-//! negative weights cannot be reduced.
-//! \param cage  n control points
-//! \param points  Dim x P of the model, in the units of the cage
-//! \param edges  of the model, along which the reduction leaves no seams; may be empty
-//! \param meshers  such as linked_meshers<Dim>()
-//! \throws InputError naming the defect of cage or model; OptionError, SolverError
-template <int Dim>
-Binding<Dim> bind(const Cage<Dim>& cage, const PointList<Dim>& points, const EdgeList& edges,
-                  const BindOptions& options, const Meshers<Dim>& meshers);
-
-//! The same with a given domain mesh. \param domain  see normalize_and_validate()
-template <int Dim>
-Binding<Dim> bind(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
-                  const PointList<Dim>& points, const EdgeList& edges, const BindOptions& options);
 
 }  // namespace flbc

@@ -17,7 +17,7 @@ namespace flbc {
 
 //! From a cage to weights of a model, for programs that change parts of it: a new pose needs
 //! nothing, a new model only weights_of_points(), and a new rest cage, tolerance, or smoothness a
-//! solve that starts from the state before. bind() is a Rig that is used once.
+//! solve that starts from the state before.
 //!
 //! BindOptions::observer receives the progress of all steps. If it, or bad input, ends a function
 //! by an exception, the Rig is as before, except that the next solve() may start over.
@@ -110,6 +110,7 @@ class Rig {
 
   void take(MadeDomain<Dim> domain);
   bool keeps_solver() const;
+  void require_solution();
   Solution solve_at_once(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                          const Placed& placed) const;
   static Placed place(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,

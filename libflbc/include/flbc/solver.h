@@ -51,7 +51,7 @@ Solution solve(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
 //! Parameters and errors are as above.
 //! \param problem  made with options.phi, and with options.smoothness if that is set
 template <int Dim>
-Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& options = {},
+Solution solve(LbcProblem<Dim> problem, const SolverOptions& options = {},
                const Observer& observer = {});
 
 //! Whether a solve of this size uses an active set (SolverOptions::active_set) if the supports of

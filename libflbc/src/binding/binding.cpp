@@ -365,27 +365,11 @@ Binding<Dim> bound_by(Cage<Dim> cage, const PointList<Dim>& points, SparseWeight
   return binding;
 }
 
-template <int Dim>
-Binding<Dim> bind(const Cage<Dim>& cage, const PointList<Dim>& points, const EdgeList& edges,
-                  const BindOptions& options, const Meshers<Dim>& meshers) {
-  return Rig<Dim>(cage, points, edges, options, meshers).bind();
-}
-
-template <int Dim>
-Binding<Dim> bind(const Cage<Dim>& cage, const DomainMesh<Dim>& domain,
-                  const PointList<Dim>& points, const EdgeList& edges, const BindOptions& options) {
-  return Rig<Dim>(cage, domain, points, edges, options).bind();
-}
-
-#define FLBC_INSTANTIATE(Dim)                                                                 \
-  template struct Binding<Dim>;                                                               \
-  template void validate(const Binding<Dim>&);                                                \
-  template Binding<Dim> bound_by(Cage<Dim>, const PointList<Dim>&, SparseWeights, EdgeList,   \
-                                 const std::vector<Mask>&);                                   \
-  template Binding<Dim> bind(const Cage<Dim>&, const PointList<Dim>&, const EdgeList&,        \
-                             const BindOptions&, const Meshers<Dim>&);                        \
-  template Binding<Dim> bind(const Cage<Dim>&, const DomainMesh<Dim>&, const PointList<Dim>&, \
-                             const EdgeList&, const BindOptions&);
+#define FLBC_INSTANTIATE(Dim)                                                               \
+  template struct Binding<Dim>;                                                             \
+  template void validate(const Binding<Dim>&);                                              \
+  template Binding<Dim> bound_by(Cage<Dim>, const PointList<Dim>&, SparseWeights, EdgeList, \
+                                 const std::vector<Mask>&);
 FLBC_INSTANTIATE(2)
 FLBC_INSTANTIATE(3)
 #undef FLBC_INSTANTIATE

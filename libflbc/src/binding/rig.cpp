@@ -252,7 +252,7 @@ Solution Rig<Dim>::solve_at_once(const Cage<Dim>& cage, const DomainMesh<Dim>& m
   if (options_.phi.size() == 0) return flbc::solve(cage, mesh, options, observer);
   auto problem = make_problem(cage, mesh, DistanceScheme::kConstant, *resolve(options).smoothness);
   problem.phi = WeightFunctions(options_.phi);
-  return flbc::solve(problem, options, observer);
+  return flbc::solve(std::move(problem), options, observer);
 }
 
 template <int Dim>
@@ -294,7 +294,7 @@ const Solution& Rig<Dim>::reshape(const PointList<Dim>& control_points, const Bu
         "a cage with several parts cannot be reshaped; bind the model to the new cage");
   }
   const bool has_mesh = mesh().num_cells() > 0;
-  if (has_mesh && solution().weights.num_points() == 0) solve();
+  require_solution();
   Placed placed;
   const auto place_in = [&](const Cage<Dim>& cage, const DomainMesh<Dim>& mesh) {
     placed = place(cage, mesh, points_, edges_, options_);
@@ -389,9 +389,14 @@ SparseWeights Rig<Dim>::evaluated(const Placement<Dim>& placement) const {
 }
 
 template <int Dim>
+void Rig<Dim>::require_solution() {
+  if (mesh().num_cells() > 0 && solution().weights.num_points() == 0) solve();
+}
+
+template <int Dim>
 const SparseWeights& Rig<Dim>::weights_of_points() {
   if (weights_.num_points() > 0) return weights_;
-  if (mesh().num_cells() > 0 && solution().weights.num_points() == 0) solve();
+  require_solution();
   const auto& [placement, mirror, masks, seconds] = placed_;
   if (points_.cols() == 0 && masks.masked == 0) return solution().weights;
   const ThreadScope threads(options_.solver.threads);
@@ -448,6 +453,7 @@ std::string Rig<Dim>::note() const {
 
 template <int Dim>
 Binding<Dim> Rig<Dim>::bind() {
+  require_solution();
   const ThreadScope threads(options_.solver.threads);
   auto bound = binding();
   if (options_.max_influences == 0) return bound;

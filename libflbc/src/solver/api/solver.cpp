@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/solver.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -210,36 +211,6 @@ bool tries_active_set(int dim, Index control_points, Index vertices, const Solve
 }
 
 template <int Dim>
-Solution solve(const LbcProblem<Dim>& problem, const SolverOptions& given,
-               const Observer& observer) {
-  auto options = given;
-  const bool needs_masks = !options.masks.empty() && problem.masks.empty();
-  const bool needs_reach = !options.reach.empty() && problem.phi.reach() != options.reach;
-  if (needs_masks || needs_reach) {
-    require_valid(options, problem.num_control_points());
-    auto changed = problem;
-    if (needs_masks) {
-      changed.masks =
-          masks_inside(problem.cage.points, problem.mesh.points, problem.boundary, options.masks);
-      if (changed.masks.empty()) options.masks.clear();
-    }
-    if (needs_reach) changed.phi.set_reach(options.reach);
-    return solve(changed, options, observer);
-  }
-  if (!options.smoothness) options.smoothness = problem.smoothness;
-  require_valid(options, problem.num_control_points());
-  const auto settings = plan::settings_of(options);
-  require_objective(problem, settings);
-  const ThreadScope threads(num_threads(problem, settings));
-  const Reporter reporter(observer);
-  MethodRun<Dim> run(problem);
-  SolveReport report;
-  auto weights = solve_from_coarse<Dim>(problem, run, coarse_problem(problem, settings), nullptr,
-                                        settings, {}, reporter, report);
-  return finish(problem, run, std::move(weights), settings, reporter, std::move(report));
-}
-
-template <int Dim>
 struct internal::SolverState {
   using MasksIn = typename Solver<Dim>::MasksIn;
 
@@ -352,16 +323,23 @@ struct internal::SolverState {
     const auto settings = plan::settings_of(options);
     const Reporter reporter(observer);
     const ThreadScope threads(num_threads(on.problem, settings));
-    SolveReport report;
-    Weights weights;
-    if (on.run->has_begun() || (start != nullptr && keeps_supports)) {
-      weights = solve_within<Dim>(budget, spent, *on.run, settings, reporter, report, {start});
-    } else {
-      auto coarse = std::exchange(on.coarse, std::nullopt);
+    std::optional<CoarseProblem<Dim>> coarse;
+    if (!on.run->has_begun() && (start == nullptr || !keeps_supports)) {
+      coarse = std::exchange(on.coarse, std::nullopt);
       if (!coarse) coarse = coarse_problem(on.problem, settings);
-      weights = solve_from_coarse(on.problem, *on.run, std::move(coarse), start, settings, budget,
-                                  reporter, report);
     }
+    auto within = settings;
+    if (budget.iterations > 0)
+      within.max_iterations = std::min(within.max_iterations, budget.iterations);
+    const auto limited =
+        budget.seconds > 0 ? reporter.with_limit(budget.seconds - spent) : reporter;
+    std::optional<CoarseStart<Dim>> coarse_start;
+    if (coarse) coarse_start.emplace(on.problem, *std::move(coarse), settings, reporter);
+    if (coarse_start && coarse_start->stopped()) within.max_iterations = 1;
+    SolveReport report;
+    auto weights = on.run->solve(within, limited, report,
+                                 coarse_start ? coarse_start->start(start) : RunStart<Dim>{start});
+    if (coarse_start) coarse_start->describe(weights, report);
     solution =
         finish(on.problem, *on.run, std::move(weights), settings, reporter, std::move(report));
     solution.report.seconds.setup = std::exchange(on.setup_seconds, 0);
@@ -374,6 +352,26 @@ struct internal::SolverState {
   std::shared_ptr<const Reference> reference{};  // none before the first move
   std::optional<WarmStart<Dim>> warm_start{};    // of the masks before, for the next solve
 };
+
+template <int Dim>
+Solution solve(LbcProblem<Dim> problem, const SolverOptions& given, const Observer& observer) {
+  auto options = given;
+  if (!options.smoothness) options.smoothness = problem.smoothness;
+  require_valid(options, problem.num_control_points());
+  require_objective(problem, plan::settings_of(options));
+  if (!options.masks.empty() && problem.masks.empty()) {
+    problem.masks =
+        masks_inside(problem.cage.points, problem.mesh.points, problem.boundary, options.masks);
+    if (problem.masks.empty()) options.masks.clear();
+  }
+  if (!options.reach.empty()) problem.phi.set_reach(options.reach);
+  using State = internal::SolverState<Dim>;
+  State state{options, std::make_unique<typename State::Shape>()};
+  state.shape->problem = std::move(problem);
+  state.shape->run.emplace(state.shape->problem);
+  state.solve_on(*state.shape, nullptr, true, {}, 0, observer);
+  return std::move(state.solution);
+}
 
 // One solver per part. \param topology  of the whole mesh; null if not known
 template <int Dim>
@@ -525,7 +523,7 @@ const Solution& Solver<Dim>::solution() const {
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                                      \
-  template Solution solve(const LbcProblem<Dim>&, const SolverOptions&, const Observer&);          \
+  template Solution solve(LbcProblem<Dim>, const SolverOptions&, const Observer&);                 \
   template Solution solve<Dim>(const Cage<Dim>&, const DomainMesh<Dim>&, const SolverOptions&,     \
                                const Observer&);                                                   \
   template Solution solve<Dim>(const Cage<Dim>&, const DomainMesh<Dim>&, const MeshTopology<Dim>&, \

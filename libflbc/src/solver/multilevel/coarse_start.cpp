@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/instantiate.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "solver/methods/active_set/active_lists.h"
@@ -14,28 +13,6 @@
 
 namespace flbc {
 namespace {
-
-// \return whether it was stopped
-template <int Dim>
-bool solve_coarse(const LbcProblem<Dim>& problem, const plan::Settings& given,
-                  const Reporter& reporter, WarmStart<Dim>& warm_start, LevelReport& level) {
-  Stopwatch watch;
-  auto settings = given;
-  settings.tolerance = plan::kCoarseTolerance;
-  settings.certify = false;
-  const ThreadScope threads(
-      threads_for(given.threads, problem.num_control_points(), problem.mesh.num_vertices()));
-  settings.gap = 0;
-  settings.ends_by_gap = false;
-  SolveReport report;
-  MethodRun<Dim> run(problem);
-  run.solve(settings, reporter.with_more_to_come(1), report);
-  // An active set on the finer mesh reads duals only near nonzero weights.
-  const bool on_active_set = plan::active_set(plan::sizes_of(problem), given);
-  warm_start = run.warm_start(on_active_set ? active_set::threshold_for(*given.tolerance) : 0);
-  level = {report.vertices, report.cells, report.iterations, watch.lap()};
-  return report.status == SolveStatus::kStopped;
-}
 
 // SolveReport::mesh_error. \param coarse  weights on the coarse mesh
 template <int Dim>
@@ -61,50 +38,48 @@ double mesh_error(const LbcProblem<Dim>& problem, const Weights& weights,
 }  // namespace
 
 template <int Dim>
-Weights solve_within(const Budget& budget, double spent, MethodRun<Dim>& run,
-                     const plan::Settings& given, const Reporter& reporter, SolveReport& report,
-                     const RunStart<Dim>& start) {
+CoarseStart<Dim>::CoarseStart(const LbcProblem<Dim>& problem, CoarseProblem<Dim> coarse,
+                              const plan::Settings& given, const Reporter& reporter)
+    : problem_(problem), coarse_(std::move(coarse.problem)), ends_(std::move(coarse.ends)) {
+  Stopwatch watch;
   auto settings = given;
-  if (budget.iterations > 0) {
-    settings.max_iterations = std::min(settings.max_iterations, budget.iterations);
-  }
-  return run.solve(settings,
-                   budget.seconds > 0 ? reporter.with_limit(budget.seconds - spent) : reporter,
-                   report, start);
+  settings.tolerance = plan::kCoarseTolerance;
+  settings.certify = false;
+  const ThreadScope threads(
+      threads_for(given.threads, coarse_->num_control_points(), coarse_->mesh.num_vertices()));
+  settings.gap = 0;
+  settings.ends_by_gap = false;
+  SolveReport report;
+  MethodRun<Dim> run(*coarse_);
+  run.solve(settings, reporter.with_more_to_come(1), report);
+  // An active set on the finer mesh reads duals only near nonzero weights.
+  const bool on_active_set = plan::active_set(plan::sizes_of(*coarse_), given);
+  warm_start_ = run.warm_start(on_active_set ? active_set::threshold_for(*given.tolerance) : 0);
+  level_ = {report.vertices, report.cells, report.iterations, watch.lap()};
+  stopped_ = report.status == SolveStatus::kStopped;
 }
 
 template <int Dim>
-Weights solve_from_coarse(const LbcProblem<Dim>& problem, MethodRun<Dim>& run,
-                          std::optional<CoarseProblem<Dim>> coarse, const Prolongation<Dim>* before,
-                          const plan::Settings& given, const Budget& budget,
-                          const Reporter& reporter, SolveReport& report) {
-  if (!coarse) return solve_within<Dim>(budget, 0, run, given, reporter, report, {before});
-  Stopwatch watch;
-  WarmStart<Dim> warm_start;
-  LevelReport level;
-  const bool stopped = solve_coarse(coarse->problem, given, reporter, warm_start, level);
-  auto settings = given;
-  if (stopped) settings.max_iterations = 1;  // one iteration, to get weights on this mesh
-  const double spent = watch.seconds();
-  const auto ends = std::move(coarse->ends);
-  const Prolongation<Dim> prolongation(coarse->problem, warm_start, problem, ends);
-  SparseWeights coarse_weights;
-  const auto forget = [&] {
-    coarse_weights = std::move(warm_start.weights);
-    warm_start = {};
-    coarse.reset();
+RunStart<Dim> CoarseStart<Dim>::start(const Prolongation<Dim>* given) {
+  prolongation_.emplace(*coarse_, warm_start_, problem_, ends_);
+  const auto forget = [this] {
+    weights_ = std::move(warm_start_.weights);
+    warm_start_ = {};
+    coarse_.reset();
   };
-  const RunStart<Dim> start = before != nullptr ? RunStart<Dim>{before, &prolongation, forget}
-                                                : RunStart<Dim>{&prolongation, nullptr, forget};
-  auto weights = solve_within<Dim>(budget, spent, run, settings, reporter, report, start);
-  if (stopped) report.status = SolveStatus::kStopped;
-  report.seconds.solve += spent;
-  report.coarse_levels = {level};
-  report.mesh_error = mesh_error(problem, weights, coarse_weights, ends);
-  return weights;
+  if (given == nullptr) return {&*prolongation_, nullptr, forget};
+  return {given, &*prolongation_, forget};
 }
 
-FLBC_INSTANTIATE_FUNCTION(solve_within)
-FLBC_INSTANTIATE_FUNCTION(solve_from_coarse)
+template <int Dim>
+void CoarseStart<Dim>::describe(const Weights& weights, SolveReport& report) const {
+  if (stopped_) report.status = SolveStatus::kStopped;
+  report.seconds.solve += level_.seconds;
+  report.coarse_levels = {level_};
+  report.mesh_error = mesh_error(problem_, weights, weights_, ends_);
+}
+
+template class CoarseStart<2>;
+template class CoarseStart<3>;
 
 }  // namespace flbc

@@ -9,23 +9,34 @@
 
 namespace flbc {
 
-//! Solves the coarse problem, and from its weights and duals the problem itself.
-//! \param run  of the problem, not begun
-//! \param coarse  released when the iteration on the problem has started; null for a cold start
-//! \param given  start from this, and take only supports from the coarse problem; or null
-//! \param budget  of the run on the problem; the coarse mesh is always solved to the end, so that
-//! the start does not depend on the budget
-//! \param report  of the problem, including the coarse mesh
+//! The solution of the coarse problem, from which the iteration on the problem starts.
 template <int Dim>
-Weights solve_from_coarse(const LbcProblem<Dim>& problem, MethodRun<Dim>& run,
-                          std::optional<CoarseProblem<Dim>> coarse, const Prolongation<Dim>* given,
-                          const plan::Settings& settings, const Budget& budget,
-                          const Reporter& reporter, SolveReport& report);
+class CoarseStart {
+ public:
+  //! Solves the coarse problem to the end, so that the start does not depend on a budget. Keeps a
+  //! reference to `problem`.
+  CoarseStart(const LbcProblem<Dim>& problem, CoarseProblem<Dim> coarse,
+              const plan::Settings& settings, const Reporter& reporter);
 
-//! A run with its budget. \param spent  seconds of the budget
-template <int Dim>
-Weights solve_within(const Budget& budget, double spent, MethodRun<Dim>& run,
-                     const plan::Settings& settings, const Reporter& reporter, SolveReport& report,
-                     const RunStart<Dim>& start);
+  //! Refers to this object, which releases the coarse problem when the iteration has started.
+  //! \param given  start from this, and take only supports from the coarse problem; or null
+  RunStart<Dim> start(const Prolongation<Dim>* given);
+
+  //! Whether the observer has stopped it. One iteration is then left, for weights on the mesh.
+  bool stopped() const { return stopped_; }
+
+  //! Completes the report of the run that started here. \param weights  its result
+  void describe(const Weights& weights, SolveReport& report) const;
+
+ private:
+  const LbcProblem<Dim>& problem_;
+  std::optional<LbcProblem<Dim>> coarse_;
+  std::vector<std::array<Index, 2>> ends_;
+  WarmStart<Dim> warm_start_{};
+  SparseWeights weights_{};
+  std::optional<Prolongation<Dim>> prolongation_{};
+  LevelReport level_{};
+  bool stopped_ = false;
+};
 
 }  // namespace flbc

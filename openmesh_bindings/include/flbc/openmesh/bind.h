@@ -21,6 +21,7 @@
 #include "flbc/openmesh/deform.h"
 #include "flbc/openmesh/sparsify.h"
 #include "flbc/openmesh/weights.h"
+#include "flbc/rig.h"
 
 namespace flbc::openmesh {
 
@@ -187,8 +188,8 @@ BindReport bind_to(Mesh& model, const Cage<Dim>& cage, const DomainMesh<Dim>* do
   if constexpr (!std::is_same_v<Mesh, TetMesh>) refuse_deleted_elements(model);
   const auto points = points_of<Dim>(model);
   const auto edges = edge_list_at<Dim>(model, points);
-  auto binding = domain != nullptr ? flbc::bind<Dim>(cage, *domain, points, edges, options)
-                                   : flbc::bind<Dim>(cage, points, edges, options, meshers);
+  auto binding = domain != nullptr ? Rig<Dim>(cage, *domain, points, edges, options).bind()
+                                   : Rig<Dim>(cage, points, edges, options, meshers).bind();
   set_binding(model, binding, options.max_influences, options.weights);
   return std::move(binding.report);
 }
