@@ -17,7 +17,7 @@ declare -A groups=(
   [tests]="make poppler-utils librsvg2-bin clang-format codespell mkdocs mkdocs-material
     libjs-katex python3-scipy python3-pytest python3-distributed python3-matplotlib mypy"
   [browser]="chromium fonts-dejavu-core"
-  [clang]="clang libclang-rt-14-dev libomp-14-dev"
+  [clang]="clang libclang-rt-dev libomp-dev"
   [release]="dpkg-dev file help2man mmdebstrap patchelf python3-pip python3-setuptools python3-venv
     python3-wheel"
   [site]="doxygen mkdocs mkdocs-material libjs-katex"

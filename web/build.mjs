@@ -15,6 +15,15 @@ mkdirSync(dist, { recursive: true });
 const kLicense = `libflbc ${version}. SPDX-License-Identifier: AGPL-3.0-or-later. Contains TetGen (AGPL-3.0-or-later), `
   + `CGAL (GPL-3), Eigen (MPL-2.0), pugixml, nlohmann/json (MIT), fast_float, Boost; libflbc itself is BSD-3.`;
 
+// The Debian packages whose code is in the module.
+function sources() {
+  const packages = ["libtet1.5-dev", "libcgal-dev", "libeigen3-dev", "nlohmann-json3-dev", "libpugixml-dev",
+                    "libfast-float-dev", "libboost-dev", "emscripten"];
+  const format = "-f=${source:Package} ${Version}, ";
+  const found = execFileSync("dpkg-query", ["-W", format, ...packages], { encoding: "utf8" });
+  return `the Debian packages ${found.replace(/, $/, "")}`;
+}
+
 // The modules in one scope, without import and export, and without lines of comments.
 function joined(paths) {
   return paths.map(read).join("").replace(/^import .*$/gm, "").replace(/^export /gm, "").replace(/^\s*\/\/.*\n/gm, "");
@@ -60,7 +69,7 @@ function page(assets) {
     const picture = readFileSync(at(`../meshes/pictures/${name}.webp`)).toString("base64");
     buttons += `<button data-sample="${name}.obj"><img src="data:image/webp;base64,${picture}" alt="">${label}</button>`;
   }
-  const source = address ? `<a href="${address}">source code</a>` : "whoever gave you this page offers its source code";
+  const source = address ? `<a href="${address}">source code</a>` : `source code: libflbc ${version} and ${sources()}`;
   const app = read("page/app.html").replace("{{version}}", version).replace("{{source}}", source)
     .replace("{{samples}}", buttons).replace("{{moving}}", read("../meshes/pictures/figure_moving.svg"));
   // Base64 has no "<". It comes last, and is read after the page has been drawn.

@@ -168,7 +168,7 @@ DomainMesh<3> run_netgen(const Cage<3>& surface, double longest, double seconds,
   if (header.end == NetgenEnd::kNoLibrary) {
     std::string complaint(std::size_t(header.num_points), ' ');
     source.take(complaint.data(), complaint.size());
-    throw InputError("cannot load the Netgen library (Debian package libnglib-6.2): " + complaint);
+    throw InputError("cannot load the Netgen library (Debian package libnglib-dev): " + complaint);
   }
   DomainMesh<3> mesh;
   mesh.points.resize(3, header.num_points);

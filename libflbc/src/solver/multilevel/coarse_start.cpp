@@ -74,7 +74,7 @@ RunStart<Dim> CoarseStart<Dim>::start(const Prolongation<Dim>* given) {
 template <int Dim>
 void CoarseStart<Dim>::describe(const Weights& weights, SolveReport& report) const {
   if (stopped_) report.status = SolveStatus::kStopped;
-  report.seconds.solve += level_.seconds;
+  report.seconds.solve += level_.solve_seconds;
   report.coarse_levels = {level_};
   report.mesh_error = mesh_error(problem_, weights, weights_, ends_);
 }

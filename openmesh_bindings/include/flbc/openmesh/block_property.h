@@ -22,17 +22,13 @@
 
 namespace flbc::openmesh {
 
-//! The storage of properties with this value type: a type `Block`, whose operator[] returns a view
-//! of an element.
-template <class Value>
-struct BlockOf;
-
-//! Types required by OpenMesh.
+//! Types required by OpenMesh. \tparam V  with the type of the storage, `Block`, whose operator[]
+//! returns a view of an element
 template <class V>
 struct BlockTypes {
   using Value = V;
   using value_type = V;
-  using vector_type = typename BlockOf<V>::Block;
+  using vector_type = typename V::Block;
   using reference = decltype(std::declval<vector_type&>()[0]);
   using const_reference = decltype(std::declval<const vector_type&>()[0]);
 };

@@ -9,13 +9,10 @@
 #pragma once
 
 #include <algorithm>
-#include <cassert>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <type_traits>
 
-#include "flbc/errors.h"
 #include "flbc/openmesh/block_property.h"
 #include "flbc/openmesh/wide_property.h"
 
@@ -32,64 +29,48 @@ class InfluencesView {
   using ControlPoint =
       std::conditional_t<std::is_const_v<Weight>, const std::uint32_t, std::uint32_t>;
 
-  InfluencesView(ControlPoint* control_points, Weight* weights, std::size_t size)
-      : control_points_(control_points), weights_(weights), size_(size) {}
+  //! \param control_points, weights  1 x size()
+  InfluencesView(RowsView<ControlPoint> control_points, RowsView<Weight> weights)
+      : control_points_(control_points), weights_(weights) {}
   InfluencesView(const InfluencesView& view) = default;
 
   //! A writable view converts to a read-only view.
   template <class Other, class = std::enable_if_t<std::is_same_v<const Other, Weight>>>
   InfluencesView(const InfluencesView<Other>& view)
-      : InfluencesView(view.control_points(), view.weights(), view.size()) {}
+      : InfluencesView(view.control_points_, view.weights_) {}
 
   //! Copies the numbers. \throws InputError if the numbers of pairs differ
-  InfluencesView& operator=(const InfluencesView& view) {
-    if (this != &view) assign(view);
-    return *this;
-  }
+  InfluencesView& operator=(const InfluencesView& view) = default;
   template <class Other>
   InfluencesView& operator=(const InfluencesView<Other>& view) {
-    assign(view);
+    control_points_ = view.control_points_;
+    weights_ = view.weights_;
     return *this;
   }
 
   //! Number of pairs, used or not.
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return weights_.width(); }
 
   //! Number of pairs whose weight is not 0.
   std::size_t count() const {
     return static_cast<std::size_t>(
-        std::count_if(weights_, weights_ + size_, [](double weight) { return weight != 0; }));
+        std::count_if(weights(), weights() + size(), [](double weight) { return weight != 0; }));
   }
 
   //! The control point of pair j < size(); used pairs are ascending.
-  ControlPoint& control_point(std::size_t j) const {
-    assert(j < size_);
-    return control_points_[j];
-  }
+  ControlPoint& control_point(std::size_t j) const { return control_points_[j]; }
   //! Its weight.
-  Weight& weight(std::size_t j) const {
-    assert(j < size_);
-    return weights_[j];
-  }
+  Weight& weight(std::size_t j) const { return weights_[j]; }
 
-  ControlPoint* control_points() const { return control_points_; }
-  Weight* weights() const { return weights_; }
+  ControlPoint* control_points() const { return control_points_.data(); }
+  Weight* weights() const { return weights_.data(); }
 
  private:
-  void assign(const InfluencesView<const double>& view) {
-    static_assert(!std::is_const_v<Weight>, "these numbers may only be read");
-    if (view.size() != size_) {
-      throw InputError(std::to_string(view.size()) + " influences cannot be copied to " +
-                       std::to_string(size_));
-    }
-    if (view.weights() == weights_) return;
-    std::copy_n(view.control_points(), size_, control_points_);
-    std::copy_n(view.weights(), size_, weights_);
-  }
+  template <class Other>
+  friend class InfluencesView;
 
-  ControlPoint* control_points_;
-  Weight* weights_;
-  std::size_t size_;
+  RowsView<ControlPoint> control_points_;
+  RowsView<Weight> weights_;
 };
 
 //! Like a std::vector whose elements are `most` pairs each. The pairs of element e start at index e
@@ -109,11 +90,9 @@ class InfluenceBlock {
   double* weights() { return weights_.data(); }
   const double* weights() const { return weights_.data(); }
 
-  InfluencesView<double> operator[](std::size_t e) {
-    return {control_points() + e * most(), weights() + e * most(), most()};
-  }
+  InfluencesView<double> operator[](std::size_t e) { return {control_points_[e], weights_[e]}; }
   InfluencesView<const double> operator[](std::size_t e) const {
-    return {control_points() + e * most(), weights() + e * most(), most()};
+    return {control_points_[e], weights_[e]};
   }
 
   void reserve(std::size_t elements) {
@@ -142,10 +121,7 @@ class InfluenceBlock {
 };
 
 //! Value type of a property with few weights per element, accessed as InfluencesView.
-struct Influences {};
-
-template <>
-struct BlockOf<Influences> {
+struct Influences {
   using Block = InfluenceBlock;
 };
 

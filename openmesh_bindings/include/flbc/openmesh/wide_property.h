@@ -155,10 +155,6 @@ template <class Scalar>
 struct Wide {
   static_assert(std::is_same_v<Scalar, float> || std::is_same_v<Scalar, double>,
                 "wide properties hold float or double");
-};
-
-template <class Scalar>
-struct BlockOf<Wide<Scalar>> {
   using Block = RowBlock<Scalar>;
 };
 
