@@ -98,12 +98,13 @@ class App {
     await this.display();
   }
 
-  async open(files) {
+  // \param options  of readPicture()
+  async open(files, options = {}) {
     element("problem").hidden = true;
     await this.keepReshaped();
     const before = this.state;
     try {
-      const model = await this.modelOf([...files]);
+      const model = await this.modelOf([...files], options);
       const isDone = await this.work(model.name, async (onProgress) => {
         onProgress("reading the model", 0);
         await this.flbc.cancel();  // what is prepared
@@ -115,6 +116,7 @@ class App {
         await this.solve(onProgress);
       });
       if (!isDone) await this.goBack(before);
+      else if (model.note) tell(model.note);
     } catch (error) {
       Object.assign(this, before);
       if (this.model) this.prepare();
@@ -133,19 +135,20 @@ class App {
   }
 
   // What the module reads, of files that were dropped together.
-  async modelOf(files) {
+  async modelOf(files, options) {
     const first = (kind) => files.find(({ name }) => kind.test(name));
     const main = first(/\.(obj|ply|stl|off|glb|gltf|vrm)$/i) ?? first(kDrawing) ?? first(kPicture);
     if (!main) throw new Error(`${files[0].name}: unknown file format; drop a .glb, .gltf, .vrm, .obj, .ply, .stl, .off, .svg, .png, or .jpg`);
     if (kDrawing.test(main.name) || kPicture.test(main.name)) {
-      const { obj, ...looks } = await readPicture(main, files.find((file) => file !== main && kPicture.test(file.name)));
-      return { name: main.name.replace(/[^.]*$/, "obj"), bytes: new TextEncoder().encode(obj), files: {}, ...looks };
+      const filling = files.find((file) => file !== main && kPicture.test(file.name));
+      const { obj, ...looks } = await readPicture(main, { filling, ...options });
+      return { name: main.name.replace(/[^.]*$/, "obj"), bytes: new TextEncoder().encode(obj), files: {}, sources: files, ...looks };
     }
     const others = {};
     for (const file of files) if (file !== main) others[file.name] = await file.arrayBuffer();
     const pictures = /obj$/i.test(main.name) ? files.filter(({ name }) => kPicture.test(name)) : [];
     const isNamed = Object.keys(others).some((name) => /\.mtl$/i.test(name));
-    const { picture = "" } = pictures.length === 1 && !isNamed ? await readPicture(pictures[0]) : {};
+    const { picture = "" } = pictures.length === 1 && !isNamed ? await readPicture(pictures[0], { keepsBackground: true }) : {};
     const model = { name: main.name, bytes: await main.arrayBuffer(), files: others, picture };
     return /\.(glb|gltf|vrm)$/i.test(main.name) ? decoded(model, globalThis.flbcAssets.decoders) : model;
   }
@@ -267,6 +270,7 @@ class App {
     element("savePose").closest("section").append(element("files").content.cloneNode(true));
     element("copyCommand").closest(".row").remove();
     for (const section of document.querySelectorAll(".solved")) section.hidden = !isSolved;
+    element("background").hidden = !this.model.isCut;
     element("cageFile").addEventListener("change", ({ target }) => {
       const [file] = target.files;
       target.value = "";  // or the same file, mended, would be no change
@@ -419,6 +423,7 @@ class App {
   bind() {
     const actions = {
       home: () => this.goTo("start"), back: () => this.goTo(null), cancel: () => this.cancel(), makeCage: () => this.makeCage(),
+      keepBackground: () => this.open(this.model.sources, { keepsBackground: true }),
       chooseCage: () => element("cageFile").click(),
       repairCage: () => this.remake("Repairing the cage", () => this.flbc.repairCage()),
       split: () => this.edit(splitEdge, 2), merge: () => this.edit(mergePoints),

@@ -4,6 +4,7 @@
 
 const kLargest = 1024;  // pixels along the longer side of what is painted
 const kFaint = 16;       // alpha of pixels that are not to be seen
+const kSvg = "http://www.w3.org/2000/svg";
 const kShapes = ":is(path, polygon, polyline, rect, circle, ellipse):not(defs *, clipPath *, mask *, symbol *)";
 
 async function imageOf(blob, name) {
@@ -46,24 +47,74 @@ function seenOf({ data, width, height }) {
   return { share: count / (width * height), mean: sum / Math.max(1, count), left, top, right, bottom };
 }
 
+// Makes the background of an opaque picture transparent: what has the color of its border and is
+// connected with it. \return whether there is one, with something in front
+function cutOut({ data, width, height }) {
+  const kSame = 24, kSoft = 96;  // of 255, in the channel that differs most
+  const border = [];
+  for (let x = 0; x < width; ++x) border.push(x, x + width * (height - 1));
+  for (let y = 1; y < height - 1; ++y) border.push(width * y, width * (y + 1) - 1);
+  for (let k = 3; k < data.length; k += 4) if (data[k] < 255) return false;
+  const color = [0, 1, 2].map((c) => border.map((k) => data[4 * k + c]).sort((a, b) => a - b)[border.length >> 1]);
+  const distance = (k) => Math.max(...color.map((value, c) => Math.abs(data[4 * k + c] - value)));
+  const open = border.filter((k) => distance(k) <= kSame);
+  if (open.length < 0.95 * border.length) return false;
+  const alpha = new Uint8Array(width * height).fill(255);
+  let left = alpha.length;
+  while (open.length > 0) {
+    const k = open.pop();
+    if (alpha[k] === 0) continue;
+    if (distance(k) > kSame) {
+      alpha[k] = Math.min(255, 255 * distance(k) / kSoft);
+      continue;
+    }
+    alpha[k] = 0;
+    left -= 1;
+    const x = k % width;
+    if (x > 0) open.push(k - 1);
+    if (x < width - 1) open.push(k + 1);
+    if (k >= width) open.push(k - width);
+    if (k < width * (height - 1)) open.push(k + width);
+  }
+  if (left < 0.002 * alpha.length) return false;
+  alpha.forEach((value, k) => { data[4 * k + 3] = value; });
+  return true;
+}
+
+// The root of a drawing, which needs no namespace here. \throws Error
+function parsedDrawing(text, name) {
+  const root = (code) => new DOMParser().parseFromString(code, "image/svg+xml").documentElement;
+  let drawing = root(text);
+  if (drawing.localName === "svg" && drawing.namespaceURI !== kSvg) drawing = root(text.replace(/<svg\b/, `<svg xmlns="${kSvg}"`));
+  if (drawing.localName !== "svg") throw new Error(`${name}: this is no drawing in SVG`);
+  return drawing;
+}
+
 // A drawing in SVG, without shapes in the back that fill all of it. \throws Error
 async function paintedDrawing(file, filling) {
-  let { documentElement: drawing } = new DOMParser().parseFromString(await file.text(), "image/svg+xml");
-  if (drawing.localName !== "svg") throw new Error(`${file.name}: this is no drawing in SVG`);
-  const lengths = ["width", "height"].map((name) => (/%/.test(drawing.getAttribute(name)) ? NaN : parseFloat(drawing.getAttribute(name))));
-  let box = drawing.getAttribute("viewBox")?.trim().split(/[\s,]+/).map(Number) ?? [0, 0, ...lengths];
-  if (!box.every(Number.isFinite)) box = [-1000, -1000, 4000, 4000];
+  let drawing = parsedDrawing(await file.text(), file.name);
+  // Its HTML would make the canvas unreadable.
+  const foreign = drawing.querySelectorAll("foreignObject");
+  for (const part of foreign) part.remove();
+  const note = foreign.length > 0 ? "Text in HTML (foreignObject) is left out; export it as paths" : "";
+  const lengths = ["width", "height"].map((name) => (/^[^%]+$/.test(drawing.getAttribute(name) ?? "") ? drawing[name].baseVal.value : NaN));
+  const own = drawing.getAttribute("viewBox")?.trim().split(/[\s,]+/).map(Number) ?? [];
+  const isSized = lengths.every((length) => length > 0), hasBox = own.length === 4 && own.every(Number.isFinite);
+  const size = isSized ? lengths : hasBox ? own.slice(2) : [300, 150];  // of an image without size
+  // What a viewer cuts off is not to be seen. Without a size nothing is.
+  let box = isSized || hasBox ? [0, 0, ...size] : [-1000, -1000, 4000, 4000];
+  Object.entries({ x: 0, y: 0, width: size[0], height: size[1], overflow: isSized || hasBox ? "hidden" : "visible" })
+    .forEach(([name, value]) => drawing.setAttribute(name, value));
   const paint = async (other = null) => {
     const scale = kLargest / Math.max(box[2], box[3]);
-    Object.entries({ viewBox: box.join(" "), width: scale * box[2], height: scale * box[3] })
-      .forEach(([name, value]) => drawing.setAttribute(name, value));
-    const text = new XMLSerializer().serializeToString(drawing);
+    const frame = `<svg xmlns="${kSvg}" viewBox="${box.join(" ")}" width="${scale * box[2]}" height="${scale * box[3]}">`;
+    const text = `${frame}${new XMLSerializer().serializeToString(drawing)}</svg>`;
     return painted(await imageOf(new Blob([text], { type: "image/svg+xml" }), file.name), other);
   };
   const whole = drawing.cloneNode(true);
   const shareOf = async () => seenOf((await paint()).pixels).share;
   let share = await shareOf();
-  if (share === 0) throw new Error(`${file.name}: nothing is to be seen in this drawing`);
+  if (share === 0) throw new Error(`${file.name}: nothing is to be seen in this drawing${note && `. ${note}`}`);
   for (let shape; share > 0.99 && (shape = drawing.querySelector(kShapes)); share = await shareOf()) shape.remove();
   if (share === 0) drawing = whole;
   for (let k = 0; k < 2; ++k) {
@@ -71,7 +122,15 @@ async function paintedDrawing(file, filling) {
     const { left, top, right, bottom } = seenOf(pixels), unit = box[2] / pixels.width;
     box = [box[0] + unit * left, box[1] + unit * top, unit * (right - left), unit * (bottom - top)];
   }
-  return paint(filling);
+  return { ...await paint(filling), note };
+}
+
+// A picture, without its background unless that is to be kept. \throws Error
+async function paintedPicture(file, keepsBackground) {
+  const { canvas, pixels } = painted(await imageOf(file, file.name));
+  const isCut = !keepsBackground && cutOut(pixels);
+  if (isCut) canvas.getContext("2d").putImageData(pixels, 0, 0);
+  return { canvas, pixels, isCut, note: isCut ? "The background is left out; the panel Cage can bring it back" : "" };
 }
 
 // Squares that cover what is to be seen of a picture, as OBJ with texture coordinates.
@@ -102,14 +161,15 @@ function gridToObj({ data, width, height }) {
   return lines.join("\n");
 }
 
-// A drawing or a picture as a model, its picture as an address, and the theme before which it is
-// seen, if there is one. \param filling  file of another picture for a drawing, or none
-export async function readPicture(file, filling) {
+// A drawing or a picture as a model, its picture as an address, the theme before which it is seen, if
+// there is one, whether a background was cut out, and a note. \param filling  file of another picture
+// for a drawing, or none
+export async function readPicture(file, { filling = null, keepsBackground = false } = {}) {
   const other = filling ? await imageOf(filling, filling.name) : null;
-  const { canvas, pixels } = /\.svg$/i.test(file.name) ? await paintedDrawing(file, other)
-                                                       : painted(await imageOf(file, file.name));
+  const { canvas, pixels, isCut = false, note } = /\.svg$/i.test(file.name)
+    ? await paintedDrawing(file, other) : await paintedPicture(file, keepsBackground);
   const { mean } = seenOf(pixels);
-  return { obj: gridToObj(pixels), picture: canvas.toDataURL("image/png"),
+  return { obj: gridToObj(pixels), picture: canvas.toDataURL("image/png"), isCut, note,
            theme: mean < 0.25 ? "light" : mean > 0.8 ? "dark" : null };
 }
 

@@ -46,7 +46,7 @@ function decodeWeights(packed) {
 }
 
 // \param picture  in place of all materials
-function decodeSurface(packed, numPoints, picture) {
+function decodeSurface(packed, numPoints, picture, dim) {
   const surface = { triangles: decodeIndices(packed.triangles), parts: packed.parts, pictures: packed.pictures, sources: null, groups: null };
   if (packed.sources) {
     surface.sources = decodeIndices(packed.sources);
@@ -56,8 +56,8 @@ function decodeSurface(packed, numPoints, picture) {
   surface.textureCoordinates = packed.textureCoordinates ? decodeFloats(packed.textureCoordinates) : null;
   surface.colors = packed.colors ? decodeBytes(packed.colors) : null;
   if (picture || surface.parts.length === 0) {
-    const cutoff = picture ? 0.5 : 0;
-    surface.parts = [{ first: 0, count: surface.triangles.length, opacity: 1, cutoff, picture: picture ? 0 : -1 }];
+    const blends = Boolean(picture) && dim === 2;  // nothing is behind it
+    surface.parts = [{ first: 0, count: surface.triangles.length, blends, cutoff: picture && !blends ? 0.5 : 0, picture: picture ? 0 : -1 }];
     surface.pictures = picture ? [picture] : [];
   }
   return surface;
@@ -83,7 +83,7 @@ export function decodeContent(json) {
     title: json.title, up: json.up, front: json.front, files: json.files, cageText: json.cage.text,
     facets: decodeIndices(json.cage.facets), edges: decodeIndices(json.cage.edges),
     weights: decodeWeights(json.weights), palette: decodeBytes(json.palette),
-    surface: decodeSurface(json.surface, base.length / 3, json.picture),
+    surface: decodeSurface(json.surface, base.length / 3, json.picture, dim),
     poses: decodePoses(json.poses, dim, rest),
   };
 }

@@ -53,10 +53,10 @@ function shapeOf({ sources, triangles, groups, numVertices }, deformer, pose) {
 // From sRGB, as glTF has colors.
 const linear = (value) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
 
-function materialOf({ color, opacity = 1, cutoff = 0, picture = -1 }) {
+function materialOf({ color, opacity = 1, blends = opacity < 1, cutoff = 0, picture = -1 }) {
   const factor = [...(color ?? [1, 1, 1]).map(linear), opacity];
   return { doubleSided: true, pbrMetallicRoughness: { metallicFactor: 0, baseColorFactor: factor, ...(picture >= 0 && { baseColorTexture: { index: picture } }) },
-           ...(opacity < 1 && { alphaMode: "BLEND" }), ...(cutoff > 0 && { alphaMode: "MASK", alphaCutoff: cutoff }) };
+           ...(blends && { alphaMode: "BLEND" }), ...(cutoff > 0 && { alphaMode: "MASK", alphaCutoff: cutoff }) };
 }
 
 // \param basis  right, up and toward the viewer

@@ -279,7 +279,7 @@ export class Renderer {
   }
 
   // Triangles of one material. Without triangles, all points.
-  drawPart({ first, count, color, opacity = 1, cutoff = 0, picture = -1 }, places, { coloring, plain }) {
+  drawPart({ first, count, color, opacity = 1, blends = opacity < 1, cutoff = 0, picture = -1 }, places, { coloring, plain }) {
     const { gl } = this;
     const { colors, numVertices, textureCoordinates } = this.content.surface;
     const isOwn = coloring === "materials";
@@ -288,6 +288,7 @@ export class Renderer {
     const own = color ?? (hasPicture || colors ? [1, 1, 1] : plain);
     gl.uniform4fv(places.tint, isOwn ? [...own, opacity] : [...(colors ? [1, 1, 1] : plain), 1]);
     gl.uniform1f(places.cutoff, isOwn ? cutoff : 0);
+    gl.uniform1i(places.blends, isOwn && blends ? 1 : 0);
     gl.activeTexture(gl.TEXTURE1);
     gl.bindTexture(gl.TEXTURE_2D, this.pictures[picture] ?? null);
     gl.activeTexture(gl.TEXTURE0);

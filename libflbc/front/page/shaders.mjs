@@ -67,6 +67,7 @@ export const kSurfaceShader = {
     uniform bool hasIsolines;
     uniform vec4 tint;
     uniform float cutoff;
+    uniform bool blends;
     uniform sampler2D palette;
     uniform sampler2D picture;
     in vec3 viewNormal;
@@ -101,7 +102,7 @@ export const kSurfaceShader = {
                     + 0.26 * normal.z;
         base.rgb *= min(light, 1.06);
       }
-      color = vec4(base.rgb, tint.a < 1.0 ? base.a : 1.0);
+      color = vec4(base.rgb, blends ? base.a : 1.0);
     }`,
 };
 
