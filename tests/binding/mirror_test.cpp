@@ -233,7 +233,7 @@ TEST(MirrorTest, PointsOutsideInNotchesAreMirrored) {
     if (masked) options.masks = {{{1}, {1, 3, 6}}};
     for (const Index most : {0, 4}) {
       options.max_influences = most;
-      const auto binding = bind<2>(cage, mesh, points, {}, options);
+      const auto binding = Rig<2>(cage, mesh, points, {}, options).bind();
       for (const Index p : {0, 2, 5}) expect_mirrored<2>(binding.weights, p, p + 1, cage.points, 0);
       expect_mirrored<2>(binding.weights, 4, 4, cage.points, 0);
       EXPECT_LT((binding.deform(cage.points) - points).cwiseAbs().maxCoeff(), 1e-13);
