@@ -43,7 +43,8 @@ bool moves_points(const DeformArguments& arguments) {
 
 // Whether points that the binding does not have are evaluated on its domain mesh.
 bool evaluates(const DeformArguments& arguments) {
-  const bool is_free = moves_points(arguments) || moves_splats(arguments.file);
+  const bool is_free =
+      moves_points(arguments) || moves_splats(arguments.file) || moves_drawing(arguments.file);
   return !arguments.files.domain.empty() || (is_free && arguments.files.is_one());
 }
 
@@ -79,6 +80,11 @@ void check_arguments(const DeformArguments& arguments) {
   }
   if (arguments.is_relative && needs_jacobians(arguments)) {
     throw OptionError("--relative moves points, but neither splats nor normals by the Jacobian");
+  }
+  if (moves_drawing(arguments.file) && !evaluates(arguments)) {
+    throw OptionError(arguments.file.model +
+                      ": a drawing needs a binding (.npz) of flbc run, or --domain and --rest, by "
+                      "which its curves are evaluated");
   }
   if (moves_points(arguments)) {
     if (arguments.is_relative) {
@@ -129,10 +135,6 @@ std::vector<std::string> name_outputs(const std::vector<Pose<Dim>>& poses,
   return names;
 }
 
-OutsidePoints outside_of(const DeformArguments& arguments, OutsidePoints of_binding) {
-  return arguments.outside == OutsidePoints::kFail ? of_binding : arguments.outside;
-}
-
 // The binding of the model itself.
 template <int Dim>
 Binding<Dim> bind_model(const MovableModel<Dim>& model, const Pose<Dim>& pose,
@@ -155,10 +157,7 @@ Binding<Dim> bind_model(const MovableModel<Dim>& model, const Pose<Dim>& pose,
     return load_binding<Dim>(arguments.files, file, model.points(), model.edges(),
                              !arguments.is_relative);
   }
-  const auto bound = load_domain_binding<Dim>(arguments.files);
-  return naming(file, [&] {
-    return bound.transferred(model.points(), model.edges(), outside_of(arguments, bound.policy));
-  });
+  return bind_by_mesh(load_domain_binding<Dim>(arguments.files), model, file, arguments.outside);
 }
 
 // Removes the files of a sequence that were new, unless all were written.
@@ -252,7 +251,7 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
   if (arguments.method.empty()) {
     binding = bind_model(model, poses.front(), arguments);
     if (needs_jacobians(arguments)) jacobians = binding.point_jacobians();
-    if (!arguments.quiet && !arguments.is_relative) {
+    if (!arguments.quiet && !arguments.is_relative && model.drawing() == nullptr) {
       warn_outside(binding, arguments.file.model);
     }
   } else {
@@ -272,7 +271,8 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   if (arguments.quiet) return;
   print_summary(model, poses, displacement, seconds.count(), arguments);
-  if (arguments.files.has_cage()) warn_border(binding, arguments.file.model, poses);
+  if (arguments.files.has_cage() && model.drawing() == nullptr)
+    warn_border(binding, arguments.file.model, poses);
 }
 
 }  // namespace
@@ -283,7 +283,8 @@ void add_deform_command(CLI::App& app, int&) {
   auto* command = app.add_subcommand("deform", "deform a model or a domain mesh with its cage");
   command->footer(
       "If MODEL and the result have the same format, only coordinates and normals change. In\n"
-      "2D, z does not change. Gaussian splats (.ply) also rotate and stretch.\n"
+      "2D, z does not change. Gaussian splats (.ply) also rotate and stretch. Curves of a drawing\n"
+      "stay curves; everything else in its document stays.\n"
       "Another format receives the polygons, colors, normals, and texture coordinates that it\n"
       "supports. The program reports those that are lost.\n"
       "The results of a sequence have the numbers of --pose pose_%d.obj, or count from 0.\n"
@@ -293,8 +294,8 @@ void add_deform_command(CLI::App& app, int&) {
       "  flbc deform model.obj --method green --rest cage.obj --pose pose.obj -o green.obj");
   command
       ->add_option("MODEL", a.file.model,
-                   "model (.obj .off .ply .stl .glb), domain mesh (3D: .mesh .msh), or points "
-                   "(.npy .csv)")
+                   "model (.obj .off .ply .stl .glb), drawing (.svg), domain mesh (3D: .mesh "
+                   ".msh), or points (.npy .csv)")
       ->required();
   auto* weights = command->add_option("--weights", a.files.weights, describe_weight_file());
   auto* method =

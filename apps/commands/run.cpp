@@ -124,10 +124,10 @@ void print_summary(const Run<Dim>& run) {
   std::cerr << run.arguments.output << ": " << facts.text() << "\nNext: open "
             << run.folder.path_of(kPage) << " in a browser and drag the cage;\n      "
             << "save a pose there, and apply it with flbc deform.\n";
-  if (!run.inputs.splats) return;
+  if (!run.inputs.follower) return;
   const auto file = [&](const std::string& name) { return run.folder.path_of(name); };
-  std::cerr << "      flbc deform " << run.arguments.splats << " --weights " << file(kBinding)
-            << " --pose POSE -o moved.ply\n";
+  std::cerr << "      flbc deform " << run.arguments.follower << " --weights " << file(kBinding)
+            << " --pose POSE -o moved." << io::extension_of(run.arguments.follower) << '\n';
 }
 
 // \return the exit status
@@ -206,20 +206,23 @@ void mirror_weights(RunArguments& arguments) {
   }
 }
 
-// Splats move with the mesh, so they have no weights of their own.
-void take_splats(RunArguments& arguments) {
+// Splats and drawings move with the mesh, so they have no weights of their own.
+void take_follower(RunArguments& arguments) {
   auto& settings = arguments.settings;
-  if (!io::is_splat_file(settings.model)) return;
-  arguments.splats = std::exchange(settings.model, "");
+  const auto is_drawing = [](const std::string& path) { return io::extension_of(path) == "svg"; };
+  if (is_drawing(arguments.picture)) arguments.follower = arguments.picture;
+  if (!is_drawing(settings.model) && !io::is_splat_file(settings.model)) return;
+  arguments.follower = std::exchange(settings.model, "");
   if (!settings.locality.empty()) {
-    throw OptionError("--locality: " + arguments.splats +
-                      " has splats, which have no weights of their own; leave out this option");
+    throw OptionError("--locality: " + arguments.follower +
+                      " has splats or curves, which have no weights of their own; leave out this "
+                      "option");
   }
 }
 
 void prepare_model(const CLI::App& command, RunArguments& arguments) {
   refuse_unread_options(command, arguments.settings);
-  take_splats(arguments);
+  take_follower(arguments);
   mirror_weights(arguments);
   require_model_to_embed(arguments.settings);
 }

@@ -29,9 +29,8 @@ Shape<Dim> load_shape(const std::string& path) {
     throw OptionError(path + ": unknown file format; a model must end in " +
                       io::extensions_of({io::Content::kModel}) + io::conversion_hint(path));
   }
-  // The numbers of a .gltf file are elsewhere, and curves have none for their points.
-  const auto given = io::extension_of(path);
-  const std::string moved = given == "gltf" ? ".glb" : given == "svg" ? ".obj" : "";
+  // The numbers of a .gltf file are elsewhere.
+  const std::string moved = io::extension_of(path) == "gltf" ? ".glb" : "";
   Shape<Dim> shape{file.stem().string(), moved.empty() ? file.extension().string() : moved};
   shape.file =
       std::make_unique<MovableModel<Dim>>(MovedFile{path, moved.empty() ? path : "a" + moved});
@@ -59,13 +58,15 @@ RunInputs<Dim> load_inputs(const Cage<Dim>& cage, const RunArguments& arguments)
   const auto& settings = arguments.settings;
   RunInputs<Dim> inputs;
   if (!arguments.makes_cage) inputs.files.push_back(settings.cage);
-  if (!arguments.picture.empty()) inputs.files.push_back(arguments.picture);
+  if (!arguments.picture.empty() && arguments.follower.empty()) {
+    inputs.files.push_back(arguments.picture);
+  }
   load_motion(cage, arguments, inputs);
   if (!settings.locality.empty()) inputs.files.push_back(settings.locality);
   inputs.shape.extension = domain_extension<Dim>();
-  if (const auto& splats = arguments.splats; !splats.empty()) {
-    inputs.files.push_back(splats);
-    inputs.splats = std::make_unique<MovableModel<Dim>>(MovedFile{splats, splats});
+  if (const auto& follower = arguments.follower; !follower.empty()) {
+    inputs.files.push_back(follower);
+    inputs.follower = std::make_unique<MovableModel<Dim>>(MovedFile{follower, follower});
   }
   if (settings.model.empty()) return inputs;
   inputs.files.push_back(settings.model);
@@ -81,8 +82,8 @@ std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs,
   if (inputs.shape.file) names.emplace_back(kDomainWeights);
   for (const auto& pose : inputs.poses) {
     names.push_back(name_of_deformed(pose.number, inputs.poses.size(), inputs.shape.extension));
-    if (inputs.splats) {
-      names.push_back(name_of_deformed(pose.number, inputs.poses.size(), kSplats));
+    if (inputs.follower) {
+      names.push_back(name_of_follower(pose.number, inputs.poses.size(), arguments));
     }
   }
   names.insert(names.end(), {kSkin, kFullSkin});
@@ -98,6 +99,11 @@ std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs,
 std::string name_of_deformed(std::int64_t number, std::size_t num_poses,
                              const std::string& extension) {
   return with_number(num_poses == 1 ? "deformed" : "deformed_%03d", number) + extension;
+}
+
+std::string name_of_follower(std::int64_t number, std::size_t num_poses,
+                             const RunArguments& arguments) {
+  return name_of_deformed(number, num_poses, "." + io::extension_of(arguments.follower));
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                 \

@@ -29,7 +29,6 @@ constexpr const char* kSparseWeights = "sparse_weights.mtx";
 constexpr const char* kBinding = "binding.npz";
 constexpr const char* kSkin = "model.glb";        //!< of four influences, which every reader knows
 constexpr const char* kFullSkin = "model_8.glb";  //!< of up to eight
-constexpr const char* kSplats = ".ply";           //!< extension of moved splats
 // Pictures; the extension depends on the format.
 constexpr const char* kFunction = "function";
 constexpr const char* kDeformation = "deformation";
@@ -41,7 +40,7 @@ constexpr const char* kReport = "report.json";
 struct RunArguments {
   SolveSettings settings;     //!< cage and model among them, but no domain
   bool makes_cage = false;    //!< whether to make a cage around the model
-  std::string splats;         //!< Gaussian splats that move; empty for none
+  std::string follower;       //!< splats or a drawing, which move with the mesh; empty for none
   std::string picture;        //!< or round this picture's silhouette; empty for none
   CagingOptions caging;       //!< of that cage
   UpAxis up = UpAxis::kAuto;  //!< in pictures, page, and skins
@@ -89,7 +88,7 @@ struct RunInputs {
   std::vector<Pose<Dim>> poses{};    //!< of the cage
   gltf::Animation<Dim> animation{};  //!< through them
   Shape<Dim> shape{};                //!< the model's; empty without one
-  std::unique_ptr<MovableModel<Dim>> splats{};  //!< that move with the cage, or null
+  std::unique_ptr<MovableModel<Dim>> follower{};  //!< of that name, or null
 };
 
 //! \throws IoError, InputError, OptionError; also if a pose does not fit the cage
@@ -103,5 +102,9 @@ std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs,
 //! The name of the model's file in a pose, which is numbered if there are several poses.
 std::string name_of_deformed(std::int64_t number, std::size_t num_poses,
                              const std::string& extension);
+
+//! The same of RunArguments::follower.
+std::string name_of_follower(std::int64_t number, std::size_t num_poses,
+                             const RunArguments& arguments);
 
 }  // namespace flbc::app

@@ -2,6 +2,7 @@
 #include "run/steps.h"
 
 #include <iostream>
+#include <optional>
 
 #include "flbc/deform.h"
 #include "flbc/io/mesh_io.h"
@@ -35,9 +36,10 @@ void mesh_interior(Run<Dim>& run) {
   solver.make_domain(run.arguments.quiet);
   const auto& domain = solver.domain();
   if (!run.has_model()) run.inputs.shape = shape_of(domain);
-  if (run.inputs.splats) {  // refuses those outside before the solve
-    naming(run.arguments.splats, [&] {
-      place_points(run.cage, run.inputs.splats->points(), run.arguments.settings.outside);
+  if (run.inputs.follower && run.inputs.follower->drawing() == nullptr) {
+    // Refuses splats outside before the solve.
+    naming(run.arguments.follower, [&] {
+      place_points(run.cage, run.inputs.follower->points(), run.arguments.settings.outside);
     });
   }
   const auto name = domain_file<Dim>();
@@ -60,10 +62,12 @@ void compute_weights(Run<Dim>& run) {
   solver.solve(run.arguments.quiet);
   const auto& arguments = run.arguments;
   if (!arguments.quiet) warn_outside(solver.binding(), arguments.settings.model);
-  if (run.inputs.splats) {
-    run.splats =
-        solver.binding().transferred(run.inputs.splats->points(), {}, arguments.settings.outside);
-    if (!arguments.quiet) warn_outside(run.splats, arguments.splats);
+  if (run.inputs.follower) {
+    const auto& follower = *run.inputs.follower;
+    run.follower =
+        bind_by_mesh(solver.binding(), follower, arguments.follower, arguments.settings.outside);
+    const bool is_drawing = follower.drawing() != nullptr;
+    if (!arguments.quiet && !is_drawing) warn_outside(run.follower, arguments.follower);
   }
   const auto delivered = measure_quality(run.cage.points, run.attached(), run.weights());
   run.report["solve"] = solver.json(delivered);
@@ -105,20 +109,23 @@ void check_weights_of_mesh(Run<Dim>& run) {
 namespace {
 
 template <int Dim>
-void deform_splats(Run<Dim>& run) {
-  const auto jacobians = run.splats.point_jacobians();
+void deform_follower(Run<Dim>& run) {
+  const auto& follower = *run.inputs.follower;
+  std::optional<PointJacobians<Dim>> jacobians;
+  if (follower.drawing() == nullptr) jacobians = run.follower.point_jacobians();
   for (const auto& pose : run.poses()) {
-    const auto name = name_of_deformed(pose.number, run.poses().size(), kSplats);
+    const auto name = name_of_follower(pose.number, run.poses().size(), run.arguments);
     Facts facts;
-    facts << run.splats.points.cols() << " splats";
+    facts << run.follower.points.cols() << (jacobians ? " splats" : " points of curves");
     run.folder.add(name, facts.text(), [&](const std::string& path) {
       naming(path, [&] {
-        run.inputs.splats->write(path, run.splats.deform(pose.points), {}, 0,
-                                 jacobians.at(pose.points));
+        follower.write(path, run.follower.deform(pose.points), {}, 0,
+                       jacobians ? jacobians->at(pose.points) : Eigen::MatrixXd());
       });
     });
     run.report["deform"].push_back({{"pose", pose.name}, {"file", name}});
   }
+  if (!run.arguments.quiet) follower.print_losses();
 }
 
 // Where vertices stay that are outside of the cage.
@@ -159,7 +166,7 @@ void deform_shape(Run<Dim>& run) {
   }
   tell_border(run);
   if (run.poses().empty()) return;
-  if (run.inputs.splats) deform_splats(run);
+  if (run.inputs.follower) deform_follower(run);
   const auto& pose = run.poses()[run.displacement.pose];
   Facts facts;
   if (run.poses().size() > 1) facts << run.poses().size() << " poses; ";

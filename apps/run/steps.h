@@ -25,7 +25,7 @@ struct Run {
 
   Binding<Dim> reduced{};       //!< of the shape's points, at most so many influences of each
   Displacement displacement{};  //!< in the poses
-  Binding<Dim> splats{};        //!< of the splats, if there are any
+  Binding<Dim> follower{};      //!< of RunInputs::follower
 
   const std::vector<Pose<Dim>>& poses() const { return inputs.poses; }
   const Shape<Dim>& shape() const { return inputs.shape; }

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "flbc/bounding_box.h"
+#include "flbc/cage_facts.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/io/mesh_io.h"
@@ -175,9 +176,27 @@ Index count_without_weights(const SparseWeights& weights) {
   return count;
 }
 
+template <int Dim>
+Binding<Dim> bind_by_mesh(const Binding<Dim>& bound, const MovableModel<Dim>& model,
+                          const std::string& file, OutsidePoints outside) {
+  if (outside == OutsidePoints::kFail) outside = bound.policy;
+  const auto* drawing = model.drawing();
+  if (drawing != nullptr && outside == OutsidePoints::kFail) {
+    const auto beyond = points_outside(bound.cage, model.points());
+    if (!beyond.empty()) {
+      std::cerr << "flbc: " << file << ": " << drawing->element_of(beyond.front())
+                << " is outside the cage, and stays there; --outside nearest lets it follow\n";
+      outside = OutsidePoints::kKeep;
+    }
+  }
+  return naming(file, [&] { return bound.transferred(model.points(), model.edges(), outside); });
+}
+
 #define FLBC_INSTANTIATE(Dim)                                                            \
   template const Binding<Dim>& load_binding(const BindingFiles&);                        \
   template Binding<Dim> load_domain_binding(const BindingFiles&);                        \
+  template Binding<Dim> bind_by_mesh(const Binding<Dim>&, const MovableModel<Dim>&,      \
+                                     const std::string&, OutsidePoints);                 \
   template Binding<Dim> load_binding(const BindingFiles&, const std::string&,            \
                                      const PointList<Dim>&, EdgeList, bool);             \
   template RestCage<Dim> rest_cage_of(const BindingFiles&, const Binding<Dim>&);         \

@@ -8,6 +8,7 @@
 
 #include "flbc/binding.h"
 #include "flbc/io/binding_file.h"
+#include "front/movable_model.h"
 #include "front/page.h"
 #include "front/poses.h"
 
@@ -85,5 +86,13 @@ void check_sizes(const SparseWeights& weights, Eigen::Index num_control_points,
 
 //! The number of points without weights, which do not move.
 Index count_without_weights(const SparseWeights& weights);
+
+//! The binding of what moves with the mesh of another one: points, splats, or the points of a
+//! drawing. A drawing outside of the cage stays, unless `outside` says how it moves, and a line on
+//! standard error names its first element there.
+//! \param file  of the model \param outside  kFail: as the binding says
+template <int Dim>
+Binding<Dim> bind_by_mesh(const Binding<Dim>& bound, const MovableModel<Dim>& model,
+                          const std::string& file, OutsidePoints outside);
 
 }  // namespace flbc::app

@@ -50,6 +50,7 @@ void require_mesh_readable(const std::string& path) {
 }
 
 void require_formats(const MovedFile& file) {
+  if (moves_drawing(file)) return require_writable(file.output, "svg");
   require_mesh_readable(file.model);
   require_writable(file.output, kMeshFiles);
   if (file.shows_displacement && !holds(file.output, kShowing)) {
@@ -64,8 +65,14 @@ bool moves_splats(const MovedFile& file) {
   return is_rewritten(file) && io::is_splat_file(file.model);
 }
 
+bool moves_drawing(const MovedFile& file) {
+  const auto is_drawing = [](const std::string& path) { return io::extension_of(path) == "svg"; };
+  return is_drawing(file.model) && is_drawing(file.output) && !file.shows_displacement;
+}
+
 template <int Dim>
 void require_formats_of(const MovedFile& file) {
+  if (moves_drawing(file)) return;
   const auto& [model, output, shows, is_anew] = file;
   if (Dim == 2 && is_tetrahedra_file(model)) {
     throw OptionError(model + ": holds tetrahedra, but the cage is in 2D");
@@ -98,6 +105,14 @@ void MovableModel<Dim>::read() {
       throw InputError(path + ": Gaussian splats need a cage in 3D");
     } else {
       points_ = splats_.emplace(path).points();
+      return;
+    }
+  }
+  if (moves_drawing(file_)) {
+    if constexpr (Dim == 3) {
+      throw InputError(path + ": a drawing needs a cage in 2D");
+    } else {
+      points_ = drawing_.emplace(io::read_drawing(path)).points();
       return;
     }
   }
@@ -149,6 +164,10 @@ gltf::Surface MovableModel<Dim>::surface() const {
 
 template <int Dim>
 void MovableModel<Dim>::print_losses() const {
+  if (drawing_ && !drawing_->notes().empty()) {
+    std::cerr << "flbc: " << file_.output
+              << " keeps, but does not bend: " << joined(drawing_->notes()) << '\n';
+  }
   if (losses_.empty()) return;
   std::cerr << "flbc: " << file_.output << " does not keep all of " << file_.model
             << "; lost: " << joined(losses_) << '\n';
@@ -162,6 +181,11 @@ void MovableModel<Dim>::write(const std::string& path, const PointList<Dim>& poi
     if (splats_) {
       return io::write_file(path,
                             [&](std::ostream& out) { splats_->write(out, points, jacobians); });
+    }
+  }
+  if constexpr (Dim == 2) {
+    if (drawing_) {
+      return io::write_file(path, [&](std::ostream& out) { out << drawing_->moved(points); });
     }
   }
   if (is_point_file(file_.model)) return io::write_weights(path, points);

@@ -13,6 +13,7 @@
 #include "flbc/io/model_file.h"
 #include "flbc/io/splat_file.h"
 #include "model/surface.h"
+#include "model/svg_document.h"
 
 namespace flbc::app {
 
@@ -41,6 +42,9 @@ void require_formats_of(const MovedFile& file);
 //! Whether Gaussian splats become moved splats, which takes the Jacobians of the poses.
 bool moves_splats(const MovedFile& file);
 
+//! Whether a drawing becomes a moved drawing. It then moves by points of its curves.
+bool moves_drawing(const MovedFile& file);
+
 //! A model or a mesh of the interior. Models are rewritten in place if the result has the same
 //! format and no new colours: then nothing is lost. All else is written anew.
 template <int Dim>
@@ -65,6 +69,9 @@ class MovableModel {
   //! \throws InputError naming the file if there are none
   gltf::Surface surface() const;
 
+  //! The drawing, or null if it is none that stays one.
+  const io::SvgDocument* drawing() const { return drawing_ ? &*drawing_ : nullptr; }
+
   //! Normals that cannot follow the vertices.
   Index num_loose_normals() const { return model_ ? model_->num_loose_normals() : 0; }
 
@@ -87,6 +94,7 @@ class MovableModel {
   PointList<Dim> points_;
   std::optional<io::ModelFile> model_;
   std::optional<io::SplatFile> splats_;
+  std::optional<io::SvgDocument> drawing_;
   DomainMesh<Dim> mesh_;
   std::vector<std::string> losses_;  // a phrase each
 };

@@ -21,7 +21,9 @@
 
 #include "base/distance_to_segment.h"
 #include "flbc/errors.h"
+#include "flbc/io/files.h"
 #include "model/model_scan.h"
+#include "model/svg_document.h"
 
 namespace flbc::io {
 namespace {
@@ -384,6 +386,14 @@ void read_svg(const std::string& path, Extent, ModelScan& scan) {
       soup.points.emplace_back(place.x(), drawing.box().max().y() - place.y(), 0);
     }
   }
+}
+
+SvgDocument read_drawing(const std::string& path) {
+  const auto text = read_file(path);
+  const Drawing drawing(path, text);
+  const Vector<2> page = drawing.box().sizes();
+  const Eigen::Affine2d upwards(Eigen::Translation2d(0, page.y()) * Eigen::Scaling(1.0, -1.0));
+  return {text, path, page, upwards};
 }
 
 }  // namespace flbc::io
