@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is measured against certified optima: tables 1 and 2 of the paper, the
-// race to an error of 1e-5, the accuracy of the tolerance, and the samples.
+// race to an error of 1e-5, and the samples.
 #include <cmath>
 #include <filesystem>
 
@@ -179,26 +179,6 @@ Row sample_row(const Setting<Dim>& setting) {
   return row;
 }
 
-// The true error of the default method from a cold start, relative to the tolerance.
-template <int Dim>
-Rows true_errors(Setting<Dim> setting) {
-  setting.problem.smoothness = default_smoothness();
-  const auto optimum = reference(setting);
-  Rows rows;
-  for (const double tolerance : {1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
-    SolverOptions options;
-    options.threads = setting.context.threads;
-    options.tolerance = tolerance;
-    const auto solution = solve(setting.problem, options);
-    rows.push_back(mesh_row(setting)
-                       .add("tolerance", tolerance)
-                       .add("converged", solution.report.status == SolveStatus::kConverged)
-                       .add("iterations", solution.report.iterations)
-                       .add("error", error_of(setting, solution, optimum) / tolerance));
-  }
-  return rows;
-}
-
 }  // namespace
 
 bool run_table1(const Context& context) {
@@ -227,22 +207,6 @@ bool run_race(const Context& context) {
                     "multilevel start; converged 0: not reached within 10,000 iterations");
   add_methods(table, false,
               [](const auto& setting, const auto& method) { return race(setting, method); });
-  return table.finish();
-}
-
-bool run_tolerance(const Context& context) {
-  auto cases = models();
-  cases.push_back({"arm", 3, "3d/arm_cage.obj", 6500});
-  cases.push_back({"clothing", 3, "3d/clothing_cage.obj", 6500});
-  ResultTable table(context, "tolerance",
-                    "Default method from cold starts; error: mean squared, to the optimum, "
-                    "relative to the tolerance; independent of the machine");
-  for (const auto& model : cases) {
-    for (const Index vertices : {model.name == "armadillo" ? 4100 : 2500, model.paper_size}) {
-      if (context.quick && vertices == model.paper_size) continue;
-      add_rows(table, model, vertices, [](const auto& setting) { return true_errors(setting); });
-    }
-  }
   return table.finish();
 }
 

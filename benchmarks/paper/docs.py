@@ -37,7 +37,7 @@ NUMBER = re.compile(r"(<!--n:([\w.-]+)-->)(.*?)(<!--/n-->)")
 LINK = re.compile(r"\(\S*results/(\w+)\.csv\)")
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 FROZEN = {"authors2014", "blender", "cages", "compare", "figure3", "figure5", "figure6", "many", "mesh_deform", "mesh_error", "pipeline", "points",
-          "smoothness", "sparsify"}
+          "smoothness", "sparsify", "tolerance"}
 UNFIT = ("quick run", "incomplete", "only models")  # comments of results not to be taken over
 
 

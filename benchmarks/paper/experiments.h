@@ -13,7 +13,6 @@ bool run_speed(const Context& context);    //!< time to a tolerance of 1e-5, up 
 bool run_race(const Context& context);     //!< iterations and time to a true error of 1e-5
 bool run_samples(const Context& context);  //!< harmonic and race, on the samples of meshes/
 bool run_models(const Context& context);   //!< by default, next to harmonic coordinates
-bool run_tolerance(const Context& context);  //!< true errors relative to the tolerance
 
 //! What the library computes for some samples of meshes/, in the current folder. Each entry has the
 //! iterations and a mean of squared weights: `figure 168/0.41573`. One thread; depends in the last

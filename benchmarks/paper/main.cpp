@@ -16,9 +16,8 @@ namespace {
 constexpr struct {
   const char* name;
   bool (*run)(const Context&);
-} kExperiments[] = {{"table1", run_table1},  {"table2", run_table2}, {"models", run_models},
-                    {"race", run_race},      {"speed", run_speed},   {"tolerance", run_tolerance},
-                    {"samples", run_samples}};
+} kExperiments[] = {{"table1", run_table1}, {"table2", run_table2}, {"models", run_models},
+                    {"race", run_race},     {"speed", run_speed},   {"samples", run_samples}};
 
 bool run_all(const Context& context, const std::vector<std::string>& only) {
   std::filesystem::create_directories(context.out);

@@ -73,7 +73,6 @@ NUMBERS = {
     "speed.ratio": lambda rows: span((ratio(r, "total_seconds", "harmonic_seconds") for r in rows), factor),
     "speed.power.seconds": powers("total_seconds"),
     "speed.power.mebibytes": powers("peak_mebibytes"),
-    "tolerance.worst": lambda rows: f"{max(value(r, 'error') for r in rows):.2f}",
     "table1.plane": lambda rows: f"{max(value(r, 'squared_distance') for r in rows if value(r, 'vertices') > 7e3):.1e}",
     **{f"table1.min.{model}": lambda rows, model=model: f"{value(smallest(rows, model), 'min_weight_without'):.1e}"
        for model in ("shark", "armadillo", "beast")},

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The tables of the pages as header and body, from rows of the CSV files."""
 
-import math
-
 import results
 from results import by, cells, thousands, value
 
@@ -113,16 +111,5 @@ def race(rows):
     return [header for header, _ in SIZE] + [f"{results.LABELS[name]}, s" for name in names], body
 
 
-def tolerance(rows):
-    """The largest true error relative to the tolerance; a line per model."""
-    wanted = results.in_order(row["tolerance"] for row in rows)
-
-    def line(title, mine):
-        worst = [[value(r, "error") for r in mine if r["tolerance"] == t] for t in wanted]
-        return [title] + [f"{max(errors):.2f}" if errors else "-" for errors in worst]
-    return (["model"] + [f"{float(t):.0e}".replace("e-0", "e-") for t in wanted],
-            [line(mine[0]["model"], mine) for mine in by(rows, "model")] + [line("**worst**", rows)])
-
-
 TABLES = {"models": lines(*MODELS), "harmonic": lines(*HARMONIC), "race": race, "speed": lines(*SPEED),
-          "tolerance": tolerance, "samples": lines(*SAMPLES), "table1": lines(*TABLE1), "table2": table2}
+          "samples": lines(*SAMPLES), "table1": lines(*TABLE1), "table2": table2}

@@ -12,15 +12,15 @@ from scipy.spatial import Delaunay
 # ---- a model that has it all: masks, an exact mirror, vertices outside that stay -----------------
 
 
-def box(dim):
-    """A box of two halves, symmetric across x = 1."""
+def box(dim, places=(0, 1, 2)):
+    """A box with control points at these places along x, symmetric across x = 1."""
     if dim == 2:
-        return flbc.Cage([[0, 0], [1, 0], [2, 0], [2, 1], [1, 1], [0, 1]])
-    points = np.array([[x, y, z] for x in (0, 1, 2) for y in (0, 1) for z in (0, 1)], float)
-    ring = [0, 1, 3, 2]
+        return flbc.Cage([[x, 0] for x in places] + [[x, 1] for x in places[::-1]])
+    points = np.array([[x, y, z] for x in places for y in (0, 1) for z in (0, 1)], float)
+    ring, last = [0, 1, 3, 2], 4 * len(places) - 4
     sides = [[4 * s + ring[k], 4 * s + ring[k - 1], 4 * s + 4 + ring[k - 1], 4 * s + 4 + ring[k]]
-             for s in (0, 1) for k in range(4)]
-    return flbc.Cage(points, [ring, *sides, [8, 10, 11, 9]])
+             for s in range(len(places) - 1) for k in range(4)]
+    return flbc.Cage(points, [ring, *sides, [last + k for k in (0, 2, 3, 1)]])
 
 
 def image(points):
@@ -146,7 +146,7 @@ def test_bindings_of_other_control_points(case):
                       outside="keep", mask=case.options["mask"])
     # The middle control points follow the ends: the outer cage has the ends only.
     ends = case.cage.points[:, 0] != 1
-    shares = flbc.mean_value((outer := end_cage(case)), case.cage.points)
+    shares = flbc.mean_value((outer := box(case.dim, (0, 2))), case.cage.points)
     with pytest.raises(flbc.InputError, match="mirrored"):
         case.full.composed(shares, outer)
     found = plain.composed(shares, outer)
@@ -162,15 +162,6 @@ def test_bindings_of_other_control_points(case):
         assert abs(found.weights[vertices][:, control_points]).nnz == 0
     alone = plain.composed(shares, outer.points)
     assert abs(alone.weights - found.weights).nnz == 0 and len(alone.cage.facets) == 0
-
-
-def end_cage(case):
-    if case.dim == 2:
-        return flbc.Cage([[0, 0], [2, 0], [2, 1], [0, 1]])
-    points = case.cage.points[case.cage.points[:, 0] != 1]
-    ring = [0, 1, 3, 2]
-    sides = [[ring[k], ring[k - 1], 4 + ring[k - 1], 4 + ring[k]] for k in range(4)]
-    return flbc.Cage(points, [ring, *sides, [4, 6, 7, 5]])
 
 
 # ---- the object ----------------------------------------------------------------------------------
@@ -201,11 +192,6 @@ def test_stacks_of_poses(case):
         assert binding.deform(rest[None][:0]).shape == (0, count, case.dim)
     with pytest.raises(flbc.InputError, match=rf"control_points.*, {case.dim}\)"):
         case.full.deform(rest[1:])
-
-
-def test_functions_of_weights_refuse_bindings(case):
-    with pytest.raises(flbc.InputError, match="weights is a Binding; use its methods"):
-        flbc.write_weights("x.mtx", case.full)
 
 
 def test_given_weights_must_obey_their_mask(case):

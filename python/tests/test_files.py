@@ -22,25 +22,14 @@ def test_weights(tmp_path, flat, ending):
         assert np.array_equal(found, flat.weights)
 
 
-@pytest.mark.parametrize("ending", ["obj", "off"])
-def test_meshes_in_2d(tmp_path, flat, ending):
-    flbc.write_mesh(tmp_path / f"mesh.{ending}", flat.mesh)
+@pytest.mark.parametrize(
+    "which, ending", [("flat", "obj"), ("flat", "off"), ("solid", "mesh"), ("solid", "msh")])
+def test_meshes(tmp_path, which, ending, request):
+    mesh = request.getfixturevalue(which).mesh
+    flbc.write_mesh(tmp_path / f"mesh.{ending}", mesh)
     same = flbc.read_mesh(tmp_path / f"mesh.{ending}")
-    assert np.array_equal(same.points, flat.mesh.points)
-    assert np.array_equal(same.cells, flat.mesh.cells)
-
-
-@pytest.mark.parametrize("ending", ["mesh", "msh"])
-def test_meshes_in_3d(tmp_path, solid, ending):
-    flbc.write_mesh(tmp_path / f"mesh.{ending}", solid.mesh)
-    same = flbc.read_mesh(tmp_path / f"mesh.{ending}")
-    assert np.array_equal(same.points, solid.mesh.points)
-    assert np.array_equal(same.cells, solid.mesh.cells)
-
-
-def test_formats_that_hold_other_data_are_named(tmp_path, flat):
-    with pytest.raises(flbc.OptionError, match="the format is for other data.*[.]vtu"):
-        flbc.write_mesh(tmp_path / "m.mesh", flat.mesh)
+    assert np.array_equal(same.points, mesh.points)
+    assert np.array_equal(same.cells, mesh.cells)
 
 
 def test_fields(tmp_path, flat):

@@ -5,9 +5,7 @@
 #include "flbc/deform.h"
 #include "flbc/masks.h"
 #include "flbc/rig.h"
-#include "support/errors.h"
 #include "support/refined_sample.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {
@@ -105,11 +103,7 @@ TEST_IN_2D_AND_3D(MirrorTest, PartnersAreFoundWithinThePrecisionOfFiles) {
           for (Index p = 0; p < 52; ++p) {
             const bool is_in_plane = p >= 40 && p < 48;
             if (is_in_plane && most == Dim + 1) continue;
-            const Eigen::VectorXd here = binding.weights.at(p);
-            const Eigen::VectorXd there = binding.weights.at(is_in_plane ? p : p ^ 1);
-            for (Index i = 0; i < cage.size(); ++i) {
-              ASSERT_EQ(here[i], there[image_of<Dim>(cage.points, i)]) << p << ' ' << i;
-            }
+            expect_mirrored<Dim>(binding.weights, p, is_in_plane ? p : p ^ 1, cage.points);
           }
         }
       }

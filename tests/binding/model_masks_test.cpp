@@ -3,9 +3,7 @@
 #include "flbc/masks.h"
 #include "flbc/place_masks.h"
 #include "flbc/rig.h"
-#include "support/errors.h"
 #include "support/refined_sample.h"
-#include "support/test.h"
 
 namespace flbc::testing {
 namespace {

@@ -214,12 +214,6 @@ TEST(Cage3Test, NonManifoldVertex) {
   EXPECT_TRUE(reports(defects, {"non-manifold at control point 7", "2 separate fans"}, {7}));
 }
 
-TEST(RealCageTest, SoundOnes) {
-  if (!has_model("3d/horse_cage.obj")) GTEST_SKIP() << "the real models are absent";
-  for (const auto* name : kRealCages2D) EXPECT_TRUE(find_defects(load_cage<2>(name)).empty());
-  for (const auto* name : kRealCages3D) EXPECT_TRUE(find_defects(load_cage<3>(name)).empty());
-}
-
 TEST(RealCageTest, DefectiveOnes) {
   if (!has_model("defective/unwelded_cage.obj")) GTEST_SKIP() << "the real models are absent";
   const auto defects = [](const char* name) {

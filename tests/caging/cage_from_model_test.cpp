@@ -29,6 +29,12 @@ ModelCage<Dim> make(const Cage<Dim>& model, const CagingOptions& options) {
   return made;
 }
 
+CagingOptions at_most(Index control_points) {
+  CagingOptions options;
+  options.control_points = control_points;
+  return options;
+}
+
 // A bar along each axis, crossing in the middle: they intersect themselves and have long limbs.
 template <int Dim>
 Cage<Dim> crossed_bars() {
@@ -63,20 +69,14 @@ Cage<Dim> soup(Index count) {
 
 TEST_IN_2D_AND_3D(CageFromModelTest, EnclosesWithAtMostSoManyControlPoints) {
   const auto model = crossed_bars<Dim>();
-  for (const Index count : {Dim + 1, 2 * Dim + 2, 20, 60}) {
-    CagingOptions options;
-    options.control_points = count;
-    make(model, options);
-  }
+  for (const Index count : {Dim + 1, 2 * Dim + 2, 20, 60}) make(model, at_most(count));
 }
 
 TEST_IN_2D_AND_3D(CageFromModelTest, MoreControlPointsFollowTheModelMoreClosely) {
   const auto model = crossed_bars<Dim>();
   double previous = std::numeric_limits<double>::infinity();
   for (const Index count : {8, 24, 80}) {
-    CagingOptions options;
-    options.control_points = count;
-    const double distance = make(model, options).mean_distance;
+    const double distance = make(model, at_most(count)).mean_distance;
     EXPECT_LT(distance, previous);
     previous = distance;
   }
@@ -97,23 +97,25 @@ TEST_IN_2D_AND_3D(CageFromModelTest, AnyStateOfTheModel) {
   degenerate.facets.col(0).setConstant(degenerate.facets(0, 0));
   degenerate.facets(1, 1) = degenerate.facets(0, 1);
   const Cage<Dim> points{box.points, FacetList<Dim>(Dim, 0)};
+  Cage<Dim> flat{PointList<Dim>::Zero(Dim, Dim), FacetList<Dim>(Dim, 1)};
+  for (int k = 0; k < Dim; ++k) flat.facets(k, 0) = k;
+  for (int k = 1; k < Dim; ++k) flat.points(k, k) = k;
   const std::vector<Cage<Dim>> models{
       join(box, far), without_facet(box, 1), fin, join(box, reversed(box)), degenerate,
-      points,         soup<Dim>(60)};
+      points,         soup<Dim>(60),         flat};
   for (std::size_t k = 0; k < models.size(); ++k) {
     SCOPED_TRACE("model " + std::to_string(k));
-    CagingOptions options;
-    options.control_points = 40;
-    make(models[k], options);
+    make(models[k], at_most(40));
     make(models[k], {});
   }
 }
 
-TEST_IN_2D_AND_3D(CageFromModelTest, FlatModels) {
-  Cage<Dim> flat{PointList<Dim>::Zero(Dim, Dim), FacetList<Dim>(Dim, 1)};
-  for (int k = 0; k < Dim; ++k) flat.facets(k, 0) = k;
-  for (int k = 1; k < Dim; ++k) flat.points(k, k) = k;
-  make(flat, {});
+template <int Dim>
+void expect_symmetric(const ModelCage<Dim>& made) {
+  for (Vector<Dim> image : made.cage.points.colwise()) {
+    image(made.symmetry_axis) = 2 * made.symmetry_place - image(made.symmetry_axis);
+    EXPECT_LT((made.cage.points.colwise() - image).colwise().norm().minCoeff(), 1e-12);
+  }
 }
 
 TEST_IN_2D_AND_3D(CageFromModelTest, SymmetricModelsGetSymmetricCages) {
@@ -122,8 +124,7 @@ TEST_IN_2D_AND_3D(CageFromModelTest, SymmetricModelsGetSymmetricCages) {
   model.points.bottomRightCorner(Dim - 1, box_cage<Dim>(1).size()).array() += 0.9;
   model.points.row(0).array() += 0.5;
   for (const auto symmetry : {CageSymmetry::kAuto, CageSymmetry::kX, CageSymmetry::kY}) {
-    CagingOptions options;
-    options.control_points = 50;
+    auto options = at_most(50);
     options.symmetry = symmetry;
     const auto made = make(model, options);
     const int axis = symmetry == CageSymmetry::kY ? 1 : 0;
@@ -131,11 +132,7 @@ TEST_IN_2D_AND_3D(CageFromModelTest, SymmetricModelsGetSymmetricCages) {
     if (axis == 0) {
       EXPECT_NEAR(made.symmetry_place, 0.5, 1e-12);
     }
-    for (Index i = 0; i < made.cage.size(); ++i) {
-      Vector<Dim> image = made.cage.points.col(i);
-      image(axis) = 2 * made.symmetry_place - image(axis);
-      EXPECT_LT((made.cage.points.colwise() - image).colwise().norm().minCoeff(), 1e-12);
-    }
+    expect_symmetric(made);
   }
   CagingOptions free;
   free.symmetry = CageSymmetry::kNone;
@@ -145,8 +142,7 @@ TEST_IN_2D_AND_3D(CageFromModelTest, SymmetricModelsGetSymmetricCages) {
 // Wherever in memory it is made: gaps between what is kept change the order of addresses.
 TEST_IN_2D_AND_3D(CageFromModelTest, SameInputSameCage) {
   for (const auto& model : {crossed_bars<Dim>(), soup<Dim>(60)}) {
-    CagingOptions options;
-    options.control_points = 30;
+    const auto options = at_most(30);
     const auto first = cage_from_model(model.points, model.facets, options);
     std::vector<std::vector<char>> kept;
     for (std::size_t round = 1; round < 6; ++round) {
@@ -183,10 +179,8 @@ TEST_IN_2D_AND_3D(CageFromModelTest, OffsetIsADistance) {
 
 TEST_IN_2D_AND_3D(CageFromModelTest, RefusesWhatHasNoCage) {
   const auto model = box_cage<Dim>(1);
+  EXPECT_THROW(make(model, at_most(Dim)), OptionError);
   CagingOptions options;
-  options.control_points = Dim;
-  EXPECT_THROW(make(model, options), OptionError);
-  options = {};
   options.offset = -1;
   EXPECT_THROW(make(model, options), OptionError);
   const FacetList<Dim> none(Dim, 0);
@@ -195,10 +189,11 @@ TEST_IN_2D_AND_3D(CageFromModelTest, RefusesWhatHasNoCage) {
   auto infinite = model;
   infinite.points(0, 2) = std::numeric_limits<double>::infinity();
   EXPECT_THROW(make(infinite, {}), InputError);
-}
-
-double distance_from_points(const PointList<3>& points, const Vector<3>& p) {
-  return (points.colwise() - p).colwise().norm().minCoeff();
+  for (const double place : {1e10, 1e15}) {
+    const PointList<Dim> far = model.points.array() + place;
+    expect_error<InputError>([&] { cage_from_model<Dim>(far, model.facets); },
+                             {"too far from the origin", "vertex 0"});
+  }
 }
 
 // Every triangle is cut into four with corners of their own.
@@ -220,6 +215,12 @@ Cage<3> subdivided(const Cage<3>& cage, int times) {
     fine.facets.middleCols(4 * f, 4) = parts.array() + 6 * f;
   }
   return subdivided(fine, times - 1);
+}
+
+Cage<3> turned(Cage<3> cage) {
+  const Eigen::AngleAxisd turn(0.6, Vector<3>(1, 2, 0.5).normalized());
+  cage.points = turn.toRotationMatrix() * cage.points;
+  return cage;
 }
 
 // A body with eight thin arms.
@@ -246,8 +247,8 @@ TEST(CageLimitsTest, DefaultCagesKeepThem) {
     const double size = bounding_box_diagonal<3>(model.points);
     const auto samples = subdivided(model, 5).points;
     double farthest = 0;
-    for (Index v = 0; v < made.cage.size(); ++v) {
-      farthest = std::max(farthest, distance_from_points(samples, made.cage.points.col(v)));
+    for (const Vector<3> p : made.cage.points.colwise()) {
+      farthest = std::max(farthest, (samples.colwise() - p).colwise().norm().minCoeff());
     }
     EXPECT_NEAR(made.max_distance, farthest, 0.02 * size);
     EXPECT_LE(made.max_distance, kMaxCageDistance * size);
@@ -258,10 +259,8 @@ TEST(CageLimitsTest, DefaultCagesKeepThem) {
 
 TEST(CageLimitsTest, CompactModelsGetFewControlPointsAndThinOnesMore) {
   EXPECT_LE(make(box_cage<3>(1), {}).cage.size(), 16);
-  const Eigen::AngleAxisd turn(0.6, Vector<3>(1, 2, 0.5).normalized());
-  auto bar = box_cage<3>(Vector<3>(-1, -0.2, -0.2), Vector<3>(1, 0.2, 0.2));
-  bar.points = turn.toRotationMatrix() * bar.points;
-  EXPECT_LE(make(bar, {}).cage.size(), 40);
+  const auto bar = box_cage<3>(Vector<3>(-1, -0.2, -0.2), Vector<3>(1, 0.2, 0.2));
+  EXPECT_LE(make(turned(bar), {}).cage.size(), 40);
   EXPECT_GE(make(spider(), {}).cage.size(), 60);
 }
 
@@ -289,9 +288,7 @@ TEST(CageLimitsTest, ARequestedNumberIsSpreadAlongLimbs) {
   Cage<3> cross{PointList<3>(3, 16), FacetList<3>(3, 24)};
   cross.points << bar.points, other.points;
   cross.facets << bar.facets, other.facets.array() + 8;
-  CagingOptions options;
-  options.control_points = 50;
-  const auto made = make(cross, options);
+  const auto made = make(cross, at_most(50));
   for (const int axis : {0, 1}) {
     const auto along = made.cage.points.row(axis).array();
     for (const double place : {-1.6, -1.3, -1.0, -0.7, 0.7, 1.0, 1.3, 1.6}) {
@@ -301,9 +298,7 @@ TEST(CageLimitsTest, ARequestedNumberIsSpreadAlongLimbs) {
 }
 
 TEST(CageLimitsTest, ARequestedNumberOverridesThem) {
-  CagingOptions options;
-  options.control_points = 4;
-  const auto made = make(spider(), options);
+  const auto made = make(spider(), at_most(4));
   EXPECT_GT(made.max_distance, kMaxCageDistance * bounding_box_diagonal<3>(spider().points));
   EXPECT_GT(made.volume_ratio, kMaxCageVolume);
 }
@@ -325,19 +320,16 @@ TEST(CageLimitsTest, VolumesOfModels) {
 
 // The volume of a convex model is that of its hull.
 TEST(CageLimitsTest, ConvexModelsGetLittleMoreThanTheirHull) {
-  const Eigen::AngleAxisd turn(0.6, Vector<3>(1, 2, 0.5).normalized());
   for (const double thickness : {1.0, 0.2, 0.05, 0.02, 0.005}) {
     for (const bool is_turned : {false, true}) {
       SCOPED_TRACE(thickness);
       auto plate = box_cage<3>(Vector<3>(0, 0, 0), Vector<3>(1, 1, thickness));
-      if (is_turned) plate.points = turn.toRotationMatrix() * plate.points;
+      if (is_turned) plate = turned(plate);
       const auto made = make(plate, {});
       EXPECT_LE(made.cage.size(), 16);
       EXPECT_LE(made.volume_ratio, 1.1);
       for (const Index count : {8, 20, 60}) {
-        CagingOptions options;
-        options.control_points = count;
-        EXPECT_LE(make(plate, options).volume_ratio, 1.1);
+        EXPECT_LE(make(plate, at_most(count)).volume_ratio, 1.1);
       }
     }
   }
@@ -347,11 +339,10 @@ TEST(CageLimitsTest, ConvexModelsGetLittleMoreThanTheirHull) {
 
 // Rounding puts vertices of faces above or below them, as in files of single precision.
 TEST(CageLimitsTest, RoundedFacesOfConvexModelsAreFlat) {
-  const Eigen::AngleAxisd turn(0.6, Vector<3>(1, 2, 0.5).normalized());
   for (const double thickness : {1.0, 0.02}) {
     SCOPED_TRACE(thickness);
-    auto plate = subdivided(box_cage<3>(Vector<3>(5, 5, 5), Vector<3>(8, 6.4, 5 + thickness)), 2);
-    plate.points = turn.toRotationMatrix() * plate.points;
+    const auto box = box_cage<3>(Vector<3>(5, 5, 5), Vector<3>(8, 6.4, 5 + thickness));
+    auto plate = turned(subdivided(box, 2));
     for (const bool is_single : {false, true}) {
       if (is_single) plate.points = plate.points.cast<float>().cast<double>().eval();
       const auto made = make(plate, {});
@@ -396,10 +387,8 @@ TEST(CageLimitsTest, RoundModelsGetLittleMoreThanTheirHull) {
   EXPECT_LE(volume, 1.1 * least);
   double previous = std::numeric_limits<double>::infinity();
   for (const Index count : {8, 30, 100, 250}) {
-    CagingOptions options;
-    options.control_points = count;
     const double own =
-        measure_cage(make(Cage<3>{points, FacetList<3>(3, 0)}, options).cage).measure;
+        measure_cage(make(Cage<3>{points, FacetList<3>(3, 0)}, at_most(count)).cage).measure;
     EXPECT_LE(own, previous);
     previous = own;
   }
@@ -450,10 +439,8 @@ TEST(CageLimitsTest, FlatPartsInTheMirrorPlane) {
 
 // What they enclose but for an opening, such as the inside of a shirt, is in the cage.
 TEST(CageLimitsTest, OpenModelsAreFilled) {
-  const Eigen::AngleAxisd turn(0.6, Vector<3>(1, 2, 0.5).normalized());
   for (const Index side : {0, 2, 4}) {
-    auto model = box_cage<3>(Vector<3>(-1, -0.4, -0.5), Vector<3>(1, 0.4, 0.5));
-    model.points = turn.toRotationMatrix() * model.points;
+    auto model = turned(box_cage<3>(Vector<3>(-1, -0.4, -0.5), Vector<3>(1, 0.4, 0.5)));
     const PointList<3> inside = 0.5 * model.points;
     model = without_facet(without_facet(model, side + 1), side);
     const auto made = make(model, {});
@@ -489,12 +476,7 @@ TEST(CageLimitsTest, ModelsThatMirrorWithinAPercentGetSymmetricCages) {
     model.points.row(0).tail(8).array() += 0.5 * deviation * bounding_box_diagonal<3>(model.points);
     const auto made = make(model, {});
     EXPECT_EQ(made.symmetry_axis, deviation < 0.01 ? 0 : -1);
-    if (made.symmetry_axis < 0) continue;
-    for (Index i = 0; i < made.cage.size(); ++i) {
-      Vector<3> image = made.cage.points.col(i);
-      image(0) = 2 * made.symmetry_place - image(0);
-      EXPECT_LT(distance_from_points(made.cage.points, image), 1e-12);
-    }
+    if (made.symmetry_axis == 0) expect_symmetric(made);
   }
 }
 
@@ -525,28 +507,10 @@ TEST(CageFromRealModelTest, RealModels) {
     if (!has_model(file)) GTEST_SKIP() << "the real models are absent";
     SCOPED_TRACE(file);
     const auto model = load_cage<3>(file);
-    CagingOptions options;
-    options.control_points = 100;
-    const auto made = make(model, options);
+    const auto made = make(model, at_most(100));
     EXPECT_GT(made.cage.size(), 90);
     EXPECT_LT(made.mean_distance, 0.03 * bounding_box_diagonal<3>(model.points));
   }
-}
-
-TEST_IN_2D_AND_3D(CageFromModelTest, RefusesModelsFarFromTheOrigin) {
-  for (const double place : {1e10, 1e15}) {
-    auto model = box_cage<Dim>(1);
-    model.points.array() += place;
-    expect_error<InputError>(
-        [&] { cage_from_model<Dim>(model.points, model.facets, CagingOptions{}); },
-        {"too far from the origin", "vertex 0"});
-  }
-}
-
-TEST(CageFromModel3Test, TheVolumeOfAnOpenModelIsNoFigure) {
-  const auto box = box_cage<3>(1);
-  EXPECT_GT(make(box, {}).volume_ratio, 1);
-  EXPECT_EQ(make(without_facet(box, 3), {}).volume_ratio, 0);
 }
 
 }  // namespace

@@ -232,18 +232,6 @@ TEST_IN_2D_AND_3D(RepairCageTest, TouchingPartsAreUnited) {
   expect_union<Dim>({one, moved<Dim>(moved<Dim>(one, 0, 1), 1, 0.4)});
 }
 
-TEST_IN_2D_AND_3D(RepairCageTest, RotatedPartsAreUnited) {
-  const Boxes<Dim> boxes{box<Dim>(-1, 1), box<Dim>(-0.3, 1.7)};
-  auto cage = cage_of<Dim>(boxes);
-  Eigen::Matrix<double, Dim, Dim> turn = Eigen::Matrix<double, Dim, Dim>::Identity();
-  turn.template topLeftCorner<2, 2>() = Eigen::Rotation2Dd(0.4).toRotationMatrix();
-  turn.template bottomRows<2>() =
-      Eigen::Rotation2Dd(1.1).toRotationMatrix() * turn.template bottomRows<2>().eval();
-  cage.points = turn * cage.points;
-  const auto repaired = repair(cage);
-  expect_united(repaired, measure_of_union<Dim>(boxes), 1e-9);
-}
-
 // Plates that cross each other, in any direction: rounded crossings are close to each other.
 TEST_IN_2D_AND_3D(RepairCageTest, CrossingPlatesAreUnited) {
   std::mt19937 random(5);

@@ -34,24 +34,6 @@ TEST_IN_2D_AND_3D(GreenTest, ReproduceSimilaritiesInEveryCage) {
   }
 }
 
-// Green's third identity: a linear function from its values at control points and its derivatives
-// along normals.
-TEST_IN_2D_AND_3D(GreenTest, SatisfyTheIdentityForLinearFunctions) {
-  for (const auto& sample : cages<Dim>()) {
-    const auto& cage = sample.cage;
-    const auto points = centers(sample.mesh);
-    const auto weights = green_coordinates(cage, points);
-    const auto rest = control_points_and_normals<Dim>(cage, cage.points);
-    std::srand(7);
-    for (int k = 0; k < 5; ++k) {
-      const Vector<Dim> gradient = Vector<Dim>::Random();
-      const Eigen::RowVectorXd values = gradient.transpose() * rest;
-      EXPECT_LT((values * weights - gradient.transpose() * points).cwiseAbs().maxCoeff(), 1e-12)
-          << sample.name;
-    }
-  }
-}
-
 // Sums over the pieces of a facet.
 template <int Dim, class Action>
 void for_pieces(const Eigen::Matrix<double, Dim, Dim>& corners, int pieces, const Action& action) {

@@ -143,15 +143,6 @@ TEST_IN_2D_AND_3D(MeanValueTest, NotNegativeInsideConvexCages) {
   }
 }
 
-TEST(MeanValueTest2D, NegativeSomewhereInAConcavePolygon) {
-  for (const auto shape : {Shape::kCorner, Shape::kRing}) {
-    const auto sample = make_sample<2>(shape, 8);
-    const auto weights = mean_value_coordinates(sample.cage, centers(sample.mesh));
-    EXPECT_LT(weights.minCoeff(), -1e-3) << sample.name;
-    EXPECT_GT(weights.minCoeff(), -1) << sample.name;
-  }
-}
-
 TEST_IN_2D_AND_3D(MeanValueTest, OrientationOfTheCageDoesNotMatter) {
   const Cage<Dim> outer = box_cage<Dim>(1), hole = box_cage<Dim>(0.6), core = box_cage<Dim>(0.3);
   const Cage<Dim> sound = join(join(outer, reversed(hole)), core);

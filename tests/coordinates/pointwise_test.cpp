@@ -3,6 +3,7 @@
 
 #include "coordinates/polygon_triangulation.h"
 #include "flbc/cage_facts.h"
+#include "flbc/green.h"
 #include "support/cages_of_all_kinds.h"
 
 namespace flbc::testing {
@@ -56,6 +57,7 @@ TEST_IN_2D_AND_3D(PointwiseTest, EqualAtTheCenterOfARegularCage) {
 TEST_IN_2D_AND_3D(PointwiseTest, LinearOnFacetsAndContinuousTowardThem) {
   for (const auto& sample : cages<Dim>()) {
     const auto& cage = sample.cage;
+    const auto rest = control_points_and_normals<Dim>(cage, cage.points);
     auto all = non_negative_coordinates<Dim>();
     all.push_back(Coordinates::kMeanValue);
     for (const auto coordinates : all) {
@@ -71,20 +73,8 @@ TEST_IN_2D_AND_3D(PointwiseTest, LinearOnFacetsAndContinuousTowardThem) {
         EXPECT_LT((on_facet - expected).cwiseAbs().maxCoeff(), 1e-12);
         for (int k = 3; k <= 11; ++k) {
           for (const double side : {-1.0, 1.0}) {
-            Vector<Dim> normal;
-            if constexpr (Dim == 2) {
-              const Vector<2> edge =
-                  cage.points.col(cage.facets(1, f)) - cage.points.col(cage.facets(0, f));
-              normal << -edge.y(), edge.x();
-            } else {
-              const Vector<3> first =
-                  cage.points.col(cage.facets(1, f)) - cage.points.col(cage.facets(0, f));
-              const Vector<3> second =
-                  cage.points.col(cage.facets(2, f)) - cage.points.col(cage.facets(0, f));
-              normal = first.cross(second);
-            }
             const double distance = std::pow(10.0, -k);
-            const PointList<Dim> near = place + side * distance * normal.normalized();
+            const PointList<Dim> near = place + side * distance * rest.col(cage.size() + f);
             if (k < 6 && !points_outside<Dim>(cage, near).empty()) continue;
             const auto there = pointwise_coordinates<Dim>(cage, near, coordinates);
             EXPECT_LT((there - expected).cwiseAbs().maxCoeff(), 200 * distance + 1e-11)

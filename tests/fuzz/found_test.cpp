@@ -7,8 +7,6 @@
 #include "flbc/gradients.h"
 #include "flbc/pointwise.h"
 #include "flbc/solver.h"
-#include "support/errors.h"
-#include "support/sample_meshes.h"
 #include "support/test.h"
 
 namespace flbc::testing {

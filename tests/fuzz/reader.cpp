@@ -4,39 +4,15 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "flbc/errors.h"
 
 namespace flbc::fuzz {
-namespace {
 
-namespace fs = std::filesystem;
-
-fs::path folder_for_folders() {
-  const fs::path in_memory = "/dev/shm";
-  return access(in_memory.c_str(), W_OK) == 0 ? in_memory : fs::temp_directory_path();
-}
-
-}  // namespace
-
-Folder::Folder() {
-  std::string name = (folder_for_folders() / "flbc_fuzz_XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder");
-  path_ = name;
-}
-
-Folder::~Folder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
-std::string Folder::path(const std::string& name) const {
-  return path_ + "/" + name;
+Folder::Folder()
+    : ScratchFolder(access("/dev/shm", W_OK) == 0 ? "/dev/shm"
+                                                  : std::filesystem::temp_directory_path()) {
 }
 
 // Called millions of times, so no streams, and the file keeps its capacity.
@@ -46,11 +22,6 @@ void put_file(const std::string& path, const char* bytes, std::size_t size) {
                     ftruncate(file, static_cast<off_t>(size)) == 0;
   if (file >= 0) close(file);
   if (!done) throw std::runtime_error("cannot write " + path);
-}
-
-std::string get_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 std::vector<Reader> all_readers() {

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "support/scratch.h"
+
 namespace flbc::fuzz {
 
 //! The result of a reader violates its contract. Not a flbc::Error, so that it counts as a finding.
@@ -56,32 +58,23 @@ std::vector<Reader> program_readers();
 //! All of them.
 std::vector<Reader> all_readers();
 
-//! A temporary directory, in memory if possible, removed by the destructor.
-class Folder {
- public:
+//! A temporary directory, in memory if possible.
+struct Folder : testing::ScratchFolder {
   Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder();
-
-  std::string path(const std::string& name) const;
-
- private:
-  std::string path_;
+  std::string path(const std::string& name) const {
+    return (ScratchFolder::path() / name).string();
+  }
 };
 
 //! Replaces a file. \throws std::runtime_error if it cannot be written
 void put_file(const std::string& path, const char* bytes, std::size_t size);
-
-//! The content of a file.
-std::string get_file(const std::string& path);
 
 //! The content of a file of this name that `write` has written.
 template <class Write>
 std::string written(const std::string& name, const Write& write) {
   const Folder folder;
   write(folder.path(name));
-  return get_file(folder.path(name));
+  return testing::slurp(folder.path(name));
 }
 
 //! A .npy file.

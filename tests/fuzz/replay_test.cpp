@@ -79,7 +79,7 @@ TEST_P(FuzzReplay, ReadsOrRefusesWhatWasFound) {
   if (!fs::exists(folder)) return;
   for (const auto& entry : fs::directory_iterator(folder)) {
     SCOPED_TRACE(entry.path());
-    accepts(fuzz::get_file(entry.path().string()));
+    accepts(slurp(entry.path()));
   }
 }
 
@@ -96,15 +96,12 @@ TEST_P(FuzzReplay, ReadsOrRefusesDamagedSeeds) {
 INSTANTIATE_TEST_SUITE_P(Readers, FuzzReplay, ::testing::ValuesIn(fuzz::all_readers()),
                          [](const auto& reader) { return reader.param.name; });
 
-// ---- the net itself
-// -------------------------------------------------------------------------------
-
 TEST(FuzzNet, ABrokenPromiseIsAFinding) {
-  Reader careless{"careless", "a.txt", nullptr, {}};
-  careless.read = [](const std::string& path) {
-    fuzz::require(fuzz::get_file(path) == "good", "files are good");
-  };
-  const Reading reading(careless);
+  const Reading reading(
+      {"careless",
+       "a.txt",
+       [](const std::string& path) { fuzz::require(slurp(path) == "good", "files are good"); },
+       {}});
   EXPECT_TRUE(reading.accepts("good"));
   EXPECT_THROW(reading.accepts("bad"), fuzz::BrokenPromise);
 }

@@ -17,64 +17,58 @@ Eigen::MatrixXd columns_of(int rows, int cols) {
   return a;
 }
 
-template <class Size>
-class Dense : public ::testing::Test {};
-using Sizes = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
-TYPED_TEST_SUITE(Dense, Sizes);
-
-TYPED_TEST(Dense, SolvesSymmetricSystems) {
-  constexpr int kSize = TypeParam::value + 1;
+TEST_IN_2D_AND_3D(Dense, SolvesSymmetricSystems) {
+  constexpr int kSize = Dim + 1;
   const Eigen::Matrix<double, kSize, kSize> factor = columns_of(kSize, kSize);
   const Eigen::Matrix<double, kSize, kSize> matrix = factor.transpose() * factor;
   const Eigen::Matrix<double, kSize, 1> right = columns_of(kSize, 1);
   EXPECT_LE((matrix * solve_symmetric<kSize>(matrix, right) - right).norm(), kRounding);
 }
 
-TYPED_TEST(Dense, PrincipalAxesMakeAMatrixDiagonal) {
-  constexpr int kSize = TypeParam::value;
-  using Square = Eigen::Matrix<double, kSize, kSize>;
-  const Square factor = columns_of(kSize, kSize);
+TEST_IN_2D_AND_3D(Dense, PrincipalAxesMakeAMatrixDiagonal) {
+  using Square = Eigen::Matrix<double, Dim, Dim>;
+  const Square factor = columns_of(Dim, Dim);
   const Square matrix = factor.transpose() * factor;
   for (const Square& symmetric : {matrix, Square(Square::Identity()), Square(Square::Zero())}) {
-    const Square axes = principal_axes<kSize>(symmetric);
+    const Square axes = principal_axes<Dim>(symmetric);
     EXPECT_LE((axes.transpose() * axes - Square::Identity()).norm(), kRounding);
     const Square turned = axes.transpose() * symmetric * axes;
     EXPECT_LE((turned - Square(turned.diagonal().asDiagonal())).norm(), kRounding);
   }
 }
 
-TYPED_TEST(Dense, LeastSquaresLeavesAnOrthogonalRest) {
-  const Eigen::MatrixXd a = columns_of(7, TypeParam::value);
+TEST_IN_2D_AND_3D(Dense, LeastSquaresLeavesAnOrthogonalRest) {
+  const Eigen::MatrixXd a = columns_of(7, Dim);
   const Eigen::MatrixXd b = columns_of(7, 4);
   const Eigen::MatrixXd x = least_squares(a, b);
   EXPECT_LE((a.transpose() * (a * x - b)).norm(), kRounding * b.norm());
 }
 
-TYPED_TEST(Dense, LeastSquaresHasTheLeastNorm) {
-  Eigen::MatrixXd a = columns_of(7, TypeParam::value + 1);
+TEST_IN_2D_AND_3D(Dense, LeastSquaresHasTheLeastNorm) {
+  Eigen::MatrixXd a = columns_of(7, Dim + 1);
   a.col(0) = a.col(1);  // any multiple of (1, -1, 0, ..) may be added
   const Eigen::VectorXd x = least_squares(a, columns_of(7, 1), 1e-13);
   EXPECT_NEAR(x[0], x[1], kRounding);
 }
 
-TYPED_TEST(Dense, NormalEquationsAreSolvedWithoutSquaringTheCondition) {
-  Eigen::MatrixXd a = columns_of(7, TypeParam::value);
-  const Eigen::VectorXd wanted = columns_of(TypeParam::value, 1);
+TEST_IN_2D_AND_3D(Dense, NormalEquationsAreSolvedWithoutSquaringTheCondition) {
+  Eigen::MatrixXd a = columns_of(7, Dim);
+  const Eigen::VectorXd wanted = columns_of(Dim, 1);
   a.col(0) = a.col(1) + 1e-6 * a.col(0);
   const Eigen::VectorXd x = solve_normal_equations(a, a.transpose() * (a * wanted));
   EXPECT_LE((a * (x - wanted)).norm(), 1e-9);
 }
 
-TYPED_TEST(Dense, OrthonormalBasisSpansTheColumns) {
-  const Eigen::MatrixXd a = columns_of(5, TypeParam::value);
+TEST_IN_2D_AND_3D(Dense, OrthonormalBasisSpansTheColumns) {
+  const Eigen::MatrixXd a = columns_of(5, Dim);
   const Eigen::MatrixXd q = orthonormal_basis(a);
   ASSERT_EQ(q.cols(), a.cols());
   EXPECT_LE((q.transpose() * q - Eigen::MatrixXd::Identity(q.cols(), q.cols())).norm(), kRounding);
   EXPECT_LE((q * (q.transpose() * a) - a).norm(), kRounding * a.norm());
 }
 
-TYPED_TEST(Dense, LeastPivotIsTheDistanceFromDependence) {
-  Eigen::MatrixXd a = columns_of(9, TypeParam::value);
+TEST_IN_2D_AND_3D(Dense, LeastPivotIsTheDistanceFromDependence) {
+  Eigen::MatrixXd a = columns_of(9, Dim);
   EXPECT_GT(least_pivot(a), 0.1);
   a.col(0) = a.col(1);
   a(3, 0) += 1e-8;

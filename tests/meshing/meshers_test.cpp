@@ -19,7 +19,8 @@ Cage<Dim> box_with_hole() {
   }
 }
 
-TEST_IN_2D_AND_3D(MeshersTest, IslandsAndSeparatePartsAreRefused) {
+TEST_IN_2D_AND_3D(MeshersTest, OpenCagesIslandsAndSeparatePartsAreRefused) {
+  expect_refused("open at", [] { fill<Dim>(without_facet(box_cage<Dim>(1), 1), {}); });
   const auto island = join(join(box_cage<Dim>(1), box_cage<Dim>(0.75)), box_cage<Dim>(0.5));
   EXPECT_THROW(fill<Dim>(island, {}), InputError);
   EXPECT_THROW(fill<Dim>(join(box_cage<Dim>(0, 1), box_cage<Dim>(2, 3)), {}), InputError);

@@ -221,18 +221,6 @@ TEST_IN_2D_AND_3D(ActiveSetTest, SolveGivesTheSameOptimum) {
   EXPECT_GE(judged.min_weight, 0);
 }
 
-// A certificate needs the duals of all pairs, and lists have 16 bits per control point.
-TEST(ActiveSetOption, IsRefusedWhereItCannotBe) {
-  SolverOptions options;
-  options.active_set = ActiveSet::kOn;
-  EXPECT_NO_THROW(validate(options));
-  options.gap = 1e-3;
-  EXPECT_THROW(validate(options), OptionError);
-  options.gap = 0;
-  options.certify = true;
-  EXPECT_THROW(validate(options), OptionError);
-}
-
 TEST_IN_2D_AND_3D(ActiveSetTest, NumberOfThreadsDoesNotMatter) {
   const auto problem = make_fine_problem<Dim>(Shape::kStar);
   expect_same_for_any_threads([&] { return run_on_tight<float>(problem, 1e-6).weights.dense(); });

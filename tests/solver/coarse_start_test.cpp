@@ -169,27 +169,9 @@ TEST_IN_2D_AND_3D(CoarseStartTest, OtherMethodsUseNoCoarseMesh) {
 }
 
 TEST_IN_2D_AND_3D(CoarseStartTest, ACoarseMeshWithoutAllControlPointsIsNotUsed) {
-  auto sample = refined_sample<Dim>(Shape::kBox, 2);
   // A midpoint on the cage becomes a control point.
-  const auto& mesh = sample.mesh;
-  auto topology = build_topology(mesh);
-  const auto on_boundary = boundary_vertices(topology, mesh.num_vertices());
-  Cage<Dim> cage;
-  std::vector<Index> number(mesh.num_vertices(), -1);
-  for (Index v = 0, n = 0; v < mesh.num_vertices(); ++v) {
-    if (on_boundary[v]) number[v] = n++;
-  }
-  cage.points.resize(Dim, std::count(on_boundary.begin(), on_boundary.end(), true));
-  for (Index v = 0; v < mesh.num_vertices(); ++v) {
-    if (on_boundary[v]) cage.points.col(number[v]) = mesh.points.col(v);
-  }
-  std::vector<Index> facets;
-  for (Index f = 0; f < topology.num_facets(); ++f) {
-    if (!topology.is_boundary(f)) continue;
-    for (const Index v : topology.facets.col(f)) facets.push_back(number[v]);
-  }
-  cage.facets =
-      Eigen::Map<FacetList<Dim>>(facets.data(), Dim, static_cast<Index>(facets.size()) / Dim);
+  const auto mesh = refined_sample<Dim>(Shape::kBox, 2).mesh;
+  const auto cage = boundary_of(mesh);
   EXPECT_TRUE(solve(cage, mesh).report.coarse_levels.empty());
 }
 

@@ -178,11 +178,8 @@ TEST_IN_2D_AND_3D(CompactSplittingTest, FluxIsTheDualOfTheTotalVariation) {
   for (Index s = 0; s < c.problem.mesh.num_cells(); ++s) {
     const auto corners = cell_corners(c.problem.mesh, s);
     const double measure = simplex_measure<Dim>(corners);
-    Eigen::MatrixXd corner_weights(weights.rows(), Dim + 1);
-    for (int k = 0; k <= Dim; ++k) {
-      corner_weights.col(k) = weights.col(c.problem.mesh.cells(k, s));
-    }
-    const PointList<Dim> gradient = linear_gradients<Dim>(corners, corner_weights);
+    const PointList<Dim> gradient =
+        linear_gradients<Dim>(corners, columns_of(weights, c.problem.mesh.cells.col(s)));
     const auto p = flux.cell(s);
     for (Index i = 0; i < weights.rows(); ++i) {
       EXPECT_LE(p.col(i).norm(), std::max(c.problem.phi(i, s), 1e-10) * measure * (1 + 1e-9));

@@ -3,7 +3,6 @@
 #include "flbc/report.h"
 #include "solver/plan/constants.h"
 #include "solver/run/run.h"
-#include "support/solver_models.h"
 #include "support/solver_options.h"
 
 namespace flbc::testing {
@@ -146,19 +145,6 @@ TEST(GapOption, IsSetWhereTheOptimumDoesNotDetermineTheWeights) {
     EXPECT_EQ(gap(method, 0, {}, 0), 0);
   }
   for (const auto method : {Method::kPaper, Method::kLbc2014}) EXPECT_EQ(gap(method, 0), 0);
-}
-
-TEST(GapOption, RefusesGapsThatProveNothing) {
-  const auto refused = [](auto change) {
-    SolverOptions options;
-    options.gap = 1e-3;
-    change(options);
-    EXPECT_THROW(validate(options), OptionError);
-  };
-  refused([](auto& o) { o.gap = -1; });
-  refused([](auto& o) { o.gap = std::nan(""); });
-  refused([](auto& o) { o.non_negative = NonNegative::kOff; });
-  refused([](auto& o) { o.method = Method::kPaper; });
 }
 
 }  // namespace

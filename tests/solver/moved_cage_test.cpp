@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Editing a rest cage: the same optima as from scratch, for any path.
 #include "flbc/report.h"
-#include "support/errors.h"
 #include "support/refined_sample.h"
 #include "support/solver_options.h"
 
@@ -187,20 +186,6 @@ TEST_IN_2D_AND_3D(MovedCageTest, ThreadsDoNotChangeABit) {
     solver.solve({6});
     return solver.reshape(with_one_moved(sample.cage, 0.01)).weights.dense();
   });
-}
-
-TEST_IN_2D_AND_3D(MovedCageTest, FollowsOnTheActiveSet) {
-  const auto sample = sample_of<Dim>();
-  auto options = with_tolerance();
-  options.active_set = ActiveSet::kOn;
-  auto solver = solved(sample, options);
-  for (const double part : {0.004, 0.01, 0.02}) {
-    const auto& warm = solver.reshape(with_one_moved(sample.cage, part));
-    EXPECT_LT(warm.report.active_set.density, 1);
-    EXPECT_EQ(warm.report.status, SolveStatus::kConverged);
-    EXPECT_GE(warm.report.quality.min_weight, 0);
-    EXPECT_LT(error_of(solver), 3 * kTolerance);
-  }
 }
 
 TEST_IN_2D_AND_3D(MovedCageTest, DistancesComeFromACoarseMeshThatMovesAlong) {

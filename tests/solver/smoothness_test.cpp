@@ -48,21 +48,6 @@ TEST_IN_2D_AND_3D(SmoothnessTest, WeightsAreProvedOptimal) {
   }
 }
 
-// Two iterations with nothing in common but the problem.
-TEST_IN_2D_AND_3D(SmoothnessTest, GradientsAndWeightsFindOneUnconstrainedOptimum) {
-  const auto sample = tiny_sample<Dim>(Shape::kCorner);
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0.01);
-  auto options = accurate(0.01);
-  options.non_negative = NonNegative::kOff;
-  const auto by_weights = solve(problem, options);
-  options = accurate(0.01, 20000);
-  options.non_negative = NonNegative::kOff;
-  options.method = Method::kGradient;
-  const auto by_gradients = solve(problem, options);
-  EXPECT_LT(largest_difference<Dim>(by_gradients.weights.dense(), by_weights.weights.dense()),
-            3e-3);
-}
-
 // In every precision, on the active set, and after a multilevel start.
 TEST_IN_2D_AND_3D(SmoothnessTest, AllVariantsFindOneOptimum) {
   const auto sample = refined_sample<Dim>(Shape::kCorner, Dim == 2 ? 6 : 3);
@@ -129,24 +114,6 @@ TEST_IN_2D_AND_3D(SmoothnessTest, LeadsFromTotalVariationToHarmonicCoordinates) 
   const double far = largest_difference<Dim>(with(1, NonNegative::kOff), harmonic);
   EXPECT_GT(far, 1e-4);
   EXPECT_LT(largest_difference<Dim>(with(1000, NonNegative::kOff), harmonic), 0.05 * far);
-}
-
-TEST_IN_2D_AND_3D(SmoothnessTest, RefusesWhatItCannotDo) {
-  const auto sample = tiny_sample<Dim>(Shape::kBox);
-  SolverOptions options;
-  for (const double smoothness : {-0.1, std::nan(""), HUGE_VAL}) {
-    options.smoothness = smoothness;
-    EXPECT_THROW(solve(sample.cage, sample.mesh, options), OptionError) << smoothness;
-  }
-  options.smoothness = 0.01;
-  for (const Method method : {Method::kPaper, Method::kLbc2014}) {
-    options.method = method;
-    EXPECT_THROW(solve(sample.cage, sample.mesh, options), OptionError);
-  }
-  // A problem knows its smoothness, which options cannot change.
-  options.method = Method::kWeights;
-  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0);
-  EXPECT_THROW(solve(problem, options), OptionError);
 }
 
 }  // namespace

@@ -137,28 +137,6 @@ TEST_IN_2D_AND_3D(SolverTest, GradientsAndWeightsAgree) {
   }
 }
 
-TEST_IN_2D_AND_3D(SolverTest, DoesNotDependOnScalePlaceOrOrientation) {
-  const auto sample = make_sample<Dim>(Shape::kCorner, 4, 0.2);
-  const auto expected = solve(sample.cage, sample.mesh);
-  for (const double scale : {1e-3, 1e3}) {
-    auto moved = sample;
-    const auto place = [&](PointList<Dim>& points) {
-      points = (scale * points).colwise() + Vector<Dim>::Constant(3 * scale);
-    };
-    place(moved.cage.points);
-    place(moved.mesh.points);
-    for (Index f = 0; f < moved.cage.facets.cols(); ++f) {
-      std::swap(moved.cage.facets(0, f), moved.cage.facets(1, f));
-    }
-    const auto solution = solve(moved.cage, moved.mesh);
-    EXPECT_LT(
-        mean_squared_difference(sample.mesh, solution.weights.dense(), expected.weights.dense()),
-        1e-8);
-    EXPECT_NEAR(solution.report.objective, expected.report.objective * std::pow(scale, Dim - 1),
-                1e-3 * solution.report.objective);
-  }
-}
-
 TEST_IN_2D_AND_3D(SolverTest, ReportsHowItEnded) {
   const auto sample = make_sample<Dim>(Shape::kBox, 4, 0.2);
   const auto limited = solve(sample.cage, sample.mesh, many_iterations(7)).report;
@@ -268,7 +246,27 @@ TEST_IN_2D_AND_3D(SolverTest, MessagesGiveTheUsersCoordinates) {
 
 TEST_IN_2D_AND_3D(SolverTest, RefusesImpossibleOptionsByName) {
   const auto sample = make_sample<Dim>(Shape::kBox, 1);
-  const auto refused = [&](const char* field, auto change) {
+  using Change = void (*)(SolverOptions&);
+  const std::pair<const char*, Change> refused[] = {
+      {"tolerance", [](auto& o) { o.tolerance = -1e-8; }},
+      {"tolerance", [](auto& o) { o.tolerance = std::nan(""); }},
+      {"max_iterations", [](auto& o) { o.max_iterations = 0; }},
+      {"penalty", [](auto& o) { o.penalty = -1; }},
+      {"threads", [](auto& o) { o.threads = -1; }},
+      {"gap", [](auto& o) { o.gap = -1; }},
+      {"gap", [](auto& o) { o.gap = std::nan(""); }},
+      {"gap", [](auto& o) { o.gap = 1e-3, o.non_negative = NonNegative::kOff; }},
+      {"gap", [](auto& o) { o.gap = 1e-3, o.method = Method::kPaper; }},
+      {"active_set", [](auto& o) { o.active_set = ActiveSet::kOn, o.gap = 1e-3; }},
+      {"active_set", [](auto& o) { o.active_set = ActiveSet::kOn, o.certify = true; }},
+      {"smoothness", [](auto& o) { o.smoothness = -0.1; }},
+      {"smoothness", [](auto& o) { o.smoothness = std::nan(""); }},
+      {"smoothness", [](auto& o) { o.smoothness = HUGE_VAL; }},
+      {"smoothness", [](auto& o) { o.smoothness = 0.01, o.method = Method::kPaper; }},
+      {"smoothness", [](auto& o) { o.smoothness = 0.01, o.method = Method::kLbc2014; }},
+      {"masks", [](auto& o) { o.masks.resize(1), o.method = Method::kGradient; }},
+      {"masks", [](auto& o) { o.masks.resize(1), o.active_set = ActiveSet::kOff; }}};
+  for (const auto& [field, change] : refused) {
     SolverOptions options;
     change(options);
     try {
@@ -277,12 +275,12 @@ TEST_IN_2D_AND_3D(SolverTest, RefusesImpossibleOptionsByName) {
     } catch (const OptionError& error) {
       EXPECT_EQ(std::string(error.what()).find(field), 0U) << error.what();
     }
-  };
-  refused("tolerance", [](auto& o) { o.tolerance = -1e-8; });
-  refused("tolerance", [](auto& o) { o.tolerance = std::nan(""); });
-  refused("max_iterations", [](auto& o) { o.max_iterations = 0; });
-  refused("penalty", [](auto& o) { o.penalty = -1; });
-  refused("threads", [](auto& o) { o.threads = -1; });
+  }
+  // A problem knows its smoothness, which options cannot change.
+  SolverOptions options;
+  options.smoothness = 0.01;
+  const auto problem = make_problem(sample.cage, sample.mesh, DistanceScheme::kSquare, 0);
+  EXPECT_THROW(solve(problem, options), OptionError);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // Whether the methods keep what their tolerance promises: on real cages, at any scale, on meshes of
 // very different cells, in narrow gaps, and with few and many control points.
 #include "mesh/cell_geometry.h"
-#include "support/solver_models.h"
 #include "support/solver_options.h"
 
 namespace flbc::testing {
@@ -37,7 +36,7 @@ void expect_promise_kept(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
 
 // ---- scale --------------------------------------------------------------------------------------
 
-TEST_IN_2D_AND_3D(ToleranceTest, IsTheSameAtEveryScale) {
+TEST_IN_2D_AND_3D(ToleranceTest, IsTheSameAtEveryScalePlaceAndOrientation) {
   for (const auto shape : {Shape::kCorner, Shape::kRing}) {
     const auto sample = make_sample<Dim>(shape, Dim == 2 ? 12 : 4, 0.2);
     const double width = bounding_box_diagonal(sample.cage.points);
@@ -46,10 +45,11 @@ TEST_IN_2D_AND_3D(ToleranceTest, IsTheSameAtEveryScale) {
     const auto expected = solve(sample.cage, sample.mesh, options);
     for (const double size : {0.001, 0.03, 7.0, 1000.0}) {
       SCOPED_TRACE(sample.name + ", size " + std::to_string(size));
-      auto scaled = sample;
-      scaled.cage.points *= size / width;
-      scaled.mesh.points *= size / width;
-      const auto solution = solve(scaled.cage, scaled.mesh, options);
+      auto moved = sample;
+      for (auto* points : {&moved.cage.points, &moved.mesh.points}) {
+        *points = (size / width * *points).colwise() + Vector<Dim>::Constant(3 * size);
+      }
+      const auto solution = solve(reversed(moved.cage), moved.mesh, options);
       EXPECT_EQ(solution.report.iterations, expected.report.iterations);
       EXPECT_LT(
           mean_squared_difference(sample.mesh, solution.weights.dense(), expected.weights.dense()),
@@ -217,6 +217,46 @@ INSTANTIATE_TEST_SUITE_P(Models, LongTolerance,
                                            Model{"shark", "3d/shark_cage.obj", 2000},
                                            Model{"beast", "3d/beast_cage.obj", 2000},
                                            Model{"arm", "3d/arm_cage.obj", 950}),
+                         name_of_model);
+
+// From cage to coordinates: every documented property, measured independently.
+template <int Dim>
+void expect_properties(const Model& model) {
+  if (!has_model(model.file)) GTEST_SKIP() << "the real models are absent";
+  const auto cage = load_cage<Dim>(model.file);
+  const auto mesh = mesh_of(cage, model.vertices);
+  EXPECT_NEAR(mesh.num_vertices(), model.vertices, (Dim == 2 ? 0.05 : 0.1) * model.vertices);
+  auto options = without_smoothness();
+  options.certify = true;
+  const auto plain = solve(cage, mesh, options).report;
+  EXPECT_EQ(plain.criterion, Criterion::kGap);
+  EXPECT_LE(plain.certificate.relative_gap, 1e-3);
+  const auto solution = solve(cage, mesh);
+  EXPECT_EQ(solution.report.criterion, Criterion::kTolerance);
+  EXPECT_GT(solution.report.objective, plain.certificate.lower_bound);
+  const auto judgement = judge(cage, mesh, solution.weights.dense());
+  EXPECT_LT(judgement.partition_error, 1e-12);
+  // TetGen points on facets are off by up to 1e-9 of cage size.
+  EXPECT_LT(judgement.reproduction_error, Dim == 2 ? 1e-12 : 1e-8);
+  EXPECT_EQ(judgement.lagrange_error, 0);
+  EXPECT_LT(judgement.linearity_error, 1e-9);
+  EXPECT_EQ(judgement.control_points_found, cage.size());
+  EXPECT_EQ(judgement.boundary_vertices_off_cage, 0);
+  EXPECT_GE(judgement.min_weight, 0);
+  // Locality: few control points influence a vertex, for any number of control points.
+  EXPECT_LT(solution.report.quality.mean_influences, 8);
+}
+
+class RealModels : public ::testing::TestWithParam<Model> {};
+TEST_P(RealModels, DefaultTolerance) {
+  GetParam().is_planar() ? expect_properties<2>(GetParam()) : expect_properties<3>(GetParam());
+}
+INSTANTIATE_TEST_SUITE_P(Paper, RealModels,
+                         ::testing::Values(Model{"woody", "2d/woody-control-edgeset.obj", 10800},
+                                           Model{"cactus", "2d/cactus-control-edgeset.obj", 10800},
+                                           Model{"logo", "2d/LBClogo-control-edgeset.obj", 26800},
+                                           Model{"horse", "3d/horse_cage.obj", 5900},
+                                           Model{"armadillo", "3d/armadillo_cage.obj", 6600}),
                          name_of_model);
 
 }  // namespace

@@ -50,42 +50,6 @@ TEST_IN_2D_AND_3D(PoissonOptimalityTest, TheCostIsWhatTheHeaderSays) {
   EXPECT_EQ(problem.cost(problem.weights), 0);
 }
 
-// The feasible weights with the least (w - t) . H (w - t) among those with at most `most`
-// influences: of all subsets, each solved as if weights could be negative, the best without one.
-template <int Dim>
-Eigen::VectorXd nearest_row(const Eigen::MatrixXd& metric, const PointList<Dim>& control_points,
-                            const Vector<Dim>& point, const Eigen::VectorXd& target, Index most) {
-  const auto n = static_cast<int>(control_points.cols());
-  Eigen::VectorXd best;
-  double least = std::numeric_limits<double>::infinity();
-  for (int subset = 1; subset < (1 << n); ++subset) {
-    std::vector<int> support;
-    for (int i = 0; i < n; ++i) {
-      if ((subset >> i) & 1) support.push_back(i);
-    }
-    const auto count = static_cast<Index>(support.size());
-    if (count > most) continue;
-    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(count + Dim + 1, count + Dim + 1);
-    system.topLeftCorner(count, count) = metric(support, support);
-    system.block(count, 0, 1, count).setOnes();
-    system.block(count + 1, 0, Dim, count) = control_points(Eigen::all, support);
-    system.topRightCorner(count, Dim + 1) = system.bottomLeftCorner(Dim + 1, count).transpose();
-    Eigen::VectorXd right(count + Dim + 1);
-    right << (metric * target)(support), 1, point;
-    const Eigen::VectorXd solution = least_squares(system, right);
-    if (!((system * solution - right).norm() <= 1e-9)) continue;  // not in the hull of these
-    if (solution.head(count).minCoeff() < -1e-12) continue;
-    Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
-    weights(support) = solution.head(count);
-    const double cost = (weights - target).dot(metric * (weights - target));
-    if (cost < least) {
-      least = cost;
-      best = weights;
-    }
-  }
-  return best;
-}
-
 // Checks the search of supports in a metric by trying all of them.
 template <int Dim>
 void expect_near_the_best(SupportSelection<Dim>& selection, const Eigen::MatrixXd& metric,

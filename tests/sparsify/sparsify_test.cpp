@@ -46,34 +46,9 @@ TEST_IN_2D_AND_3D(SparsifyTest, WithoutLimitItIsTheProjection) {
   EXPECT_EQ(sparsify<Dim>(control_points, points, weights, {}).dense(), projected);
 }
 
-// The least |w - y|^2 over all supports of `most` control points, by trying every one.
-template <int Dim>
-double least_cost(const PointList<Dim>& control_points, const Vector<Dim>& point,
-                  const Eigen::VectorXd& row, Index most) {
-  const auto n = static_cast<int>(control_points.cols());
-  double least = std::numeric_limits<double>::infinity();
-  for (int subset = 0; subset < (1 << n); ++subset) {
-    std::vector<int> support;
-    for (int i = 0; i < n; ++i) {
-      if ((subset >> i) & 1) support.push_back(i);
-    }
-    if (static_cast<Index>(support.size()) != most) continue;
-    const PointList<Dim> some = control_points(Eigen::all, support);
-    WeightMatrix few = row(support);
-    try {
-      few = project_non_negative<Dim>(some, PointList<Dim>(point), few).dense();
-    } catch (const InputError&) {
-      continue;  // the point is not in the hull of these
-    }
-    Eigen::VectorXd weights = Eigen::VectorXd::Zero(n);
-    weights(support) = few.col(0);
-    least = std::min(least, (weights - row).squaredNorm());
-  }
-  return least;
-}
-
 TEST_IN_2D_AND_3D(SparsifyTest, IsNearTheBestOfAllSupports) {
   constexpr int kControls = 9, kPoints = 40;
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(kControls, kControls);
   Numbers numbers(9);
   for (const Index most : {Dim + 1, Dim + 2, Dim + 3}) {
     SCOPED_TRACE(most);
@@ -91,7 +66,9 @@ TEST_IN_2D_AND_3D(SparsifyTest, IsNearTheBestOfAllSupports) {
     expect_sparse_coordinates<Dim>(control_points, points, sparse, most);
     for (int v = 0; v < kPoints; ++v) {
       const double cost = (sparse.col(v) - weights.col(v)).squaredNorm();
-      const double least = least_cost<Dim>(control_points, points.col(v), weights.col(v), most);
+      const Eigen::VectorXd nearest =
+          nearest_row<Dim>(identity, control_points, points.col(v), weights.col(v), most);
+      const double least = (nearest - weights.col(v)).squaredNorm();
       EXPECT_GE(cost, least - 1e-12) << v;  // the reference is correct
       best += cost <= least + 1e-9;
       total += cost;

@@ -7,7 +7,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include <nlohmann/json.hpp>
 
@@ -25,12 +24,6 @@ struct Ended {
   std::string output;
   std::string errors;
 };
-
-//! The whole content of a file; empty if there is none.
-inline std::string slurp(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 inline nlohmann::json json_in(const std::string& path) {
   return nlohmann::json::parse(slurp(path));

@@ -60,13 +60,6 @@ class Numbers {
   std::mt19937 engine_;
 };
 
-//! Control points by a name for failing tests.
-template <int Dim>
-struct ControlPoints {
-  std::string name;
-  PointList<Dim> points;
-};
-
 //! The lattice points of a box with `side` points a side, inner ones left out: many in each facet,
 //! many on each edge.
 template <int Dim>
@@ -86,9 +79,9 @@ PointList<Dim> lattice(int side) {
   return points;
 }
 
-//! Control points of every kind that could need special care.
+//! Control points of every kind that could need special care, with names for failing tests.
 template <int Dim>
-std::vector<ControlPoints<Dim>> awkward_control_points() {
+std::vector<std::pair<std::string, PointList<Dim>>> awkward_control_points() {
   Numbers numbers(3);
   const PointList<Dim> box = lattice<Dim>(4);
   PointList<Dim> twice(Dim, 2 * box.cols());

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -28,10 +27,7 @@ class FolderTest : public ::testing::Test {
     return path(name);
   }
 
-  std::string content(const std::string& name) const {
-    std::ifstream file(path(name), std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string content(const std::string& name) const { return slurp(path(name)); }
 
   //! The names in the folder, sorted; hidden ones included.
   std::vector<std::string> names() const {

@@ -3,9 +3,9 @@
 //! Folders for the files of tests. Tests run side by side, so no two of them share a name.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <random>
 #include <string>
 #include <system_error>
@@ -16,11 +16,11 @@ namespace flbc::testing {
 class ScratchFolder {
  public:
   //! \throws std::filesystem::filesystem_error if it cannot be made
-  ScratchFolder() {
+  explicit ScratchFolder(
+      const std::filesystem::path& parent = std::filesystem::temp_directory_path()) {
     std::random_device random;
     do {
-      path_ =
-          std::filesystem::path(::testing::TempDir()) / ("flbc_test_" + std::to_string(random()));
+      path_ = parent / ("flbc_test_" + std::to_string(random()));
     } while (!std::filesystem::create_directory(path_));  // false if it was there already
   }
   ~ScratchFolder() {
@@ -35,6 +35,12 @@ class ScratchFolder {
  private:
   std::filesystem::path path_;
 };
+
+//! The whole content of a file; empty if there is none.
+inline std::string slurp(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 //! The path of a file in a folder that this process has for itself.
 inline std::string scratch_path(const std::string& name) {

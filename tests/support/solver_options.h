@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
-//! Options and problems of solver tests.
+//! Options, problems, and real cages of solver tests.
 #pragma once
 
+#include "flbc/meshing.h"
 #include "flbc/solver.h"
-#include "support/sample_meshes.h"
+#include "support/model_cages.h"
 
 namespace flbc::testing {
 
@@ -28,6 +29,32 @@ inline SolverOptions many_iterations(int count, SolverOptions options = {}) {
   options.tolerance = 1e-100;
   options.max_iterations = count;
   return options;
+}
+
+//! A real cage.
+struct Model {
+  const char* name;
+  const char* file;
+  Index vertices;
+
+  bool is_planar() const { return file[0] == '2'; }
+};
+
+inline std::string name_of_model(const ::testing::TestParamInfo<Model>& info) {
+  return info.param.name;
+}
+
+inline DomainMesh<2> mesh_of(const Cage<2>& cage, Index vertices) {
+  return triangulate(cage, {vertices});
+}
+inline DomainMesh<3> mesh_of(const Cage<3>& cage, Index vertices) {
+  return tetrahedralize(cage, {vertices});
+}
+
+//! Mean over all weights.
+inline double squared_difference(const Solution& a, const Solution& b) {
+  const WeightMatrix difference = a.weights.dense() - b.weights.dense();
+  return difference.squaredNorm() / static_cast<double>(difference.size());
 }
 
 }  // namespace flbc::testing

@@ -35,8 +35,8 @@ double make_penalty(const LbcProblem<Dim>& problem, const splitting::Metric& met
 }
 
 template <int Dim>
-Lbc2014Input<Dim> textbook_input(const LbcProblem<Dim>& problem, const splitting::Metric& metric,
-                                 double penalty, double relaxation, const WeightMatrix& start) {
+TextbookLbc2014<Dim> textbook_for(const LbcProblem<Dim>& problem, const splitting::Metric& metric,
+                                  double penalty, double relaxation, const WeightMatrix& start) {
   Lbc2014Input<Dim> input;
   input.control_points = problem.cage.points;
   input.mesh = problem.mesh;
@@ -51,18 +51,11 @@ Lbc2014Input<Dim> textbook_input(const LbcProblem<Dim>& problem, const splitting
   // The library starts with y = z + u = 0, so that u = -grad w.
   input.initial_z_dual.resize(start.rows(), Dim * problem.mesh.num_cells());
   for (Index s = 0; s < problem.mesh.num_cells(); ++s) {
-    Eigen::MatrixXd corner_weights(start.rows(), Dim + 1);
-    for (int k = 0; k <= Dim; ++k) corner_weights.col(k) = start.col(problem.mesh.cells(k, s));
+    const auto corner_weights = columns_of(start, problem.mesh.cells.col(s));
     input.initial_z_dual.middleCols(Dim * s, Dim) =
         -linear_gradients<Dim>(cell_corners(problem.mesh, s), corner_weights).transpose();
   }
-  return input;
-}
-
-template <int Dim>
-TextbookLbc2014<Dim> textbook_for(const LbcProblem<Dim>& problem, const splitting::Metric& metric,
-                                  double penalty, double relaxation, const WeightMatrix& start) {
-  return TextbookLbc2014<Dim>(textbook_input(problem, metric, penalty, relaxation, start));
+  return TextbookLbc2014<Dim>(std::move(input));
 }
 
 }  // namespace flbc::testing
