@@ -9,6 +9,7 @@
 #include "flbc/io/cage_io.h"
 #include "flbc/io/model_file.h"
 #include "fuzz/reader.h"
+#include "model/svg_document.h"
 
 namespace flbc::fuzz {
 namespace {
@@ -117,6 +118,15 @@ void read_materials(const std::string& path) {
   require_attributes(io::ModelFile(model).model());
 }
 
+// A drawing that is read and moved.
+void read_drawing(const std::string& path) {
+  const io::SvgDocument drawing(io::read_file(path), path, {9, 9}, Eigen::Affine2d::Identity());
+  const PointList<2> points = drawing.points();
+  require(points.allFinite() && points.cols() > 0, "points of a drawing are finite");
+  for (const Index p : {Index(0), static_cast<Index>(points.cols()) - 1}) drawing.element_of(p);
+  drawing.moved(2 * points);
+}
+
 // A tent over a square, with all that models may have.
 io::Model tent() {
   io::Model model;
@@ -159,6 +169,16 @@ const char* const kPlyOfScanner =
     "0 0 0 1 2 3\n1 0 0 255 0 0\n0 1 0 9 9 9\n0 0 1 0 0 0\n3 0 1 2 6 0 0 1 0 0 1\n"
     "3 0 2 3 6 0 0 1 0 0 1\n7\n";
 
+const char* const kDrawing =
+    "<svg viewBox='0 0 9 9'><defs><linearGradient id='g' gradientUnits='userSpaceOnUse'/><clipPath "
+    "id='c'><rect width='50%' height='2mm' rx='1'/></clipPath></defs><g transform='matrix(1 2 3 4 "
+    "5 "
+    "6) rotate(7)' fill='url(#g)'><path id='p' clip-path='url(#c)' d='M1 1a2 3 4 1 0 5 "
+    "6q1-2.5.5t7,8s"
+    "1 2 3 4z'/><use href='#p' x='1'/><text x='1' font-size='3'>a</text><svg x='1' "
+    "viewBox='0 0 1 2' preserveAspectRatio='xMinYMax slice'><polygon points='1,2 3,4 5 6'/><image "
+    "width='1' height='1'/></svg></g></svg>";
+
 const char* const kStlText =
     "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
     "endfacet\nfacet normal 0 0 -1\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\nendloop\n"
@@ -184,6 +204,7 @@ std::vector<Reader> model_readers() {
        read_model,
        {tent_as("a.ply", true), tent_as("a.ply", false), kPlyOfScanner}},
       {"glb", "input.glb", read_model, {tent_as("a.glb", false)}},
+      {"svg", "input.svg", read_drawing, {kDrawing}},
       {"stl",
        "input.stl",
        read_model,
