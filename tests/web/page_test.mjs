@@ -236,10 +236,19 @@ async function testShapes() {
   const app = await new App().open(browser, url, { viewport: { width: 420, height: 800 } });
   await app.shot("narrow_start");
   const svg = join(work, "shape.svg");
-  writeFileSync(svg, '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0 H90 V30 Q60 40 30 30 V80 H0 Z"/></svg>');
+  writeFileSync(svg, '<svg xmlns="http://www.w3.org/2000/svg"><path id="ell" d="M0 0 H90 V30 Q60 40 30 30 V80 H0 Z"/></svg>');
   await app.drop([svg]);
   await app.shown();
   await app.shot("narrow_svg");
+
+  // It is saved as the same document: at rest with the same outline, in a pose with other numbers.
+  const numbersOf = (file) => /<path id="ell" d="([^"]*)"/.exec(readFileSync(file, "utf8"))[1].match(/-?[\d.]+/g).map(Number);
+  const atRest = numbersOf(await app.saved("[data-save=drawing]", "shape_posed.svg"));
+  assert.ok(largestDifference(atRest, [0, 0, 90, 0, 90, 30, 70, 36.6667, 50, 36.6667, 30, 30, 30, 80, 0, 80]) < 0.01, String(atRest));
+  rmSync(join(downloads, "shape_posed.svg"));
+  await app.moveOne(30, 20);
+  const inPose = numbersOf(await app.saved("[data-save=drawing]", "shape_posed.svg"));
+  assert.ok(inPose.some((value, k) => Math.abs(value - atRest[k]) > 1), String(inPose));
   await app.tab.$eval("[data-do=home]", (button) => button.click());
   await app.tab.$eval("[data-do=draw]", (button) => button.click());
   const board = await (await app.tab.$("#sketch")).boundingBox();

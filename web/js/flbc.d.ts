@@ -136,6 +136,11 @@ export class Flbc {
   meshFile(): Promise<Bytes>;
   /** The model where these control points take it. */
   modelFile(points: Numbers, extension?: string): Promise<Bytes>;
+  /** A document in SVG where these control points take it: only its geometry changes, and what is
+   *  outside of the cage stays. The mesh of the cage must be there. @param placing the width and height
+   *  of the page, and the matrix from there (y down) to the model, as in SVG. `notes` name what does
+   *  not bend. */
+  drawing(text: string, placing: { page: Numbers; matrix: Numbers }, points: Numbers): Promise<{ text: string; notes: string[] }>;
   /** Bytes that the module takes. */
   memory(): Promise<number>;
   version(): Promise<string>;

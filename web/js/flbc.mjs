@@ -114,6 +114,7 @@ export class Flbc {
   setMesh(points, cells) { return this.call("setMesh", { points, cells }); }
   deform(points) { return this.call("deform", { points }); }
   modelFile(points, extension) { return this.call("modelFile", { points, extension }); }
+  drawing(text, placing, points) { return this.call("drawing", { text, placing, points }); }
 }
 
 // The others take an object of these options. Other options are misspelled.

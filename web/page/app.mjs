@@ -271,6 +271,7 @@ class App {
     element("copyCommand").closest(".row").remove();
     for (const section of document.querySelectorAll(".solved")) section.hidden = !isSolved;
     element("background").hidden = !this.model.isCut;
+    document.querySelector("[data-save=drawing]").hidden = !this.model.drawing;
     element("cageFile").addEventListener("change", ({ target }) => {
       const [file] = target.files;
       target.value = "";  // or the same file, mended, would be no change
@@ -359,10 +360,15 @@ class App {
     const inFile = (places) => [...places].filter((_, k) => k % 3 < content.dim);
     const points = inFile(editor.points);
     const { title, poses } = content;
-    const { name: modelName, picture } = this.model;
+    const { name: modelName, picture, drawing } = this.model;
     const extension = /[^.]*$/.exec(modelName)[0].toLowerCase().replace("gltf", "glb");
     const kinds = {
       posed: async () => [`${title}_posed.${extension}`, await this.flbc.modelFile(points, extension)],
+      drawing: async () => {
+        const { text, notes } = await this.flbc.drawing(drawing.source, drawing.placing, points);
+        this.note = notes.length > 0 ? `Not bent: ${notes.join("; ")}` : "";
+        return [`${title}_posed.svg`, text];
+      },
       cage: async () => [`${title}_cage.obj`, await this.flbc.cageFile()],
       npy: async () => [`${title}_weights.npy`, await this.flbc.weightFile({ format: "npy" })],
       mtx: async () => [`${title}_weights.mtx`, await this.flbc.weightFile({ format: "mtx" })],
@@ -378,7 +384,8 @@ class App {
       while (reshaper.isBusy || this.protector.isBusy) await new Promise((done) => { setTimeout(done, 100); });
       const [name, bytes] = await kinds[kind]();
       download(name, new Blob([bytes]));
-      tell(`Saved ${name}`);
+      tell(this.note || `Saved ${name}`);
+      this.note = "";
     } catch (error) {
       tell(error.message);
     }

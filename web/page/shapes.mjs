@@ -92,7 +92,8 @@ function parsedDrawing(text, name) {
 
 // A drawing in SVG, without shapes in the back that fill all of it. \throws Error
 async function paintedDrawing(file, filling) {
-  let drawing = parsedDrawing(await file.text(), file.name);
+  const source = await file.text();
+  let drawing = parsedDrawing(source, file.name);
   // Its HTML would make the canvas unreadable.
   const foreign = drawing.querySelectorAll("foreignObject");
   for (const part of foreign) part.remove();
@@ -122,7 +123,10 @@ async function paintedDrawing(file, filling) {
     const { left, top, right, bottom } = seenOf(pixels), unit = box[2] / pixels.width;
     box = [box[0] + unit * left, box[1] + unit * top, unit * (right - left), unit * (bottom - top)];
   }
-  return { ...await paint(filling), note };
+  const result = await paint(filling), { width, height } = result.pixels;
+  const [x, y] = [width / box[2], height / box[3]];
+  const placing = { page: size, matrix: [x, 0, 0, -y, -x * box[0], height + y * box[1]] };
+  return { ...result, note, drawing: filling ? null : { source, placing } };
 }
 
 // A picture, without its background unless that is to be kept. \throws Error
@@ -162,14 +166,15 @@ function gridToObj({ data, width, height }) {
 }
 
 // A drawing or a picture as a model, its picture as an address, the theme before which it is seen, if
-// there is one, whether a background was cut out, and a note. \param filling  file of another picture
+// there is one, whether a background was cut out, a note, and the document with its place in the model.
+// \param filling  file of another picture
 // for a drawing, or none
 export async function readPicture(file, { filling = null, keepsBackground = false } = {}) {
   const other = filling ? await imageOf(filling, filling.name) : null;
-  const { canvas, pixels, isCut = false, note } = /\.svg$/i.test(file.name)
+  const { canvas, pixels, isCut = false, note, drawing = null } = /\.svg$/i.test(file.name)
     ? await paintedDrawing(file, other) : await paintedPicture(file, keepsBackground);
   const { mean } = seenOf(pixels);
-  return { obj: gridToObj(pixels), picture: canvas.toDataURL("image/png"), isCut, note,
+  return { obj: gridToObj(pixels), picture: canvas.toDataURL("image/png"), isCut, note, drawing,
            theme: mean < 0.25 ? "light" : mean > 0.8 ? "dark" : null };
 }
 

@@ -256,6 +256,7 @@ class Work {
     if (name == "cageFile") return cage_file();
     if (name == "meshFile") return mesh_file();
     if (name == "modelFile") return model_file(pose(), text("extension", "obj"));
+    if (name == "drawing") return drawing(text("text"), given["placing"], pose());
     throw OptionError(name + ": there is no such step");
   }
 
@@ -579,6 +580,25 @@ class Work {
     return bytes_of("posed." + extension, [&](const std::string& file) {
       app::MovableModel<Dim>({file_, file}).write(file, binding().deform(pose), {}, 0);
     });
+  }
+
+  // A document in SVG where the pose takes it. What is outside of the cage stays.
+  // \param placing  page: its width and height; matrix: from there to the model, as in SVG
+  val drawing(const std::string& text, const val& placing, const PointList<Dim>& pose) {
+    if constexpr (Dim == 3) {
+      throw InputError("a drawing needs a model in 2D");
+    } else {
+      Eigen::Affine2d to_model;
+      to_model.matrix() << matrix_in<Eigen::Matrix<double, 2, Eigen::Dynamic>>(placing["matrix"]),
+          Eigen::RowVector3d(0, 0, 1);
+      const Vector<2> page = matrix_in<PointList<2>>(placing["page"]).col(0);
+      const io::SvgDocument document(text, name_, page, to_model);
+      const auto moving = binding().transferred(document.points(), {}, OutsidePoints::kKeep);
+      auto result = val::object();
+      result.set("text", document.moved(moving.deform(pose)));
+      result.set("notes", from_json(Json(document.notes())));
+      return result;
+    }
   }
 
   std::string name_;

@@ -516,6 +516,13 @@ struct SvgDocument::Content {
       for (std::size_t k = 0; k < own.size(); ++k) {
         points.col(static_cast<Eigen::Index>(target.begin + k)) = own[k];
       }
+      constexpr double kMost = 1e15;
+      const auto places = points.middleCols(static_cast<Eigen::Index>(target.begin),
+                                            static_cast<Eigen::Index>(target.count));
+      if (!(places.cwiseAbs().maxCoeff() < kMost)) {
+        throw InputError(name + ": the coordinates of " + name_in_words(target.element) +
+                         " are out of range");
+      }
     }
   }
 
