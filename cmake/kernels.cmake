@@ -3,6 +3,11 @@
 # could mix code for different instruction sets.
 include_guard(DIRECTORY)
 set(flbc_kernel_flags -O3 -fno-math-errno -fno-trapping-math -Wno-psabi)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # Or GCC 13 and later contract a * b + c in packs of some widths only, so that a result would depend
+  # on the slice of a column.
+  list(APPEND flbc_kernel_flags --param=avoid-fma-max-bits=0)
+endif()
 
 # One kernel of a module: NAME.inl, once for every instruction set.
 function(flbc_add_kernel target module name)
