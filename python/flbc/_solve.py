@@ -2,7 +2,9 @@
 """Meshing, solving, and solves that resume."""
 from __future__ import annotations
 
+import inspect
 import os
+import textwrap
 import warnings
 from typing import (
     TYPE_CHECKING, Any, Callable, Dict, NamedTuple, Optional, TypedDict, TypeVar, Union,
@@ -128,8 +130,9 @@ MODEL_OPTIONS = """\
 def with_options(function: Documented) -> Documented:
     """Completes a docstring with all options, which all solves share."""
     if function.__doc__ is not None:  # None under python -OO
-        doc = function.__doc__.replace("    {model options}\n", MODEL_OPTIONS)
-        function.__doc__ = doc.replace("    {options}\n", OPTIONS)
+        doc = inspect.cleandoc(function.__doc__)  # as from Python 3.13 on
+        doc = doc.replace("{model options}\n", textwrap.dedent(MODEL_OPTIONS))
+        function.__doc__ = doc.replace("{options}", textwrap.dedent(OPTIONS).rstrip())
     return function
 
 

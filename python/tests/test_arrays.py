@@ -161,7 +161,7 @@ def test_unknown_options_are_named(flat):
             flbc.solve(flat.cage, flat.mesh, **{name: object()})
     for function in (flbc.solve, flbc.Solver, flbc.bind, flbc.Rig):
         for name in flbc.SolverOptions.__annotations__:
-            assert f"\n    {name} : " in function.__doc__
+            assert f"\n{name} : " in function.__doc__
 
 
 def test_file_errors_are_os_errors(tmp_path):
