@@ -206,7 +206,9 @@ TEST_P(BoxInMesh, WhatIsKeptStaysAndTheBorderIsNamed) {
   const auto ended = run_box("keep");
   const auto rest = points_in<3>("mesh.obj"), found = points_in<3>("out/deformed.obj");
   for (Index p = 0; p < rest.cols(); ++p) {
-    if (is_outside(rest.col(p))) EXPECT_EQ(found.col(p), rest.col(p)) << p;
+    if (is_outside(rest.col(p))) {
+      EXPECT_EQ(found.col(p), rest.col(p)) << p;
+    }
   }
   // An edge of the mesh passes through the box at the control point that moves.
   expect_piece(ended.errors,

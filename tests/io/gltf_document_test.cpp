@@ -542,7 +542,7 @@ TEST_F(GltfDocumentTest, PicturesNextToBinaryDocumentsAreEmbedded) {
 
 // With pictures of all kinds, whatever the extension is that names them.
 TEST_F(GltfDocumentTest, TextDocumentsBecomeBinaryOnesWithAllTheyHave) {
-  const std::map<std::string, std::string> pictures{
+  const std::vector<std::pair<std::string, std::string>> pictures{
       {"image/png", "\x89PNG\r\n\x1a\npicture"},
       {"image/webp", "RIFF1234WEBPodd"},
       {"image/avif", std::string("\0\0\0\x1c", 4) + "ftypavifodd"},
@@ -564,9 +564,11 @@ TEST_F(GltfDocumentTest, TextDocumentsBecomeBinaryOnesWithAllTheyHave) {
   EXPECT_EQ(after.json["cameras"], original.json["cameras"]);
   EXPECT_EQ(after.binary.substr(0, original.bytes.size()), original.bytes);
   ASSERT_EQ(after.json["images"].size(), pictures.size());
-  for (const auto& image : after.json["images"]) {
-    EXPECT_EQ(image["mimeType"], image["name"]);
-    EXPECT_EQ(after.view(image["bufferView"]), pictures.at(image["name"]));
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    const auto& image = after.json["images"][k];
+    EXPECT_EQ(image["mimeType"], pictures[k].first);
+    EXPECT_EQ(image["name"], pictures[k].first);
+    EXPECT_EQ(after.view(image["bufferView"]), pictures[k].second);
   }
 }
 
