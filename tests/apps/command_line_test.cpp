@@ -14,38 +14,36 @@ namespace fs = std::filesystem;
 using CommandLine = CommandLineTest;
 
 struct SolveSamples : CommandLineTest, ::testing::WithParamInterface<const char*> {
+  // Solves a sample at its model and on its mesh, and checks the files against each other.
   template <int Dim>
-  void expect_solved(const std::string& domain_file) const;
-};
+  void expect_solved(const std::string& domain_file) const {
+    const auto cage_file = std::string(GetParam()) + "_cage.obj";
+    const auto model_file = std::string(GetParam()) + "_model.obj";
+    expect("solve " + cage_file + " -o w.mtx --vertices 2000 --model " + model_file +
+           " --save-domain " + domain_file + " --report r.json");
+    const auto cage = std::get<Cage<Dim>>(io::to_cage(io::read_polygons(cage_file), cage_file));
+    const auto model = points_in<Dim>(model_file);
+    const auto rows = io::read_weights("w.mtx").dense();
+    const auto quality = measure_quality(cage.points, model, rows);
+    EXPECT_LT(quality.max_partition_error, 1e-12);
+    EXPECT_LT(quality.max_reproduction_error, 1e-12);
+    EXPECT_GT(quality.min_weight, -0.05);
 
-// Solves a sample at its model and on its mesh, and checks the files against each other.
-template <int Dim>
-void SolveSamples::expect_solved(const std::string& domain_file) const {
-  const auto cage_file = std::string(GetParam()) + "_cage.obj";
-  const auto model_file = std::string(GetParam()) + "_model.obj";
-  expect("solve " + cage_file + " -o w.mtx --vertices 2000 --model " + model_file +
-         " --save-domain " + domain_file + " --report r.json");
-  const auto cage = std::get<Cage<Dim>>(io::to_cage(io::read_polygons(cage_file), cage_file));
-  const auto model = points_in<Dim>(model_file);
-  const auto rows = io::read_weights("w.mtx").dense();
-  const auto quality = measure_quality(cage.points, model, rows);
-  EXPECT_LT(quality.max_partition_error, 1e-12);
-  EXPECT_LT(quality.max_reproduction_error, 1e-12);
-  EXPECT_GT(quality.min_weight, -0.05);
-
-  const auto report = json_in("r.json");
-  for (const char* key : {"method", "dim", "control_points", "vertices", "cells", "iterations",
-                          "converged", "objective", "seconds", "min_weight", "max_partition_error",
-                          "max_reproduction_error", "version", "options"}) {
-    EXPECT_TRUE(report.contains(key)) << key;
+    const auto report = json_in("r.json");
+    for (const char* key :
+         {"method", "dim", "control_points", "vertices", "cells", "iterations", "converged",
+          "objective", "seconds", "min_weight", "max_partition_error", "max_reproduction_error",
+          "version", "options"}) {
+      EXPECT_TRUE(report.contains(key)) << key;
+    }
+    EXPECT_EQ(report["dim"], Dim);
+    EXPECT_EQ(report["converged"], true);
+    EXPECT_EQ(report["min_weight"].get<double>(), quality.min_weight);
+    const auto domain = io::read_domain<Dim>(domain_file);
+    EXPECT_EQ(report["vertices"], domain.num_vertices());
+    EXPECT_EQ(report["cells"], domain.num_cells());
   }
-  EXPECT_EQ(report["dim"], Dim);
-  EXPECT_EQ(report["converged"], true);
-  EXPECT_EQ(report["min_weight"].get<double>(), quality.min_weight);
-  const auto domain = io::read_domain<Dim>(domain_file);
-  EXPECT_EQ(report["vertices"], domain.num_vertices());
-  EXPECT_EQ(report["cells"], domain.num_cells());
-}
+};
 
 TEST_P(SolveSamples, AtTheirModels) {
   GetParam()[0] == '2' ? expect_solved<2>("d.obj") : expect_solved<3>("d.mesh");

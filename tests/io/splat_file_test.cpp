@@ -142,10 +142,8 @@ TEST_F(SplatFileTest, DamagedFilesAreRefused) {
   auto typed = text;
   typed.replace(typed.find("float opacity"), 5, "int32");
   expect_refused(typed, "\"opacity\" is not float");
-}
-
-TEST_F(SplatFileTest, WhatDoesNotFitIsRefused) {
-  const io::SplatFile read(file(random_splats(kPlaces, 1).text()));
+  // And what does not fit.
+  const io::SplatFile read(file(text));
   EXPECT_THROW(moved(read, kPlaces.leftCols(3), {Matrix3d::Identity()}), InputError);
   PointList<3> far = kPlaces;
   far(1, 4) = 1e300;
