@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Messages with suggestions: a command triggers each message, and following the suggestion works.
-#include <regex>
-
 #include "support/command_line.h"
 
 namespace flbc::testing {
@@ -167,7 +165,7 @@ flbc solve square.obj $V --method weights --non-negative constraint -o x.npy
 flbc solve square.obj $V -o x.npy
 )";
 
-class Advice : public CommandLineTest {
+class Advice : public CommandLineTest, public ::testing::WithParamInterface<const char*> {
  protected:
   Advice() {
     std::filesystem::create_directory("base");
@@ -198,29 +196,6 @@ class Advice : public CommandLineTest {
     return {status, slurp("stdout"), slurp("stderr")};
   }
 
-  static void expect_to_work(const std::string& table) {
-    std::istringstream lines(table);
-    std::string advice, line;
-    std::getline(lines, line);
-    while (std::getline(lines, line)) {
-      SCOPED_TRACE(line);
-      if (line.rfind("# ", 0) == 0) {
-        advice = line.substr(2);
-        ASSERT_TRUE(std::getline(lines, line));
-        SCOPED_TRACE(line);
-        ASSERT_EQ(status_of("rm -rf row && cp -a base row"), 0);
-        const auto refused = shell(line.substr(2), "row");
-        EXPECT_EQ(refused.status, line[0] - '0') << refused.errors;
-        EXPECT_NE((refused.output + refused.errors).find(advice), std::string::npos)
-            << refused.output << refused.errors;
-      } else {
-        const auto done = shell(line, "row");
-        EXPECT_EQ(done.status, 0) << done.errors;
-        expect_no_piece(done.errors, advice);
-      }
-    }
-  }
-
  private:
   static constexpr const char* kNames =
       R"(PATH=$(dirname )" FLBC_PROGRAM R"():$PATH V='--vertices 200'
@@ -238,21 +213,28 @@ grid() {
 )";
 };
 
-TEST_F(Advice, OnUsageWorks) {
-  expect_to_work(kUsage);
+TEST_P(Advice, Works) {
+  std::istringstream lines(GetParam());
+  std::string advice, line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    SCOPED_TRACE(line);
+    if (line.rfind("# ", 0) == 0) {
+      advice = line.substr(2);
+      ASSERT_TRUE(std::getline(lines, line));
+      SCOPED_TRACE(line);
+      ASSERT_EQ(status_of("rm -rf row && cp -a base row"), 0);
+      const auto refused = shell(line.substr(2), "row");
+      EXPECT_EQ(refused.status, line[0] - '0') << refused.errors;
+      expect_piece(refused.output + refused.errors, advice);
+    } else {
+      const auto done = shell(line, "row");
+      EXPECT_EQ(done.status, 0) << done.errors;
+      expect_no_piece(done.errors, advice);
+    }
+  }
 }
-TEST_F(Advice, OnModelsOutsideWorks) {
-  expect_to_work(kOutside);
-}
-TEST_F(Advice, OnRunsWorks) {
-  expect_to_work(kRuns);
-}
-TEST_F(Advice, OnFilesWorks) {
-  expect_to_work(kFiles);
-}
-TEST_F(Advice, OnTheSolverWorks) {
-  expect_to_work(kSolver);
-}
+INSTANTIATE_TEST_SUITE_P(On, Advice, ::testing::Values(kUsage, kOutside, kRuns, kFiles, kSolver));
 
 }  // namespace
 }  // namespace flbc::testing

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program as its users and their scripts see it: files, messages, exit status.
-#include "support/command_line.h"
+#include <regex>
+
 #include "flbc/io/mesh_io.h"
+#include "support/command_line.h"
 #include "support/vtu_fields.h"
 
 namespace flbc::testing {
@@ -11,40 +13,37 @@ namespace fs = std::filesystem;
 
 using CommandLine = CommandLineTest;
 
-class SolveSamples : public CommandLineTest, public ::testing::WithParamInterface<const char*> {
- protected:
+struct SolveSamples : CommandLineTest, ::testing::WithParamInterface<const char*> {
+  // Solves a sample at its model and on its mesh, and checks the files against each other.
   template <int Dim>
-  void expect_solved(const std::string& domain_file) const;
-};
+  void expect_solved(const std::string& domain_file) const {
+    const auto cage_file = std::string(GetParam()) + "_cage.obj";
+    const auto model_file = std::string(GetParam()) + "_model.obj";
+    expect("solve " + cage_file + " -o w.mtx --vertices 2000 --model " + model_file +
+           " --save-domain " + domain_file + " --report r.json");
+    const auto cage = std::get<Cage<Dim>>(io::to_cage(io::read_polygons(cage_file), cage_file));
+    const auto model = points_in<Dim>(model_file);
+    const auto rows = io::read_weights("w.mtx").dense();
+    const auto quality = measure_quality(cage.points, model, rows);
+    EXPECT_LT(quality.max_partition_error, 1e-12);
+    EXPECT_LT(quality.max_reproduction_error, 1e-12);
+    EXPECT_GT(quality.min_weight, -0.05);
 
-// Solves a sample at its model and on its mesh, and checks the files against each other.
-template <int Dim>
-void SolveSamples::expect_solved(const std::string& domain_file) const {
-  const auto cage_file = std::string(GetParam()) + "_cage.obj";
-  const auto model_file = std::string(GetParam()) + "_model.obj";
-  expect("solve " + cage_file + " -o w.mtx --vertices 2000 --model " + model_file +
-         " --save-domain " + domain_file + " --report r.json");
-  const auto cage = std::get<Cage<Dim>>(io::to_cage(io::read_polygons(cage_file), cage_file));
-  const auto model = points_in<Dim>(model_file);
-  const auto rows = io::read_weights("w.mtx").dense();
-  const auto quality = measure_quality(cage.points, model, rows);
-  EXPECT_LT(quality.max_partition_error, 1e-12);
-  EXPECT_LT(quality.max_reproduction_error, 1e-12);
-  EXPECT_GT(quality.min_weight, -0.05);
-
-  const auto report = json_in("r.json");
-  for (const char* key : {"method", "dim", "control_points", "vertices", "cells", "iterations",
-                          "converged", "objective", "seconds", "min_weight", "max_partition_error",
-                          "max_reproduction_error", "version", "options"}) {
-    EXPECT_TRUE(report.contains(key)) << key;
+    const auto report = json_in("r.json");
+    for (const char* key :
+         {"method", "dim", "control_points", "vertices", "cells", "iterations", "converged",
+          "objective", "seconds", "min_weight", "max_partition_error", "max_reproduction_error",
+          "version", "options"}) {
+      EXPECT_TRUE(report.contains(key)) << key;
+    }
+    EXPECT_EQ(report["dim"], Dim);
+    EXPECT_EQ(report["converged"], true);
+    EXPECT_EQ(report["min_weight"].get<double>(), quality.min_weight);
+    const auto domain = io::read_domain<Dim>(domain_file);
+    EXPECT_EQ(report["vertices"], domain.num_vertices());
+    EXPECT_EQ(report["cells"], domain.num_cells());
   }
-  EXPECT_EQ(report["dim"], Dim);
-  EXPECT_EQ(report["converged"], true);
-  EXPECT_EQ(report["min_weight"].get<double>(), quality.min_weight);
-  const auto domain = io::read_domain<Dim>(domain_file);
-  EXPECT_EQ(report["vertices"], domain.num_vertices());
-  EXPECT_EQ(report["cells"], domain.num_cells());
-}
+};
 
 TEST_P(SolveSamples, AtTheirModels) {
   GetParam()[0] == '2' ? expect_solved<2>("d.obj") : expect_solved<3>("d.mesh");
@@ -72,11 +71,45 @@ TEST_F(CommandLine, DrawsTheSameModelByEitherName) {
 
 // Weights of a model by this method need no mesh, but their gradients do.
 TEST_F(CommandLine, GradientsOfAModelByAMethodWithoutAMesh) {
-  const std::string solve =
-      "solve 2d/letter_cage.obj --method meanvalue -q --model "
-      "2d/letter_model.obj -o w.npy";
-  expect(solve + " --gradients g.npy");
+  expect(
+      "solve 2d/letter_cage.obj --method meanvalue -q --model 2d/letter_model.obj -o w.npy "
+      "--gradients g.npy");
   EXPECT_EQ(io::read_weights("g.npy").num_points(), io::read_weights("w.npy").num_points());
+}
+
+TEST_F(CommandLine, ParserNamesTheCommandAndVersionTheComponents) {
+  const auto help = run("--help").output;
+  const auto list = help.substr(help.find("Commands:"));
+  const std::regex command(R"(\n  ([a-z]+) +[a-z])");
+  int count = 0;
+  for (std::sregex_iterator at(list.begin(), list.end(), command), end; at != end; ++at, ++count) {
+    const auto refused = run((*at)[1].str() + " --no-such-option");
+    EXPECT_EQ(refused.status, 1) << refused.errors;
+    EXPECT_EQ(refused.errors.find("flbc " + (*at)[1].str() + ": "), 0U) << refused.errors;
+  }
+  EXPECT_GE(count, 14) << help;
+  const auto version = run("--version").output;
+  for (const char* component : {"\nwith", "CGAL (", "TetGen ("}) expect_piece(version, component);
+}
+
+// The progress line fits one.
+TEST_F(CommandLine, ProgressIsForTerminalsOnly) {
+  const std::string solve = "solve 3d/limb_cage.obj --method gradient -o w.npy --vertices ";
+  expect_no_piece(expect(solve + "300").errors, "iteration ");
+  if (!has_program("script")) GTEST_SKIP() << "no script(1)";
+  ASSERT_EQ(
+      status_of("script -qec '" FLBC_PROGRAM " " + solve + "800' log.txt >/dev/null </dev/null"),
+      0);
+  const auto text = slurp("log.txt");
+  const std::string begin = "\rsolving: iteration ";
+  int last = 0;
+  for (auto at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1)) {
+    EXPECT_LT(text.find("\033[K", at) - at, 80U);
+    const int iteration = std::stoi(text.substr(at + begin.size()));
+    EXPECT_GE(iteration, last);
+    last = iteration;
+  }
+  EXPECT_GT(last, 0);
 }
 
 TEST_F(CommandLine, MessagesThatNobodyReadsDoNotEndASolve) {
@@ -162,28 +195,19 @@ TEST_F(CommandLine, LimitsOfTheSystemEndInMessages) {
   const std::string mesh = "mesh 3d/limb_cage.obj --vertices 3000 -o m.mesh";
   EXPECT_EQ(status_within("ulimit -f 10;", mesh), 4);
   EXPECT_FALSE(fs::exists("m.mesh"));
+  const std::string solve = "solve 2d/letter_cage.obj --vertices 2000 -o w.npy";
+  EXPECT_EQ(status_within("ulimit -s 128;", mesh), 0) << slurp("errors.txt");
+  EXPECT_EQ(status_within("OMP_NUM_THREADS=100000", solve), 0) << slurp("errors.txt");
 #ifndef __SANITIZE_ADDRESS__  // which takes terabytes of addresses
   // OpenBLAS would try for ever to get its buffer.
-  const std::string solve = "solve 2d/letter_cage.obj --vertices 2000 -o w.npy";
   EXPECT_EQ(status_within("ulimit -v 200000; export OMP_NUM_THREADS=1; timeout 60", solve), 5);
-#endif
-  EXPECT_EQ(status_within("ulimit -s 128;", mesh), 0) << slurp("errors.txt");
-  EXPECT_EQ(
-      status_within("OMP_NUM_THREADS=100000", "solve 2d/letter_cage.obj --vertices 2000 -o w.npy"),
-      0)
-      << slurp("errors.txt");
-}
-
-#ifndef __SANITIZE_ADDRESS__  // which takes terabytes of addresses
-TEST_F(CommandLine, OutOfMemoryIsStatus5) {
-  EXPECT_EQ(status_of("ulimit -v 120000; OMP_NUM_THREADS=1 " FLBC_PROGRAM
-                      " run 3d/limb_cage.obj -o out --vertices 8000 --mesher tetgen -q "
-                      ">/dev/null 2>errors.txt"),
+  EXPECT_EQ(status_within("ulimit -v 120000; export OMP_NUM_THREADS=1;",
+                          "run 3d/limb_cage.obj -o out --vertices 8000 --mesher tetgen -q"),
             5);
   expect_piece(slurp("errors.txt"), "out of memory");
   expect_piece(slurp("out/report.json"), "\"failed\": \"out of memory\"");
-}
 #endif
+}
 
 TEST_F(CommandLine, WrongUsageIsStatus1) {
   const std::string cage = "2d/letter_cage.obj";
@@ -262,19 +286,10 @@ TEST_F(CommandLine, IoFailureIsStatus4) {
 }
 
 TEST_F(CommandLine, BadCagesAreStatus2AndNamed) {
-  const auto refused = [&](const std::string& content, const std::string& words) {
-    const auto cage = file("bad.obj", content);
-    expect_refused("solve " + cage + " -o w.npy", 2, words);
-    expect_refused("solve " + cage + " -o w.npy", 2, "bad.obj");
-  };
-  refused("v 0 0 0\nv 1 nan 0\nv 0 1 0\n", "bad.obj:2");
-  refused("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nl 1 2 3 4\n", "open");
-  refused("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nl 1 2 3 4 1\n", "(0.5, 0.5)");
-  // A cube of quadrilaterals without lid.
-  refused(
-      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
-      "f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
-      "open");
+  file("bad.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\n");
+  expect_refused("solve bad.obj -o w.npy", 2, "bad.obj:2");
+  file("bad.obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nl 1 2 3 4 1\n");
+  expect_piece(expect("solve bad.obj -o w.npy", 2, "(0.5, 0.5)").errors, "bad.obj");
 }
 
 // Lists of points are models, and functions are fields of a mesh.
@@ -318,13 +333,7 @@ TEST_F(CommandLine, ReportsOfOtherCoordinatesHaveAnObjective) {
   const double least = objective("weights");
   EXPECT_GT(objective("meanvalue"), 1.01 * least);
   EXPECT_GT(objective("harmonic"), 1.01 * least);
-  // Without smoothness it is what flbc check calls the weighted variation.
-  const double variation = objective("weights --smoothness 0");
-  EXPECT_LT(variation, least);
-  expect("check 2d/letter_cage.obj --domain d.obj --weights w.npy --json c.json");
-  const auto check = json_in("c.json");
-  EXPECT_NEAR(check["weights"]["mesh"]["weighted_variation"].get<double>(), variation,
-              1e-9 * variation);
+  EXPECT_LT(objective("weights --smoothness 0"), least);
 }
 
 TEST_F(CommandLine, PhiMayComeFromAFile) {
@@ -371,21 +380,18 @@ TEST_F(CommandLine, WithoutSmoothnessTheGapIsTheCriterion) {
   for (const std::string method : {"weights", "gradient"}) {
     const auto solve =
         "solve 2d/ring_cage.obj --vertices 500 -o w.npy --report r.json --method " + method + ' ';
-    const auto has = [](const Ended& ended, const char* words) {
-      return ended.errors.find(words) != std::string::npos;
-    };
     const auto rough = expect(solve + "--smoothness 0", 0, "does not determine the weights; the");
-    EXPECT_TRUE(has(rough, "iterations, ended by the certified gap")) << rough.errors;
+    expect_piece(rough.errors, "iterations, ended by the certified gap");
     EXPECT_EQ(json_in("r.json")["criterion"], "gap");
     EXPECT_LE(json_in("r.json")["relative_gap"], 1e-3);
 
     const auto estimated = expect(solve + "--smoothness 0 --tolerance 1e-5");
-    EXPECT_TRUE(has(estimated, "iterations, ended by the estimated error")) << estimated.errors;
-    EXPECT_TRUE(has(estimated, "% of the optimum")) << estimated.errors;
+    expect_piece(estimated.errors, "iterations, ended by the estimated error");
+    expect_piece(estimated.errors, "% of the optimum");
 
     const auto smooth = expect(solve);
-    EXPECT_FALSE(has(smooth, "does not determine")) << smooth.errors;
-    EXPECT_FALSE(has(smooth, "ended by")) << smooth.errors;
+    expect_no_piece(smooth.errors, "does not determine");
+    expect_no_piece(smooth.errors, "ended by");
     EXPECT_EQ(json_in("r.json")["criterion"], "tolerance");
     EXPECT_EQ(expect(solve + "--smoothness 0 -q").errors, "");
   }
@@ -396,6 +402,46 @@ TEST_F(CommandLine, NotConvergedIsStatus3AndTheResultIsThere) {
          "not converged within 5 iterations");
   EXPECT_EQ(json_in("r.json")["converged"], false);
   EXPECT_EQ(io::read_weights("w.npy").dense().rows(), 22);
+}
+
+// The second mesher where the first one fails.
+TEST_F(CommandLine, NetgenMeshesWhatTetgenCannot) {
+  // Too thin for cells of good shape.
+  file("flat.obj",
+       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 0.0005\nv 1 0 0.0005\nv 0 1 0.0005\n"
+       "v 1 1 0.0005\nf 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
+  const std::string solve =
+      "solve flat.obj --vertices 200 --mesh-timeout 4 -o w.npy --report report.json";
+  const auto refused = expect(solve + " --mesher tetgen", 2, "TetGen");
+  EXPECT_FALSE(std::filesystem::exists("w.npy"));
+  if (FLBC_HAS_NETGEN == 0) GTEST_SKIP() << "built without Netgen";
+  expect_piece(refused.errors, "--mesher netgen");
+  for (const std::string mesher : {"", " --mesher netgen"}) {
+    const auto solved = expect(solve + mesher);
+    const auto report = json_in("report.json");
+    EXPECT_EQ(report["mesher"], "netgen");
+    const bool is_second = mesher != " --mesher netgen";
+    EXPECT_EQ(solved.errors.find("the mesh was made by netgen") != std::string::npos, is_second)
+        << solved.errors;
+    const auto weights = io::read_weights("w.npy").dense();
+    EXPECT_NEAR(weights.colwise().sum().minCoeff(), 1, 1e-12);
+    EXPECT_NEAR(weights.colwise().sum().maxCoeff(), 1, 1e-12);
+    EXPECT_GE(weights.minCoeff(), 0);
+  }
+}
+
+TEST_F(CommandLine, SoundCagesAreMeshedByTheFirst) {
+  expect("run 3d/limb_cage.obj --vertices 1000 -q -o out");
+  const auto report = json_in("out/report.json");
+  EXPECT_EQ(report["solve"]["mesher"], "tetgen");
+  EXPECT_EQ(report["mesh"]["mesher"], "tetgen");
+}
+
+TEST_F(CommandLine, MeshersOfTheOtherDimensionAreRefused) {
+  expect("mesh 3d/limb_cage.obj --mesher cgal -o m.mesh", 1,
+         "--mesher cgal: this mesher does not support 3D");
+  expect("mesh 2d/ring_cage.obj --mesher tetgen -o m.obj", 1);
+  expect("mesh 2d/ring_cage.obj --mesher x -o m.obj", 1);
 }
 
 }  // namespace

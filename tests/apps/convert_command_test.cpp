@@ -71,14 +71,10 @@ TEST_F(ConvertCommand, SkinnedModelsGoBackToTheirBindPose) {
   skinned.json["images"] = {{{"uri", file("dot.png", "\x89PNG\r\n\x1a\n")}}, {{"uri", "gone.png"}}};
   const auto posed = file("posed.glb", skinned.glb());
   expect_converted(posed + " --bind-pose -o rest.glb",
-                   "flbc: rest.glb does not contain all of posed.glb: a picture: posed.glb: cannot "
-                   "read \"gone.png\"");
+                   "rest.glb does not contain all of posed.glb: a picture: posed.glb: cannot read");
   expect_converted(posed + " -o again.glb", "lost: a picture: posed.glb: cannot read \"gone.png\"");
-  const auto points = [](const std::string& path) {
-    return io::to_points<3>(io::read_polygons(path), path);
-  };
-  EXPECT_EQ(points(posed), (corners.colwise() + Vector<3>(5, 0, 0)).eval());
-  EXPECT_EQ(points("rest.glb"), (corners.colwise() + Vector<3>(2, 0, 0)).eval());
+  EXPECT_EQ(points_in<3>(posed), (corners.colwise() + Vector<3>(5, 0, 0)).eval());
+  EXPECT_EQ(points_in<3>("rest.glb"), (corners.colwise() + Vector<3>(2, 0, 0)).eval());
   const auto json = GlbChunks(slurp("rest.glb")).json;
   EXPECT_FALSE(json.contains("skins"));
   EXPECT_EQ(json["materials"], skinned.json["materials"]);
@@ -93,32 +89,37 @@ TEST_F(ConvertCommand, SkinnedModelsGoBackToTheirBindPose) {
 
 TEST_F(ConvertCommand, WrongKindsAreRefusedByName) {
   write_weights("a.npy");
-  const auto model = file("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");
+  file("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");
   io::write_domain("a.mesh", samples<3>().front().mesh);
-  const auto to = [&](const std::string& name) { return " -o " + name; };
-  expect_refused("a.npy" + to("b.obj"), 1, "b.obj: weights cannot be written as a mesh");
-  expect_refused(model + to("b.npy"), 1, "b.npy: a mesh cannot be written as weights");
-  expect_refused("a.txt" + to("b.npy"), 1, "weights end in .mtx, .npy, .csv or .npz");
-  expect_refused("a.npy" + to("b.txt"), 1, "must end in .mtx, .npy, .csv or .npz");
-  expect_refused(model + to("b.xls"), 1, "b.xls: unknown file format");
-  expect_refused(model + to("b.msh"), 1, "b.msh: " + model + " holds no tetrahedra");
-  expect_refused("a.mesh" + to("b.obj"), 1, "b.obj: a.mesh holds tetrahedra");
-  // Formats of other programs.
-  expect_refused(file("model.fbx", "Kaydara FBX Binary") + to("b.ply"), 1,
-                 "convert it to .obj or .ply first, for example in Blender");
-  expect_refused(file("model.obj.gz", "") + to("b.ply"), 1, "unpack it first");
-  expect_refused(file("splats.spz", "") + to("b.ply"), 1, "uncompressed .ply");
-  expect_refused(file("part.dxf", "") + to("b.ply"), 1, "save the drawing as .svg first");
-  expect_refused(model + to("b.fbx"), 1, "usually read glTF");
-  expect_refused(model + to("b.vtu"), 2, "vertex 2 at (0, 1, 1) is not in the plane z = 0");
-  expect_refused(model + to("b.ply") + " --transpose", 1, "a.obj is a mesh");
-  expect_refused("a.npy -o a.npy", 1, "would replace this input file");
-  expect_refused("a.npy" + to("absent/b.npy"), 4, "absent");
-  expect_refused("missing.npy" + to("b.npy"), 4, "missing.npy");
-  expect_refused("missing.ply" + to("b.obj"), 4, "missing.ply");
-  expect_refused(file("a.vtu", "") + to("b.mesh"), 1, "a.vtu: .vtu files are only written");
-  expect_refused(file("a.node", "") + to("b.mesh"), 1, "convert it to .mesh first");
-  expect_refused(file("a.dmat", "") + to("b.npy"), 1, "write .csv from libigl");
+  for (const char* empty : {"a.obj.gz", "a.spz", "a.dxf", "a.vtu", "a.node", "a.dmat"}) {
+    file(empty, "");
+  }
+  file("a.fbx", "Kaydara FBX Binary");
+  using Row = std::tuple<std::string, int, std::string>;
+  for (const auto& [arguments, status, words] :
+       {Row{"a.npy -o b.obj", 1, "b.obj: weights cannot be written as a mesh"},
+        Row{"a.obj -o b.npy", 1, "b.npy: a mesh cannot be written as weights"},
+        Row{"a.txt -o b.npy", 1, "weights end in .mtx, .npy, .csv or .npz"},
+        Row{"a.npy -o b.txt", 1, "must end in .mtx, .npy, .csv or .npz"},
+        Row{"a.obj -o b.xls", 1, "b.xls: unknown file format"},
+        Row{"a.obj -o b.msh", 1, "b.msh: a.obj holds no tetrahedra"},
+        Row{"a.mesh -o b.obj", 1, "b.obj: a.mesh holds tetrahedra"},
+        // Formats of other programs.
+        Row{"a.fbx -o b.ply", 1, "convert it to .obj or .ply first, for example in Blender"},
+        Row{"a.obj.gz -o b.ply", 1, "unpack it first"},
+        Row{"a.spz -o b.ply", 1, "uncompressed .ply"},
+        Row{"a.dxf -o b.ply", 1, "save the drawing as .svg first"},
+        Row{"a.obj -o b.fbx", 1, "usually read glTF"},
+        Row{"a.obj -o b.vtu", 2, "vertex 2 at (0, 1, 1) is not in the plane z = 0"},
+        Row{"a.obj -o b.ply --transpose", 1, "a.obj is a mesh"},
+        Row{"a.npy -o a.npy", 1, "would replace this input file"},
+        Row{"a.npy -o absent/b.npy", 4, "absent"}, Row{"missing.npy -o b.npy", 4, "missing.npy"},
+        Row{"missing.ply -o b.obj", 4, "missing.ply"},
+        Row{"a.vtu -o b.mesh", 1, "a.vtu: .vtu files are only written"},
+        Row{"a.node -o b.mesh", 1, "convert it to .mesh first"},
+        Row{"a.dmat -o b.npy", 1, "write .csv from libigl"}}) {
+    expect_refused(arguments, status, words);
+  }
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ namespace {
 
 class DeformCommand : public CommandLineTest {
  protected:
-  Ended expect_deform(const std::string& arguments, int status, const std::string& words) const {
+  Ended expect_deform(const std::string& arguments, int status = 0,
+                      const std::string& words = "") const {
     return expect("deform " + arguments, status, words);
   }
 };
@@ -34,7 +35,7 @@ TEST_F(DeformCommand, NormalsOfAnAffineImageAreTheImagesOfNormals) {
       "model.obj --weights v.npy --pose affine.obj --normals jacobian -q -o o.obj";
   expect_deform(command, 1, "--normals jacobian needs a binding");
   expect_deform(command + " --domain d.mesh", 1, "--domain needs --rest");
-  expect_deform(command + " --rest 3d/limb_cage.obj --domain d.mesh", 0, "");
+  expect_deform(command + " --rest 3d/limb_cage.obj --domain d.mesh");
   const io::ModelFile result("o.obj");
   const auto& normals = result.model().attributes.normals;
   ASSERT_EQ(normals.cols(), num_vertices);
@@ -92,7 +93,7 @@ TEST_F(DeformCommand, NothingButCoordinatesAndNormalsChangesInObj) {
   const auto command =
       model + " --weights " + linear_weights(model_points()) + " -o o.obj -q --pose ";
   // Turned about the x axis by a right angle, and moved by 2 along it: y becomes z, z becomes -y.
-  expect_deform(command + tetrahedron("v 2 0 0\nv 3 0 0\nv 2 0 1\nv 2 -1 0\n"), 0, "");
+  expect_deform(command + tetrahedron("v 2 0 0\nv 3 0 0\nv 2 0 1\nv 2 -1 0\n"));
   std::string expected = kModel;
   const auto replace = [&](const std::string& before, const std::string& after) {
     ASSERT_NE(expected.find(before), std::string::npos);
@@ -117,7 +118,7 @@ TEST_F(DeformCommand, NothingButCoordinatesAndNormalsChangesInObj) {
 TEST_F(DeformCommand, LinesThatContinueOthers) {
   const auto command = " --weights " + linear_weights(model_points().leftCols(1)) + " --pose " +
                        tetrahedron("v 1 0 0\nv 2 0 0\nv 1 1 0\nv 1 0 1\n") + " -q -o o.obj";
-  expect_deform(file("model.obj", "v 0.25 0.25 0.5 1 0 \\\n0\n# v 1 2 3 \\\n") + command, 0, "");
+  expect_deform(file("model.obj", "v 0.25 0.25 0.5 1 0 \\\n0\n# v 1 2 3 \\\n") + command);
   EXPECT_EQ(slurp("o.obj"), "v 1.25 0.25 0.5 1 0 \\\n0\n# v 1 2 3 \\\n");
 }
 
@@ -132,11 +133,9 @@ TEST_F(DeformCommand, NormalsWithoutFacesAreToldAndStay) {
 
 TEST_F(DeformCommand, Sequences) {
   const auto rest = tetrahedron();
-  for (int k = 1; k <= 3; ++k) {
-    const auto x = std::to_string(k);
-    tetrahedron(
-        "v " + x + " 0 0\nv " + std::to_string(k + 1) + " 0 0\nv " + x + " 1 0\nv " + x + " 0 1\n",
-        "pose_0" + x + ".obj");
+  for (const std::string x : {"1", "2", "3"}) {
+    moved(rest, "pose_0" + x + ".obj",
+          [&](const Vector<3>& point) { return point + std::stoi(x) * Vector<3>::UnitX(); });
   }
   const auto model = file("model.obj", kModel);
   const auto command = model + " --weights " + linear_weights(model_points()) + " -o ";
@@ -145,7 +144,6 @@ TEST_F(DeformCommand, Sequences) {
                 "4 vertices, 3 poses");
   for (int k = 1; k <= 3; ++k) {
     const auto output = "o_" + std::to_string(k) + ".obj";
-    ASSERT_TRUE(std::filesystem::exists(output));
     PointList<3> expected = model_points();
     expected.row(0).array() += k;
     EXPECT_EQ(points_in<3>(output), expected);
@@ -154,7 +152,7 @@ TEST_F(DeformCommand, Sequences) {
   ASSERT_EQ(lengths.rows(), 3);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(lengths.row(k).sum(), 4 * (k + 1));
 
-  expect_deform(command + "s%03d.obj -q --pose pose_03.obj --pose pose_01.obj", 0, "");
+  expect_deform(command + "s%03d.obj -q --pose pose_03.obj --pose pose_01.obj");
   EXPECT_EQ(points_in<3>("s000.obj")(0, 0), 3.25);
   EXPECT_EQ(points_in<3>("s001.obj")(0, 0), 1.25);
 
@@ -191,10 +189,9 @@ TEST_F(DeformCommand, WeightsOfAnotherModelAreRefused) {
   const auto command =
       model + " --weights " + linear_weights(points) + " --pose " + rest + " -o o.obj -q";
   expect_deform(command + " --rest " + rest, 2,
-                "w.npy: the weights do not belong to this model: with " + rest +
-                    " they put vertex 2 of " + model + " at (0.5, 0.501, 0.5), not at (0.5, 0.5, ");
+                "they put vertex 2 of " + model + " at (0.5, 0.501, 0.5), not at (0.5, 0.5, ");
   EXPECT_FALSE(std::filesystem::exists("o.obj"));
-  expect_deform(command, 0, "");
+  expect_deform(command);
   EXPECT_TRUE(std::filesystem::exists("o.obj"));
 }
 
@@ -207,18 +204,18 @@ TEST_F(DeformCommand, FilesThatDoNotFitAndWrongUsage) {
     expect_deform(arguments, status, words);
     EXPECT_FALSE(std::filesystem::exists("o.obj"));
   };
+  const auto posed = weights + " --pose " + cage;
   refused(model + weights + " --pose 3d/limb_cage.obj" + output, 2,
           "w.npy: has weights for 4 control points, but 3d/limb_cage.obj has 54");
-  refused(cage + weights + " --pose " + cage + " --pose 3d/limb_cage.obj -o o_%d.obj", 2,
+  refused(cage + posed + " --pose 3d/limb_cage.obj -o o_%d.obj", 2,
           "3d/limb_cage.obj: has 54 vertices, but cage.obj has 4");
   EXPECT_FALSE(std::filesystem::exists("o_0.obj"));
-  refused("3d/limb_model.obj" + weights + " --pose " + cage + output, 2,
+  refused("3d/limb_model.obj" + posed + output, 2,
           "w.npy: has weights of 4 points, but 3d/limb_model.obj has 3352");
-  refused(model + weights + " --pose " + cage + " -o " + model, 1, "would replace this input file");
-  refused(model + weights + " --pose " + cage + " -o o.vtu", 1,
-          "o.vtu: " + model + " holds polygons; the result must end in .obj, .off, .ply");
-  refused("model.vtk" + weights + " --pose " + cage + output, 1, "model.vtk: unknown file format");
-  refused(model + weights + " --pose " + cage + " -o absent/o.obj", 4, "absent");
+  refused(model + posed + " -o " + model, 1, "would replace this input file");
+  refused(model + posed + " -o o.vtu", 1, "must end in .obj, .off, .ply");
+  refused("model.vtk" + posed + output, 1, "model.vtk: unknown file format");
+  refused(model + posed + " -o absent/o.obj", 4, "absent");
 }
 
 }  // namespace

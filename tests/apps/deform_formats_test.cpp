@@ -27,10 +27,7 @@ class DeformFormats : public CommandLineTest {
   }
 
   Ended deform(const std::string& arguments, int status = 0) const {
-    SCOPED_TRACE(arguments);
-    auto result = run("deform " + arguments);
-    EXPECT_EQ(result.status, status) << result.errors;
-    return result;
+    return expect("deform " + arguments, status);
   }
 };
 

@@ -38,6 +38,12 @@ def check(holds, what):
         sys.exit(f"the file is wrong: {what}")
 
 
+def farthest(rows, points):
+    """The largest distance of vertices from where they should be."""
+    check(len(rows) == len(points), "another number of vertices")
+    return max(math.dist(row[:3], point) for row, point in zip(rows, points))
+
+
 def nearest(point, others):
     return min(math.dist(point, other) for other in others)
 
@@ -58,9 +64,7 @@ def color_a_weight(program, flbc, meshes, out):
     run(program, cage, domain, number, result)
     points, shape = read_obj(cage), read_obj(domain)
     rows, _ = read_off(result)
-    check(len(rows) == len(shape), "another number of vertices")
-    for row, point in zip(rows, shape):
-        check(math.dist(row[:3], point) < 1e-4 * size(points), "vertices have moved")
+    check(farthest(rows, shape) < 1e-4 * size(points), "vertices have moved")
     for i, point in enumerate(points):
         at = min(rows, key=lambda row: math.dist(row[:3], point))
         check([round(c) for c in at[3:6]] == ([255, 0, 0] if i == number else [255, 255, 255]),
@@ -98,8 +102,7 @@ def embedded_surface(program, flbc, meshes, out):
     model, result = meshes / "3d/limb_model.obj", out / "limb_stretched.off"
     run(program, meshes / "3d/limb_cage.obj", model, result)
     before, (rows, _) = read_obj(model), read_off(result)
-    check(len(rows) == len(before), "another number of vertices")
-    far = max(math.dist(row[:3], (x, y, 1.5 * z)) for row, (x, y, z) in zip(rows, before))
+    far = farthest(rows, [(x, y, 1.5 * z) for x, y, z in before])
     check(far < 1e-5 * size(before), f"a vertex is off by {far}")
 
 
@@ -109,12 +112,9 @@ def bind_and_deform(program, flbc, meshes, out):
     model, result = meshes / "3d/limb_model.obj", out / "limb_posed.off"
     run(program, cage, model, pose, result)
     before, (rows, _) = read_obj(model), read_off(result)
-    moved = moved_by_program(flbc, cage, pose, model, out)
-    check(len(rows) == len(before), "another number of vertices")
-    far = max(math.dist(row[:3], point) for row, point in zip(rows, moved))
+    far = farthest(rows, moved_by_program(flbc, cage, pose, model, out))
     check(far < 0.01 * size(before), f"a vertex is off by {far / size(before):.1e} of the size")
-    away = max(math.dist(row[:3], point) for row, point in zip(rows, before))
-    check(away > 0.05 * size(before), "nothing has moved")
+    check(farthest(rows, before) > 0.05 * size(before), "nothing has moved")
 
 
 def printed(*command):
@@ -146,8 +146,7 @@ def protect_a_region(program, flbc, meshes, out):
                                       meshes / "3d/limb_cage_pose.obj", result).split()
     check(int(moved) == 0 and int(protected) > 500, f"{moved} of {protected} protected vertices have moved")
     before, (rows, _) = read_obj(model), read_off(result)
-    away = max(math.dist(row[:3], point) for row, point in zip(rows, before))
-    check(away > 0.02 * size(before), "nothing has moved")
+    check(farthest(rows, before) > 0.02 * size(before), "nothing has moved")
 
 
 EXAMPLES = {function.__name__: function

@@ -277,7 +277,6 @@ struct Segments {
   PointList<Dim> control_points;
   PointList<Dim> points;
   WeightMatrix weights;
-  EdgeList edges;
   gltf::Surface surface;
 };
 

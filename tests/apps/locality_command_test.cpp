@@ -3,6 +3,7 @@
 #include "flbc/io/mesh_io.h"
 #include "flbc/quality.h"
 #include "support/command_line.h"
+#include "support/new_glb.h"
 
 namespace flbc::testing {
 namespace {
@@ -10,9 +11,8 @@ namespace {
 using LocalityCommand = CommandLineTest;
 
 TEST_F(LocalityCommand, ConflictsAreRelaxed) {
-  file("masks.json",
-       "{\"masks\": [{\"control_points\": {\"box\": [[-99, -99, -99], [99, 99, 99]]}, \"region\": "
-       "[0, 5, 9]}], \"conflicts\": \"relax\"}");
+  file("masks.json", R"({"masks": [{"control_points": {"box": [[-99, -99, -99], [99, 99, 99]]},
+                                    "region": [0, 5, 9]}], "conflicts": "relax"})");
   const std::string of_model = "3d/limb_cage.obj --model 3d/limb_model.obj --locality masks.json";
   expect("solve " + of_model + " --vertices 1500 -o w.npy --report report.json", 0,
          "masks.json: removed control points ");
@@ -40,7 +40,7 @@ TEST_F(LocalityCommand, ReachIsAFactorOfPhi) {
   double before = 0;  // the mean weight for a smaller reach
   for (const double factor : {0.25, 1.0, 4.0}) {
     file("reach.json",
-         "{\"reach\": [{\"control_points\": [3, 7], \"factor\": " + std::to_string(factor) + "}]}");
+         R"({"reach": [{"control_points": [3, 7], "factor": )" + std::to_string(factor) + "}]}");
     expect(solve + "w.npy --locality reach.json --report report.json");
     const auto weights = io::read_weights("w.npy");
     const double mean = (weights.dense().row(3) + weights.dense().row(7)).mean();
@@ -62,45 +62,38 @@ TEST_F(LocalityCommand, ReachIsAFactorOfPhi) {
 
 TEST_F(LocalityCommand, DefectiveFilesAreRefused) {
   const auto refused = [&](const std::string& content, const std::string& words) {
-    file("bad.json", content);
-    expect("solve 3d/limb_cage.obj --model 3d/limb_model.obj -o w.npy --locality bad.json", 2,
-           words);
+    expect("solve 3d/limb_cage.obj --model 3d/limb_model.obj -o w.npy --locality " +
+               file("bad.json", content),
+           2, words);
   };
-  refused("[{\"control_points\": [0]}]", "bad.json: entry 0: not a list of masks");
-  refused("[{\"control_points\": [0], \"region\": [-1]}]", "entry 0: -1 is not an index");
-  refused("[{\"control_points\": [0], \"region\": {\"vertices\": [22.9]}}]",
-          "22.9 is not an index");
-  refused("[{\"control_points\": [4294967298], \"region\": [0]}]", "4294967298 is not an index");
-  refused("[{\"control_points\": [0], \"region\": [99999]}]", "mask 0 names vertex 99999");
-  refused("[{\"control_points\": [0], \"region\": {\"group\": \"arm\"}}]",
-          "group \"arm\" is not in");
-  refused("[{\"control_points\": [0], \"region\": {\"box\": [[0], [1]]}}]",
+  refused(R"([{"control_points": [0]}])", "bad.json: entry 0: not a list of masks");
+  refused(R"([{"control_points": [0], "region": [-1]}])", "entry 0: -1 is not an index");
+  refused(R"([{"control_points": [0], "region": {"vertices": [22.9]}}])", "22.9 is not an index");
+  refused(R"([{"control_points": [4294967298], "region": [0]}])", "4294967298 is not an index");
+  refused(R"([{"control_points": [0], "region": [99999]}])", "mask 0 names vertex 99999");
+  refused(R"([{"control_points": [0], "region": {"group": "arm"}}])", "group \"arm\" is not in");
+  refused(R"([{"control_points": [0], "region": {"box": [[0], [1]]}}])",
           "a box needs corners of 3");
-  refused("[{\"control_points\": [], \"region\": [0]}]", "no control points or no vertices");
-  refused(
-      "[{\"control_points\": [0], \"region\": [0]}, {\"control_points\": [0], \"regoin\": [0]}]",
-      "entry 1: unknown key \"regoin\"; choose from control_points, region");
-  refused("[{\"control_points\": [0], \"region\": {\"verts\": [0]}}]",
-          "unknown key \"verts\"; choose from attribute, box, group, vertices");
-  refused("[{\"control_points\": [0], \"region\": {\"vertices\": [0], \"group\": \"arm\"}}]",
+  refused(R"([{"control_points": [], "region": [0]}])", "no control points or no vertices");
+  refused(R"([{"control_points": [0], "region": [0]}, {"control_points": [0], "regoin": [0]}])",
+          "entry 1: unknown key \"regoin\"");
+  refused(R"([{"control_points": [0], "region": {"verts": [0]}}])",
+          "unknown key \"verts\"; choose from attribute");
+  refused(R"([{"control_points": [0], "region": {"vertices": [0], "group": "arm"}}])",
           "give one choice");
-  refused("{\"masks\": [], \"conflicts\": \"no\"}",
-          "invalid value \"no\"; choose from fail, relax");
-  refused("{\"mask\": []}", "unknown key \"mask\"; choose from conflicts, masks, reach");
-  refused("{\"reach\": [{\"control_points\": [0], \"factor\": 17}]}",
-          "bad.json: reach of control point 0 must be in [1/16, 16], not 17");
-  refused("{\"reach\": [{\"control_points\": [99], \"factor\": 2}]}", "no control point 99");
-  refused("{\"reach\": [{\"control_points\": [0], \"factor\": 2, \"region\": [0]}]}",
-          "unknown key \"region\"; choose from control_points, factor");
-  refused("{\"reach\": [{\"control_points\": [0], \"factor\": \"2\"}]}",
-          "reach 0: give control_points, and a number as factor");
-  refused("{\"reach\": {\"a\": 1}}", "reach is not a list");
-  refused("{\"reach\": [{\"control_points\": {\"box\": [[8, 8, 8], [9, 9, 9]]}, \"factor\": 2}]}",
-          "reach 0: no control points are chosen");
-  refused("[{\"control_points\": [0], \"region\": {\"vertices\": {\"a\": 1}}}]",
-          "is not a list of indices");
-  expect("solve 3d/limb_cage.obj -o w.npy --method gradient --locality bad.json", 1,
-         "--locality: the method gradient does not use it");
+  refused(R"([{"control_points": [0], "region": {"vertices": {"a": 1}}}])",
+          "not a list of indices");
+  refused(R"({"masks": [], "conflicts": "no"})", "invalid value \"no\"; choose from fail");
+  refused(R"({"mask": []})", "unknown key \"mask\"; choose from conflicts");
+  refused(R"({"reach": [{"control_points": [0], "factor": 17}]})",
+          "control point 0 must be in [1/16, 16]");
+  refused(R"({"reach": [{"control_points": [99], "factor": 2}]})", "no control point 99");
+  refused(R"({"reach": [{"control_points": [0], "factor": 2, "region": [0]}]})",
+          "unknown key \"region\"");
+  refused(R"({"reach": [{"control_points": [0], "factor": "2"}]})", "reach 0: give control_points");
+  refused(R"({"reach": {"a": 1}})", "reach is not a list");
+  refused(R"({"reach": [{"control_points": {"box": [[8, 8, 8], [9, 9, 9]]}, "factor": 2}]})",
+          "reach 0: no control");
 }
 
 TEST_F(LocalityCommand, GroupsOfAnObjModelAreRegions) {
@@ -112,7 +105,7 @@ TEST_F(LocalityCommand, GroupsOfAnObjModelAreRegions) {
   const double step = 0.01 * (cage.row(0).maxCoeff() - cage.row(0).minCoeff());
   file("model.obj", at(x, y) + at(x + step, y) + at(x, y + step) + "g body\nf 1 2 3\n" +
                         at(x + step, y + step) + "g belt other # 1\nf -1 \\\n-3 -2 # not 1\n");
-  file("masks.json", "[{\"control_points\": [0], \"region\": {\"group\": \"belt\"}}]");
+  file("masks.json", R"([{"control_points": [0], "region": {"group": "belt"}}])");
   expect(
       "solve 2d/figure_cage.obj --model model.obj -o w.npy --vertices 500 -q "
       "--locality masks.json");
@@ -121,7 +114,10 @@ TEST_F(LocalityCommand, GroupsOfAnObjModelAreRegions) {
 }
 
 TEST_F(LocalityCommand, AttributesOfPlyAndGltfModelsAreRegions) {
-  const std::string of_mask = "[{\"control_points\": [0], \"region\": {\"attribute\": ";
+  const auto mask = [](const std::string& attribute) {
+    file("masks.json",
+         R"([{"control_points": [0], "region": {"attribute": ")" + attribute + "\"}}]");
+  };
   const auto expect_zeros = [&](const std::string& model, const std::vector<Index>& region) {
     expect("solve cage.obj --model " + model +
            " --vertices 800 -o weights.npy -q --locality masks.json");
@@ -141,29 +137,22 @@ TEST_F(LocalityCommand, AttributesOfPlyAndGltfModelsAreRegions) {
        "property float z\nproperty uchar belt\nelement face 1\n"
        "property list uchar int vertex_indices\nend_header\n"
        "-0.5 0 -0.95 1\n0.5 0 -0.95 0\n0 -0.5 -0.95 1\n0 0.5 -0.95 0\n4 0 2 1 3\n");
-  file("masks.json", of_mask + "\"belt\"}}]");
+  mask("belt");
   expect_zeros("model.ply", {0, 2});
 
   // Vertices 2 and 3 of the file are at one place.
-  const float z = -0.95F;
-  const float numbers[] = {-0.5F, 0, z, 0.5F, 0, z, 0, -0.5F, z, 0,
-                           -0.5F, z, 0, 0.5F, z, 0, 0, 1,     0, 0};
-  std::ofstream("model.bin", std::ios::binary)
-      .write(reinterpret_cast<const char*>(numbers), sizeof numbers);
-  file("model.gltf",
-       "{\"asset\": {\"version\": \"2.0\"}, \"buffers\": [{\"uri\": \"model.bin\", \"byteLength\": "
-       "80}], "
-       "\"bufferViews\": [{\"buffer\": 0, \"byteLength\": 60}, "
-       "{\"buffer\": 0, \"byteOffset\": 60, \"byteLength\": 20}], \"accessors\": ["
-       "{\"bufferView\": 0, \"componentType\": 5126, \"count\": 5, \"type\": \"VEC3\"}, "
-       "{\"bufferView\": 1, \"componentType\": 5126, \"count\": 5, \"type\": \"SCALAR\"}], "
-       "\"meshes\": [{\"primitives\": [{\"mode\": 6, \"attributes\": "
-       "{\"POSITION\": 0, \"_BELT\": 1}}]}], \"nodes\": [{\"mesh\": 0}]}");
-  file("masks.json", of_mask + "\"_BELT\"}}]");
-  expect_zeros("model.gltf", {2});
-  file("masks.json", of_mask + "\"_HEAD\"}}]");
-  expect("solve cage.obj --model model.gltf -o w.npy --locality masks.json", 2,
-         "model.gltf: the vertices have no attribute \"_HEAD\"");
+  NewGlb gltf(R"({"meshes":[{"primitives":[{"mode":6}]}],"nodes":[{"mesh":0}]})");
+  gltf.primitive(0)["attributes"] = {
+      {"POSITION",
+       gltf.add<float>(Eigen::MatrixXd{
+           {-0.5, 0.5, 0, 0, 0}, {0, 0, -0.5, -0.5, 0.5}, {-0.95, -0.95, -0.95, -0.95, -0.95}})},
+      {"_BELT", gltf.add<float>(Eigen::RowVectorXd{{0, 0, 1, 0, 0}})}};
+  file("model.glb", gltf.glb());
+  mask("_BELT");
+  expect_zeros("model.glb", {2});
+  mask("_HEAD");
+  expect("solve cage.obj --model model.glb -o w.npy --locality masks.json", 2,
+         "model.glb: the vertices have no attribute \"_HEAD\"");
   expect("solve cage.obj --model cage.obj -o w.npy --locality masks.json", 2,
          "only .ply, .glb, and .gltf models have attributes");
 }

@@ -3,8 +3,8 @@
 #include "draw/model_picture.h"
 #include "draw/view.h"
 #include "front/colormap.h"
-#include "support/command_line.h"
 #include "support/png_image.h"
+#include "support/test.h"
 
 namespace flbc::draw {
 namespace {
@@ -125,40 +125,6 @@ TEST(ModelPicture, ViewsAreRightHanded) {
   EXPECT_LT((view_by_angles(0, 0).toward - Vector<3>::UnitZ()).norm(), 1e-15);
   EXPECT_LT((view_by_angles(90, 0).toward - Vector<3>::UnitX()).norm(), 1e-15);
   EXPECT_LT((view_by_angles(0, 90).toward - Vector<3>::UnitY()).norm(), 1e-15);
-}
-
-class DrawModel : public testing::CommandLineTest {
- protected:
-  void expect_picture(const std::string& arguments) const {
-    const auto result = run("draw " + arguments + " --width 300 -o p.png");
-    EXPECT_EQ(result.status, 0) << result.errors;
-    EXPECT_EQ(testing::slurp("p.png").substr(1, 3), "PNG") << arguments;
-    const auto first = testing::slurp("p.png");
-    EXPECT_EQ(run("draw " + arguments + " --width 300 -o p.png").status, 0);
-    EXPECT_EQ(testing::slurp("p.png"), first) << arguments;
-    std::filesystem::remove("p.png");
-  }
-  void expect_failure(const std::string& arguments, int status, const std::string& words) const {
-    expect_refused("draw " + arguments + " -o p.png", status, words);
-  }
-};
-
-TEST_F(DrawModel, BothDimensions) {
-  for (const std::string name : {"2d/figure", "3d/limb"}) {
-    const auto cage = name + "_cage.obj", model = name + "_model.obj";
-    const auto pose = " --pose " + name + "_cage_pose.obj";
-    ASSERT_EQ(run("solve " + cage + " --method meanvalue -q --model " + model + " -o w.npy").status,
-              0);
-    const auto common = model + " --weights w.npy --cage " + cage;
-    expect_picture(common + " --control-point 3");
-    expect_picture(common + pose);
-    expect_picture(common + " --all");
-    expect_failure(common + " --control-point 1000", 1, "--control-point must be in [0, ");
-    expect_failure("--weights w.npy --cage " + cage, 1, "give MODEL");
-    if (name[0] == '3') {
-      expect_failure(common + " --pose 3d/star_cage.obj", 2, "star_cage.obj");
-    }
-  }
 }
 
 }  // namespace

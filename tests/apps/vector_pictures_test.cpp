@@ -90,7 +90,7 @@ class VectorPictures : public CommandLineTest {
     EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
     EXPECT_LT(svg.size(), 2000000U);
     EXPECT_LT(pdf.size(), 2000000U);
-    for (const std::string name : {"svg", "pdf"}) {
+    for (const std::string name : {"png", "svg", "pdf"}) {
       expect("draw " + arguments + " --width 400 -o again." + name);
       EXPECT_EQ(slurp("again." + name), slurp("p." + name));
     }
@@ -126,6 +126,12 @@ TEST_F(VectorPictures, ShowWhatPngShows) {
     expect_all_formats_agree(domain + " --all", scene.all);
     expect_all_formats_agree(of_model + " --pose " + scene.name + "_cage_pose.obj", "Pose");
     if (!plane) expect_all_formats_agree(of_model + " --all", scene.all);
+    if (plane) expect("draw " + of_model + " --all -o p.png");
+    expect("draw " + of_model + " --control-point 3 -o p.png");
+    expect("draw " + of_model + " --control-point 1000 -o none.png", 1, "must be in [0, ");
+    expect("draw --weights m.npy -o none.png --cage " + cage, 1, "give MODEL");
+    const std::string other = plane ? "2d/letter_cage.obj" : "3d/star_cage.obj";
+    expect("draw " + of_model + " -o none.png --pose " + other, 2, other);
   }
 }
 

@@ -187,23 +187,15 @@ TEST(ViewCage, EdgesArePolygonsAndNotTheirDiagonals) {
   EXPECT_EQ(edges_of_cage<3>({}, facets).size(), 5u);
 }
 
-class ViewCommand : public testing::CommandLineTest {
- protected:
-  // The samples with weights of few influences, and all but the output.
-  std::string sample_arguments(const std::string& name) const {
-    const auto cage = name + "_cage.obj", model = name + "_model.obj";
-    expect("solve " + cage + " --method meanvalue -q --model " + model + " -o w.npy");
-    return model + " --weights w.npy --cage " + cage;
-  }
-};
+using ViewCommand = testing::CommandLineTest;
 
 TEST_F(ViewCommand, RefusesWithTheReason) {
-  const auto arguments = sample_arguments("2d/figure");
-  const std::string output = " -o p.html";
-  expect_refused("view " + arguments + " -o p.txt", 1, ".html");
-  expect_refused("view " + arguments + " -k 17" + output, 1, "from 3 to 16 influences");
-  expect_refused("view 2d/ring_model.obj --weights w.npy --cage 2d/figure_cage.obj" + output, 2,
-                 "ring_model.obj");
+  const std::string cage = "2d/figure_cage.obj", model = "2d/figure_model.obj";
+  expect("solve " + cage + " --method meanvalue -q --model " + model + " -o w.npy");
+  const auto rig = " --weights w.npy --cage " + cage + " -o p.";
+  expect_refused("view " + model + rig + "txt", 1, ".html");
+  expect_refused("view " + model + rig + "html -k 17", 1, "from 3 to 16 influences");
+  expect_refused("view 2d/ring_model.obj" + rig + "html", 2, "ring_model.obj");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 import os
 import sys
 import unittest
+from contextlib import contextmanager
 from pathlib import Path
 
 import bmesh
@@ -50,6 +51,31 @@ class AddonTest(unittest.TestCase):
     def noise(self, amount=0.05):
         points = base(self.cage)
         return points + amount * size(points) * self.random.normal(size=points.shape)
+
+    def pose(self, amount=0.05):
+        """Moves the control points. Returns where they are."""
+        points = self.noise(amount)
+        set_key(self.cage, 'Pose', points)
+        return points
+
+    @contextmanager
+    def edit(self, item):
+        """Changes a mesh as in edit mode."""
+        edited = bmesh.new()
+        edited.from_mesh(item.data)
+        for elements in (edited.verts, edited.edges, edited.faces):
+            elements.ensure_lookup_table()
+        yield edited
+        edited.to_mesh(item.data)
+        edited.free()
+
+    def rebind(self, item):
+        select(item)
+        self.assertEqual(bpy.ops.flbc.rebind(), {'FINISHED'})
+        self.assertEqual(self.problems(), '')
+
+    def set_points(self, item, points):
+        item.data.vertices.foreach_set('co', points.astype(np.float32).ravel())
 
     def require_equal(self, found, expected):
         self.assertLess(np.abs(found - expected).max() / size(base(self.cage)), TOLERANCE)
@@ -111,16 +137,16 @@ class AddonTest(unittest.TestCase):
         self.refused(bpy.ops.flbc.bind, 'empty')
 
     # ---- positions -------------------------------------------------------------------------------
-    def test_at_rest_nothing_moves(self):
+    def test_the_model_follows_the_shape_keys_of_the_cage(self):
         self.bind()
         self.require_equal(shown(self.model), base(self.model))
-
-    def test_a_random_pose_moves_the_model(self):
-        self.bind()
-        pose = self.noise()
-        set_key(self.cage, 'Pose', pose)
+        pose = self.pose()
         found = self.require_follows(pose)
         self.assertGreater(np.abs(found - base(self.model)).max(), 0.01 * size(base(self.cage)))
+        self.cage.data.shape_keys.key_blocks['Pose'].value = 0.5
+        own = self.noise()
+        set_key(self.cage, 'Own', own).value = 0.5
+        self.require_follows((pose + own) / 2)
 
     def test_affine_maps_of_the_cage_are_those_of_the_model(self):
         for quality, influences in (('GOOD', '8'), ('GOOD', '4'), ('EXACT', '8')):
@@ -138,12 +164,6 @@ class AddonTest(unittest.TestCase):
             self.assertGreaterEqual(weight.min(), 0)
             self.assertLess(np.abs(weight.sum(1) - 1).max(), 1e-6)
             self.assertTrue(0 <= index.min() and index.max() < len(self.cage.data.vertices))
-
-    def test_shape_keys_of_the_cage(self):
-        self.bind()
-        pose = self.noise()
-        set_key(self.cage, 'Own', pose).value = 0.5
-        self.require_follows((base(self.cage) + pose) / 2)
 
     def test_an_armature_on_the_cage(self):
         self.bind()
@@ -164,8 +184,7 @@ class AddonTest(unittest.TestCase):
 
     def test_objects_that_move(self):
         self.bind()
-        pose = self.noise()
-        set_key(self.cage, 'Pose', pose)
+        pose = self.pose()
         self.cage.matrix_world = Matrix.Translation((0.3, 0, 0)) @ self.cage.matrix_world
         followed = self.require_follows(pose)
         turn = Matrix.LocRotScale((5, 1, 2), Euler((1, 2, 3)), (1, 1, 1))
@@ -195,8 +214,7 @@ class AddonTest(unittest.TestCase):
         smile = base(self.model) + 0.01 * self.random.normal(size=base(self.model).shape)
         set_key(self.model, 'Smile', smile).value = 1
         self.bind()
-        pose = self.noise()
-        set_key(self.cage, 'Pose', pose)
+        pose = self.pose()
         self.require_follows(pose, start=smile)
 
     def test_models_in_one_cage_get_the_same_field(self):
@@ -208,8 +226,7 @@ class AddonTest(unittest.TestCase):
         self.bind(self.model, other)
         for one, two in zip(scene.influences(self.model), scene.influences(other)):
             np.testing.assert_allclose(one, two, atol=1e-5)
-        pose = self.noise()
-        set_key(self.cage, 'Pose', pose)
+        pose = self.pose()
         self.require_follows(pose)
         self.require_follows(pose, model=other)
 
@@ -231,12 +248,11 @@ class AddonTest(unittest.TestCase):
         self.model.modifiers.new('smooth', 'SUBSURF')
         self.bind()
         self.assertEqual([m.type for m in self.model.modifiers], ['NODES', 'SUBSURF'])
-        pose = self.noise()
-        set_key(self.cage, 'Pose', pose)
+        pose = self.pose()
         self.model.modifiers['smooth'].show_viewport = False
         expected = self.model.copy()
         expected.data = self.model.data.copy()
-        expected.data.vertices.foreach_set('co', shown(self.model).astype(np.float32).ravel())
+        self.set_points(expected, shown(self.model))
         expected.modifiers.remove(expected.modifiers[0])
         bpy.context.collection.objects.link(expected)
         for item in (self.model, expected):
@@ -246,71 +262,46 @@ class AddonTest(unittest.TestCase):
         with bpy.context.temp_override(object=self.model):
             bpy.ops.object.modifier_move_to_index(modifier='smooth', index=0)
         self.assertIn('smooth comes before the cage', self.problems())
-        select(self.model)
-        bpy.ops.flbc.rebind()
-        self.assertEqual(self.problems(), '')
+        self.rebind(self.model)
 
     def test_rebinding_after_edits_of_the_model(self):
         self.bind()
-        pose = self.noise()
-        set_key(self.cage, 'Pose', pose)
+        pose = self.pose()
         self.cage.matrix_world = Matrix.Translation((0.3, 0, 0)) @ self.cage.matrix_world
         before = shown(self.model)
-        edited = bmesh.new()
-        edited.from_mesh(self.model.data)
-        edited.verts.ensure_lookup_table()
-        bmesh.ops.delete(edited, geom=edited.verts[-100:], context='VERTS')
-        edited.to_mesh(self.model.data)
+        with self.edit(self.model) as edited:
+            bmesh.ops.delete(edited, geom=edited.verts[-100:], context='VERTS')
         self.assertIn('limb_model were added or removed', self.problems())
-        select(self.model)
-        self.assertEqual(bpy.ops.flbc.rebind(), {'FINISHED'})
-        self.assertEqual(self.problems(), '')
+        self.rebind(self.model)
         self.require_follows(pose)
         self.require_equal(shown(self.model), before[:-100])
 
     def test_new_vertices_of_the_model_leave_it_at_rest(self):
-        def inset(edited):
-            bmesh.ops.inset_individual(edited, faces=edited.faces[:50], thickness=0.01)
-
-        edits = {
-            'subdivide': lambda edited: bmesh.ops.subdivide_edges(edited, edges=edited.edges[:90],
-                                                                  cuts=1),
-            'inset': inset,
-            'poke': lambda edited: bmesh.ops.poke(edited, faces=edited.faces[:50])}
-        for name, edit in edits.items():
+        for name, elements, count, options in (('subdivide_edges', 'edges', 90, {'cuts': 1}),
+                                               ('inset_individual', 'faces', 50, {'thickness': 0.01}),
+                                               ('poke', 'faces', 50, {})):
             with self.subTest(edit=name):
                 self.bind()
-                pose = self.noise()
-                set_key(self.cage, 'Pose', pose)
-                edited = bmesh.new()
-                edited.from_mesh(self.model.data)
-                edit(edited)
-                edited.to_mesh(self.model.data)
-                edited.free()
+                pose = self.pose()
+                with self.edit(self.model) as edited:
+                    options[elements] = getattr(edited, elements)[:count]
+                    getattr(bmesh.ops, name)(edited, **options)
                 self.assertIn('Rebind', self.problems())
                 self.require_equal(shown(self.model), base(self.model))
-                select(self.model)
-                self.assertEqual(bpy.ops.flbc.rebind(), {'FINISHED'})
-                self.assertEqual(self.problems(), '')
+                self.rebind(self.model)
                 self.require_follows(pose)
 
     def test_rebinding_after_edits_of_the_cage(self):
         self.bind()
         set_key(self.cage, 'Basis', 1.05 * base(self.cage))
         self.assertIn('rest shape of limb_cage has changed', self.problems())
-        select(self.cage)
-        self.assertEqual(bpy.ops.flbc.rebind(), {'FINISHED'})
-        self.assertEqual(self.problems(), '')
-        edited = bmesh.new()
-        edited.from_mesh(self.cage.data)
-        bmesh.ops.poke(edited, faces=edited.faces[:1])
-        edited.to_mesh(self.cage.data)
-        edited.free()
+        self.rebind(self.cage)
+        with self.edit(self.cage) as edited:
+            bmesh.ops.poke(edited, faces=edited.faces[:1])
         self.assertIn('limb_cage were added or removed', self.problems())
         self.require_equal(shown(self.model), base(self.model))  # rather than torn
-        self.assertEqual(bpy.ops.flbc.rebind(), {'FINISHED'})
-        pose = self.noise(0.01)
-        set_key(self.cage, 'Pose', pose)
+        self.rebind(self.cage)
+        pose = self.pose(0.01)
         self.require_follows(pose)
 
     def test_a_deleted_cage(self):
@@ -322,7 +313,7 @@ class AddonTest(unittest.TestCase):
     def test_unbinding_leaves_nothing(self):
         names = {a.name for a in self.model.data.attributes}
         self.bind()
-        set_key(self.cage, 'Pose', self.noise())
+        self.pose()
         select(self.model)
         self.assertEqual(bpy.ops.flbc.unbind(), {'FINISHED'})
         self.assertFalse(self.model.modifiers)
@@ -332,7 +323,7 @@ class AddonTest(unittest.TestCase):
 
     def test_applying_keeps_the_shape(self):
         self.bind()
-        set_key(self.cage, 'Pose', self.noise())
+        self.pose()
         before = shown(self.model)
         select(self.model)
         self.assertEqual(bpy.ops.flbc.apply(), {'FINISHED'})
@@ -343,7 +334,7 @@ class AddonTest(unittest.TestCase):
     def test_undo_and_redo(self):
         bpy.ops.ed.undo_push(message='before')
         self.bind()
-        set_key(self.cage, 'Pose', self.noise())
+        self.pose()
         before = shown(self.model)
         bpy.ops.ed.undo_push(message='after')
         bpy.ops.ed.undo()
@@ -354,8 +345,7 @@ class AddonTest(unittest.TestCase):
 
     def test_saving_and_loading(self):
         self.bind()
-        pose = self.noise()
-        set_key(self.cage, 'Pose', pose)
+        pose = self.pose()
         np.save(os.path.join(WORK, 'bound.npy'), shown(self.model))  # for without_addon.py
         path = os.path.join(WORK, 'bound.blend')
         bpy.ops.wm.save_as_mainfile(filepath=path)
@@ -375,8 +365,7 @@ class AddonTest(unittest.TestCase):
         np.testing.assert_allclose(self.cage.matrix_world, self.model.matrix_world, atol=1e-6)
         self.bind()
         self.assertEqual(self.model.flbc.note, '')  # all vertices are inside
-        pose = self.noise(0.01)
-        set_key(self.cage, 'Pose', pose)
+        pose = self.pose(0.01)
         self.require_follows(pose)
 
     def test_a_cage_with_fewer_points_than_influences(self):
@@ -386,8 +375,7 @@ class AddonTest(unittest.TestCase):
         bpy.context.scene.flbc.cage = self.cage
         for quality in ('DRAFT', 'GOOD', 'EXACT'):
             self.bind(quality=quality)
-            pose = self.noise()
-            set_key(self.cage, 'Pose', pose)
+            pose = self.pose()
             self.require_follows(pose)
 
     # ---- refusals --------------------------------------------------------------------------------
@@ -414,19 +402,14 @@ class AddonTest(unittest.TestCase):
         self.require_equal(shown(self.model), base(self.model))
 
     def test_a_cage_with_a_hole(self):
-        edited = bmesh.new()
-        edited.from_mesh(self.cage.data)
-        edited.faces.ensure_lookup_table()
-        edited.faces.remove(edited.faces[0])
-        edited.to_mesh(self.cage.data)
+        with self.edit(self.cage) as edited:
+            edited.faces.remove(edited.faces[0])
         select(self.model)
         self.refused(bpy.ops.flbc.bind, 'limb_cage: ')
         self.assertFalse(self.model.modifiers)
 
     def test_vertices_outside(self):
-        set_outside = base(self.model)
-        set_outside[:5] += 3
-        self.model.data.vertices.foreach_set('co', set_outside.astype(np.float32).ravel())
+        self.set_points(self.model, base(self.model) + 3 * (np.arange(len(base(self.model))) < 5)[:, None])
         for quality in ('DRAFT', 'GOOD'):
             self.bind(quality=quality)
             self.assertIn('5 vertices are outside the cage', self.model.flbc.note)
@@ -441,9 +424,7 @@ class AddonTest(unittest.TestCase):
     def test_notes_are_those_of_each_model(self):
         other = scene.load(f'{MESHES}/3d/limb_model.obj')
         other.matrix_world = self.model.matrix_world
-        moved = base(other)
-        moved[:3] += 3
-        other.data.vertices.foreach_set('co', moved.astype(np.float32).ravel())
+        self.set_points(other, base(other) + 3 * (np.arange(len(base(other))) < 3)[:, None])
         self.bind(self.model, other)
         self.assertEqual(self.model.flbc.note, '')
         self.assertIn('3 vertices are outside the cage', other.flbc.note)

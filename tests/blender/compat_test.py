@@ -23,10 +23,11 @@ class OldGroup:
         self.inputs, self.outputs = Sockets(), Sockets()
 
 
-class Interface:
-    """group.interface of Blender 4.0."""
+class NewGroup:
+    """Of Blender 4.0, which has group.interface."""
 
     def __init__(self):
+        self.interface, self.is_modifier = self, False
         self.items_tree = [types.SimpleNamespace(item_type='PANEL', name='Cage')]
 
     def new_socket(self, *, name, in_out, socket_type):
@@ -34,12 +35,6 @@ class Interface:
             item_type='SOCKET', name=name, in_out=in_out, type=socket_type,
             identifier=f'Socket_{len(self.items_tree)}'))
         return self.items_tree[-1]
-
-
-class NewGroup:
-    def __init__(self):
-        self.interface = Interface()
-        self.is_modifier = False
 
 
 class OldModifier(dict):

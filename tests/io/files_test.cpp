@@ -20,7 +20,7 @@ using flbc::testing::expect_error;
 using flbc::testing::FolderTest;
 using Names = std::vector<std::string>;
 
-class FilesTest : public FolderTest {};
+using FilesTest = FolderTest;
 
 void write_text(const std::string& path, const std::string& text) {
   write_file(path, [&](std::ostream& out) { out << text; });
@@ -64,10 +64,13 @@ class FileSizeLimit {
 };
 
 TEST_F(FilesTest, WhatIsWrittenIsReadBack) {
+  const WorkingFolder here(folder_);
   const std::string bytes("a\0b\r\n\xff\x1a", 7);
-  write_text(path("a.bin"), bytes);
-  EXPECT_EQ(read_file(path("a.bin")), bytes);
-  EXPECT_EQ(names(), Names{"a.bin"});
+  for (const std::string& name : {path("a.bin"), std::string("b.bin"), std::string("./c.bin")}) {
+    write_text(name, bytes);
+    EXPECT_EQ(read_file(name), bytes);
+  }
+  EXPECT_EQ(names(), (Names{"a.bin", "b.bin", "c.bin"}));
 }
 
 TEST_F(FilesTest, ReadsPipes) {
@@ -89,29 +92,16 @@ TEST_F(FilesTest, ReadingNamesFileAndReason) {
   expect_error<IoError>([&] { read_file(""); }, {"cannot read \"\""});
 }
 
-TEST_F(FilesTest, WritesIntoTheCurrentFolder) {
-  const WorkingFolder here(folder_);
-  write_text("plain.txt", "one");
-  write_text("./dotted.txt", "two");
-  EXPECT_EQ(content("plain.txt"), "one");
-  EXPECT_EQ(content("dotted.txt"), "two");
-  EXPECT_EQ(names(), (Names{"dotted.txt", "plain.txt"}));
-}
-
-TEST_F(FilesTest, NewFilesHaveOrdinaryPermissions) {
+TEST_F(FilesTest, NewFilesHaveOrdinaryPermissionsAndOldOnesKeepTheirs) {
   const mode_t previous = umask(027);
   write_text(path("new"), "x");
   umask(previous);
   EXPECT_EQ(permissions_of(path("new")), mode_t{0640});
-}
-
-TEST_F(FilesTest, OverwritingKeepsPermissions) {
-  const std::string file = make("old", "old");
-  ASSERT_EQ(chmod(file.c_str(), 0604), 0);
-  write_text(file, "new");
-  EXPECT_EQ(content("old"), "new");
-  EXPECT_EQ(permissions_of(file), mode_t{0604});
-  EXPECT_EQ(names(), Names{"old"});
+  ASSERT_EQ(chmod(path("new").c_str(), 0604), 0);
+  write_text(path("new"), "y");
+  EXPECT_EQ(content("new"), "y");
+  EXPECT_EQ(permissions_of(path("new")), mode_t{0604});
+  EXPECT_EQ(names(), Names{"new"});
 }
 
 TEST_F(FilesTest, FollowsLinks) {

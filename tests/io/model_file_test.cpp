@@ -10,8 +10,10 @@ namespace {
 
 using io::ModelFile;
 using OpenMesh::IO::Options;
+using Phrases = std::vector<std::string>;
 
-TEST_F(ModelFileTest, FilesOfOpenMeshMoveAndKeepAllElse) {
+// All else stays, in files of any format.
+TEST_F(ModelFileTest, FilesOfOpenMeshMoveAndBecomeAllOthers) {
   const auto mesh = box_with_attributes();
   for (const ModelKind& kind : kModelKinds) {
     const std::string name = kind.file;
@@ -24,13 +26,26 @@ TEST_F(ModelFileTest, FilesOfOpenMeshMoveAndKeepAllElse) {
     EXPECT_EQ(rewritten<3>(file, points), content(name));
 
     make(name, rewritten<3>(file, turned(points)));
-    const auto moved = read_by_openmesh(path(name), kind.attributes());
-    EXPECT_EQ(points_of(moved), turned(points));
-    expect_same_faces(moved, mesh);
-    expect_same_paint(moved, mesh, kind.attributes());
-    for (const auto v : mesh.vertices()) {
-      EXPECT_LT((moved.normal(v) - turned(mesh.normal(v))).norm(), 1e-5) << "vertex " << v.idx();
+    const auto model = file.moved<3>(turned(points));
+    for (const std::string& output :
+         {name, std::string("o.obj"), std::string("o.off"), std::string("o.ply")}) {
+      SCOPED_TRACE(output);
+      if (output != name) {
+        io::write_model(path(output), model);
+        EXPECT_EQ(io::losses(ModelFile(path(output)).model(), "any.ply"), Phrases());
+      }
+      const auto moved = read_by_openmesh(path(output), kind.attributes());
+      EXPECT_EQ(points_of(moved), turned(points));
+      expect_same_faces(moved, mesh);
+      expect_same_paint(moved, mesh, kind.attributes());
+      for (const auto v : mesh.vertices()) {
+        EXPECT_LT((moved.normal(v) - turned(mesh.normal(v))).norm(), 1e-5) << "vertex " << v.idx();
+      }
     }
+    io::write_model(path("o.stl"), model);
+    const auto triangles = read_by_openmesh(path("o.stl"), Options());
+    EXPECT_EQ(triangles.n_vertices(), mesh.n_vertices());
+    EXPECT_EQ(triangles.n_faces(), 11U);
   }
 }
 
@@ -157,14 +172,12 @@ TEST_F(ModelFileTest, AttributesThatAreNotFiniteAreMissing) {
   }
 }
 
-TEST_F(ModelFileTest, KeywordsOfStlInTwoWords) {
-  const auto file = open("a.stl",
-                         "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
-                         "vertex 1 0 0\nvertex 0 1 0\nend loop\nend facet\nEnd Solid a\n");
-  EXPECT_EQ(file.model().soup.points.size(), 3U);
-}
-
-TEST_F(ModelFileTest, BinaryStlThatBeginsWithSolid) {
+TEST_F(ModelFileTest, OddStl) {
+  const auto two_words = open("a.stl",
+                              "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+                              "vertex 1 0 0\nvertex 0 1 0\nend loop\nend facet\nEnd Solid a\n");
+  EXPECT_EQ(two_words.model().soup.points.size(), 3U);
+  // Binary, but beginning as a text.
   write_stl("a.stl", true);
   auto bytes = content("a.stl");
   bytes.replace(0, 5, "solid");
@@ -192,9 +205,9 @@ TEST_F(ModelFileTest, PlyWithPropertiesInAnyOrder) {
   EXPECT_EQ(model.attributes.colors.col(0), Vector<3>(0, 0.2, 1));
   EXPECT_EQ(model.attributes.normals.col(2), Vector<3>(0, 0, 1));
   EXPECT_EQ(io::losses(model, "a.off"),
-            (std::vector<std::string>{"elements \"edge\"", "property \"marks\" of vertices",
-                                      "property \"quality\" of vertices", "transparency",
-                                      "property \"area\" of polygons", "comments"}));
+            (Phrases{"elements \"edge\"", "property \"marks\" of vertices",
+                     "property \"quality\" of vertices", "transparency",
+                     "property \"area\" of polygons", "comments"}));
   PointList<3> points(3, 3);  // turned about the x axis
   points << 0, 1, 0,          //
       -5.5, -5.5, -5.5,       //
@@ -285,14 +298,107 @@ TEST_F(ModelFileTest, AttributesThatAreNotInTheFileAreLeftOut) {
     EXPECT_EQ(corners[k].normal, -1);
   }
   EXPECT_EQ(model.others,
-            std::vector<std::string>{
-                "references to texture coordinates or normals that are not in the file"});
+            Phrases{"references to texture coordinates or normals that are not in the file"});
 }
 
-TEST_F(ModelFileTest, ColorsThatAreNoNumbersAreMissing) {
-  const auto file = open("a.obj", "v 0 0 0 nan nan nan\nv 1 0 0 1 0 0\nv 0 1 0 0 inf 0\nf 1 2 3\n");
-  EXPECT_EQ(file.model().attributes.colors.cols(), 0);
-  EXPECT_EQ(file.model().soup.points.size(), 3u);
+TEST_F(ModelFileTest, CornersOfObjReferToTextureCoordinatesAndNormals) {
+  // Lists may follow their use, numbers count from 1 or backwards, and any of them may be missing.
+  const auto found = open("a.obj", std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\n") +
+                                       "vt 0.25 0.5\n vt 0.75\n"
+                                       "f 1/1/2 2/2/2 3//1\n"  // the normals are still to come
+                                       "vn 0 0 2\n"
+                                       "f 1/-2 2 3/\n"
+                                       "vt 1 1 1 # with a third coordinate\nvn 1 0 0\n")
+                         .model()
+                         .attributes;
+  ASSERT_EQ(found.texture_coordinates.cols(), 3);
+  EXPECT_EQ(found.texture_coordinates.col(0), Vector<2>(0.25, 0.5));
+  EXPECT_EQ(found.texture_coordinates.col(1), Vector<2>(0.75, 0));
+  EXPECT_EQ(found.texture_coordinates.col(2), Vector<2>(1, 1));
+  ASSERT_EQ(found.normals.cols(), 2);
+  EXPECT_EQ(found.normals.col(0), Vector<3>(0, 0, 2));
+  ASSERT_EQ(found.corners.size(), 2);
+  const auto expect_corner = [&](int polygon, int corner, Index texture, Index normal) {
+    SCOPED_TRACE(corner);
+    EXPECT_EQ(found.corners[polygon][corner].texture_coordinate, texture);
+    EXPECT_EQ(found.corners[polygon][corner].normal, normal);
+  };
+  expect_corner(0, 0, 0, 1);
+  expect_corner(0, 2, -1, 0);
+  expect_corner(1, 0, 0, -1);
+  expect_corner(1, 1, -1, -1);
+  expect_corner(1, 2, -1, -1);
+}
+
+TEST_F(ModelFileTest, ColorsOfObjOnlyIfAllVerticesHaveThem) {
+  const auto colors = [&](const std::string& text) {
+    return open("a.obj", text).model().attributes.colors;
+  };
+  EXPECT_EQ(colors("v 0 0 0 1 0 0\nv 1 0 0 0 0.5 0\nv 0 1 0 0 0 1 0.5\n"),
+            (Eigen::Matrix3d{{1, 0, 0}, {0, 0.5, 0}, {0, 0, 1}}));
+  for (const char* text :
+       {"v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0 0 1\n",
+        "v 0 0 0 255 0 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 1\n", "v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\n",
+        "v 0 0 0 nan nan nan\nv 1 0 0 1 0 0\nv 0 1 0 0 inf 0\n"}) {
+    EXPECT_EQ(colors(text).cols(), 0) << text;
+  }
+}
+
+TEST_F(ModelFileTest, CoordinatesSurviveAllFormatsButStl) {
+  io::Model model;
+  auto& [points, polygons, polylines] = model.soup;
+  for (const double number : awkward_numbers()) {
+    points.emplace_back(number, 1, -7);
+    points.emplace_back(0.25, number, 1e-5);
+    points.emplace_back(-1, 3, number);
+  }
+  polygons = {{0, 1, 2}, {5, 4, 3, 0}, {6, 7, 8, 9, 10}};
+  for (const bool is_text : {true, false}) {
+    model.is_text = is_text;
+    for (const std::string output : {"o.obj", "o.off", "o.ply"}) {
+      SCOPED_TRACE(output);
+      polylines.clear();
+      if (output == "o.obj") polylines = {{0, 1}, {3, 2, 1, 3}};
+      io::write_model(path(output), model);
+      const auto written = ModelFile(path(output)).model();
+      EXPECT_TRUE(bit_equal(io::to_points<3>(written.soup, ""), io::to_points<3>(model.soup, "")));
+      EXPECT_EQ(written.soup.polygons, polygons);
+      EXPECT_EQ(written.soup.polylines, polylines);
+      EXPECT_TRUE(output != "o.ply" || written.is_text == is_text);
+    }
+  }
+}
+
+TEST_F(ModelFileTest, WhatIsLostIsTold) {
+  const auto losses = [&](const std::string& text, const std::string& output) {
+    return io::losses(open("a.obj", text).model(), output);
+  };
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  EXPECT_EQ(losses(square + "f 1 2 3 4\n", "o.ply"), Phrases());
+  EXPECT_EQ(losses(square + "f 1 2 3 4\n", "o.stl"),
+            (Phrases{"the order of the vertices", "polygons (they are cut into triangles)"}));
+  EXPECT_EQ(
+      losses("# a\nmtllib m\n" + square + "usemtl x\ng y\nf 1 2 3\nf 1 3 4\nl 1 3\n", "o.off"),
+      (Phrases{"lines with \"mtllib\"", "lines with \"usemtl\"", "lines with \"g\"", "comments",
+               "polylines"}));
+  // A seam: vertex 1 has two texture coordinates. Where two are the same there is none.
+  const std::string paint = square + "vt 0 0\nvt 1 0\nvt 0 0\nvn 0 0 1\n";
+  EXPECT_EQ(losses(paint + "f 1/1/1 2/2/1 3/2/1\nf 1/2/1 3/2/1 4/2/1\n", "o.ply"),
+            (Phrases{"texture coordinates (they differ between corners of a vertex)"}));
+  EXPECT_EQ(losses(paint + "f 1/1/1 2/2/1 3/2/1\nf 1/3/1 3/2/1 4/2/1\n", "o.ply"), Phrases());
+  EXPECT_EQ(losses(paint + "f 1/1/1 2/2/1 3/2/1\nf 1/2/1 3/2/1 4/2/1\n", "o.obj"), Phrases());
+  EXPECT_EQ(losses(paint + "f 1/1/1 2/2/1 3/2/1\nf 1/1 3/2 4/2\n", "o.off"),
+            (Phrases{"normals (they differ between corners of a vertex)"}));
+  const std::string coloured = "v 0.1 0 0 0.5 0 1\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n";
+  EXPECT_EQ(losses(coloured, "o.ply"), (Phrases{"colors beyond 256 levels"}));
+  EXPECT_EQ(losses(coloured, "o.obj"), Phrases());
+  EXPECT_EQ(losses(coloured, "o.stl"), (Phrases{"the order of the vertices",
+                                                "coordinates beyond single precision", "colors"}));
+  const auto seen = open("a.off",
+                         "COFF\n3 1 0\n0 0 0 255 0 0 128\n1 0 0 0 255 0 255\n"
+                         "0 1 0 1 1 1 255\n3 0 1 2 255 0 0\n");
+  EXPECT_EQ(io::losses(seen.model(), "o.ply"), (Phrases{"transparency", "colors of polygons"}));
+  EXPECT_EQ(seen.model().attributes.colors.col(1), Vector<3>(0, 1, 0));
 }
 
 TEST_F(ModelFileTest, DefectsAreNamed) {
@@ -318,7 +424,9 @@ TEST_F(ModelFileTest, DefectsAreNamed) {
          "ply\nformat ascii 1.0\nelement vertex 1\nproperty uint packed_position\n"
          "property uint packed_rotation\nend_header\n1 2\n",
          "export them uncompressed");
-  EXPECT_THROW(ModelFile(path("missing.ply")), IoError);
+  for (const std::string bad : {"vt zero 0\n", "vn 0 1\n"}) {
+    refuse("a.obj", "v 0 0 0\n" + bad, ":2: expected a number");
+  }
   EXPECT_THROW(ModelFile(path("a.vtk")), OptionError);
   EXPECT_THROW(io::write_model(path("a.vtk"), io::Model{}), OptionError);
 }

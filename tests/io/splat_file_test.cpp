@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/io/splat_file.h"
 
-#include <fstream>
 #include <sstream>
 
-#include "support/errors.h"
-#include "support/scratch.h"
+#include "support/io_files.h"
 #include "support/splats.h"
 
 namespace flbc::testing {
@@ -13,12 +11,10 @@ namespace {
 
 using Eigen::Matrix3d;
 
-class SplatFileTest : public ::testing::Test {
+class SplatFileTest : public FolderTest {
  protected:
   std::string file(const std::string& content, const std::string& name = "splats.ply") const {
-    const auto path = (folder_.path() / name).string();
-    std::ofstream(path, std::ios::binary) << content;
-    return path;
+    return make(name, content);
   }
 
   static std::string moved(const io::SplatFile& file, const PointList<3>& points,
@@ -35,8 +31,6 @@ class SplatFileTest : public ::testing::Test {
   void expect_refused(const std::string& content, const std::string& words) const {
     testing::expect_refused(words, [&] { io::SplatFile(file(content)); });
   }
-
-  ScratchFolder folder_;
 };
 
 const PointList<3> kPlaces = PointList<3>::Random(3, 50);
@@ -122,7 +116,7 @@ TEST_F(SplatFileTest, OtherFilesAreNoSplats) {
   auto splats = random_splats(kPlaces, 1);
   EXPECT_TRUE(io::is_splat_file(file(splats.text())));
   EXPECT_FALSE(io::is_splat_file(file(splats.text(), "splats.obj")));
-  EXPECT_FALSE(io::is_splat_file((folder_.path() / "missing.ply").string()));
+  EXPECT_FALSE(io::is_splat_file(path("missing.ply")));
   splats.names.back() = "other";
   splats.names[splats.names.size() - 2] = "rot_4";
   EXPECT_FALSE(io::is_splat_file(file(splats.text())));
@@ -148,10 +142,8 @@ TEST_F(SplatFileTest, DamagedFilesAreRefused) {
   auto typed = text;
   typed.replace(typed.find("float opacity"), 5, "int32");
   expect_refused(typed, "\"opacity\" is not float");
-}
-
-TEST_F(SplatFileTest, WhatDoesNotFitIsRefused) {
-  const io::SplatFile read(file(random_splats(kPlaces, 1).text()));
+  // And what does not fit.
+  const io::SplatFile read(file(text));
   EXPECT_THROW(moved(read, kPlaces.leftCols(3), {Matrix3d::Identity()}), InputError);
   PointList<3> far = kPlaces;
   far(1, 4) = 1e300;

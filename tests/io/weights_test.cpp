@@ -46,8 +46,6 @@ class WeightsFile : public FormatTest {
   }
 };
 
-const char* const kExtensions[] = {"mtx", "npy"};
-
 // 3 control points, as many points as needed.
 WeightMatrix awkward_weights() {
   const std::vector<double> numbers = awkward_numbers();
@@ -228,14 +226,14 @@ TEST_F(WeightsFile, OtherExtensionsAreRefused) {
 }
 
 TEST_F(WeightsFile, FilesThatCannotBeOpened) {
-  expect_unopenable({std::begin(kExtensions), std::end(kExtensions)}, read_weights,
+  expect_unopenable({"mtx", "npy"}, read_weights,
                     [](const auto& file) { write_weights(file, small_weights()); });
 }
 
 TEST_F(WeightsFile, WeightsThatAreNotFiniteAreNotWritten) {
   WeightMatrix weights = small_weights();
   weights(1, 2) = std::numeric_limits<double>::quiet_NaN();
-  for (const std::string extension : kExtensions) {
+  for (const std::string extension : {"mtx", "npy"}) {
     expect_error<InputError>([&] { write_weights(path("w." + extension), weights); },
                              {"control point 1 at point 2 is not finite"});
   }

@@ -3,6 +3,7 @@
 #include "flbc/openmesh/binding.h"
 
 #include "flbc/io/binding_file.h"
+#include "flbc/io/files.h"
 #include "flbc/openmesh/bind.h"
 #include "flbc/openmesh/skin.h"
 #include "support/glb_file.h"
@@ -136,9 +137,7 @@ TEST_IN_2D_AND_3D(MeshBinding, MirrorImagesFollowTheirVertices) {
   Sheet<Dim> sheet;
   sheet.bind();
   auto& mesh = sheet.mesh;
-  mesh.request_vertex_status();
-  mesh.request_edge_status();
-  mesh.request_face_status();
+  request_status(mesh);
   const auto image = mesh.point(OpenMesh::VertexHandle(6));
   mesh.delete_vertex(OpenMesh::VertexHandle(0));
   mesh.garbage_collection();
@@ -193,6 +192,44 @@ TEST_IN_2D_AND_3D(MeshBinding, NewVerticesObeyTheMasksOfTheirNeighbors) {
       openmesh::restore_rest(mesh, weights);
     }
   }
+}
+
+// A reader of glTF moves skins as deform() moves the mesh.
+TEST_IN_2D_AND_3D(MeshBinding, SkinsMoveAsTheMeshDoes) {
+  Sheet<Dim> sheet;
+  sheet.bind();
+  auto& mesh = sheet.mesh;
+  mesh.request_vertex_colors();
+  mesh.request_vertex_texcoords2D();
+  for (const auto v : mesh.vertices()) {
+    mesh.set_color(v, DoubleTri::Color(0, 255, 0));
+    mesh.set_texcoord2D(v, {0.25F, static_cast<float>(v.idx())});
+  }
+  const auto& rest = sheet.sample.cage.points;
+  const PointList<Dim> pose = rest + 0.3 * PointList<Dim>::Random(Dim, rest.cols());
+  const auto path = scratch_path("skin.glb");
+  openmesh::write_skin<Dim>(path, mesh, {rest, pose});
+  const GlbFile file(io::read_file(path));
+  EXPECT_EQ(static_cast<std::size_t>(file.triangles().cols()), mesh.n_faces());
+  EXPECT_EQ(file.attribute("COLOR_0").col(0).head(3), Eigen::Vector3d(0, 1, 0));
+  EXPECT_NEAR(file.attribute("TEXCOORD_0")(0, 0), 0.25, 1e-7);
+  for (const auto& [time, cage] : {std::pair(0.0, rest), {1.0 / 24, pose}}) {
+    openmesh::deform(mesh, cage);
+    const PointList<Dim> moved = file.skinned(file.joints(time)).template topRows<Dim>();
+    const PointList<Dim> expected = openmesh::points_of<Dim>(mesh)(Eigen::all, file.sources());
+    EXPECT_LT((moved - expected).cwiseAbs().maxCoeff(), 1e-6);
+  }
+  openmesh::restore_rest(mesh);
+  EXPECT_NO_THROW(openmesh::write_skin(scratch_path("skin.usda"), mesh));
+  EXPECT_THROW(openmesh::write_skin(scratch_path("skin.fbx"), mesh), InputError);
+  openmesh::SkinOptions options;
+  options.max_influences = 5;
+  EXPECT_THROW(openmesh::write_skin(path, mesh, options), OptionError);
+  options = {};
+  options.weights = "others";
+  EXPECT_THROW(openmesh::write_skin(path, mesh, options), InputError);
+  EXPECT_THROW(openmesh::write_skin<5 - Dim>(path, mesh, {}), InputError);
+  EXPECT_THROW(openmesh::write_skin<Dim>(path, mesh, {PointList<Dim>(Dim, 2)}), InputError);
 }
 
 }  // namespace

@@ -332,9 +332,7 @@ TEST(MeshAdmmOnTriangles, StateFollowsGarbageCollection) {
 
   auto mesh = openmesh::to_mesh<DoubleTri>(sample.mesh);
   Admm<DoubleTri>(mesh, sample.cage, options).iterate(25);
-  mesh.request_face_status();
-  mesh.request_edge_status();
-  mesh.request_vertex_status();
+  request_status(mesh);
   const auto corners_of = [&](OpenMesh::FaceHandle face) {
     std::vector<OpenMesh::VertexHandle> corners;
     for (const auto vertex : mesh.fv_range(face)) corners.push_back(vertex);

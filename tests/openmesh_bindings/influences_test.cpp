@@ -64,10 +64,7 @@ TEST(InfluencesProperty, FollowsItsVertices) {
   property.swap(8, 3);
   expect_influences(mesh);
   const DoubleTri copy = mesh;
-  mesh.request_vertex_status();
-  mesh.request_edge_status();
-  mesh.request_halfedge_status();
-  mesh.request_face_status();
+  request_status(mesh);
   mesh.delete_vertex(OpenMesh::VertexHandle(0));
   mesh.delete_vertex(OpenMesh::VertexHandle(24));
   mesh.garbage_collection();

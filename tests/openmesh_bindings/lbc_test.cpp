@@ -126,9 +126,7 @@ TYPED_TEST_SUITE(LbcTriangleTest, TriangleMeshes);
 TYPED_TEST(LbcTriangleTest, DeletedElementsAndLooseVerticesAreNamed) {
   const auto sample = make_sample<2>(Shape::kBox, 3);
   auto mesh = by_hand<TypeParam>(sample.mesh);
-  mesh.request_face_status();
-  mesh.request_edge_status();
-  mesh.request_vertex_status();
+  request_status(mesh);
   EXPECT_NO_THROW(openmesh::solve(mesh, sample.cage));
   mesh.delete_face(mesh.face_handle(5), false);
   expect_refused("face 5; call garbage_collection()", [&] { openmesh::solve(mesh, sample.cage); });

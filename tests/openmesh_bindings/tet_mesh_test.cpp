@@ -11,17 +11,19 @@ namespace {
 using flbc::testing::bit_equal;
 using flbc::testing::expect_error;
 using flbc::testing::Shape;
+using OpenMesh::EPropHandleT;
+using OpenMesh::FPropHandleT;
+using OpenMesh::MPropHandleT;
+using OpenMesh::VPropHandleT;
 using Vertex = OpenMesh::VertexHandle;
 
-// The shapes and how many tunnels go through them.
-std::vector<std::pair<DomainMesh<3>, int>> meshes() {
-  std::vector<std::pair<DomainMesh<3>, int>> result;
+std::vector<DomainMesh<3>> meshes() {
+  std::vector<DomainMesh<3>> result;
   for (const Shape shape :
        {Shape::kSimplex, Shape::kBox, Shape::kCorner, Shape::kRing, Shape::kStar}) {
     for (const Index k : {1, 3}) {
-      auto mesh = flbc::testing::make_sample<3>(shape, k).mesh;
-      normalize_and_validate(mesh);
-      result.emplace_back(std::move(mesh), shape == Shape::kRing ? 1 : 0);
+      result.push_back(flbc::testing::make_sample<3>(shape, k).mesh);
+      normalize_and_validate(result.back());
     }
   }
   return result;
@@ -42,7 +44,7 @@ std::vector<int> sorted(const Range& range) {
 }
 
 TEST(TetMesh, KeepsPointsAndCells) {
-  for (const auto& [mesh, tunnels] : meshes()) {
+  for (const auto& mesh : meshes()) {
     const auto tets = TetMesh::from(mesh);
     EXPECT_TRUE(bit_equal(tets.domain().points, mesh.points));
     EXPECT_EQ(tets.domain().cells, mesh.cells);
@@ -55,7 +57,7 @@ TEST(TetMesh, KeepsPointsAndCells) {
 }
 
 TEST(TetMesh, FacesAndCells) {
-  for (const auto& [mesh, tunnels] : meshes()) {
+  for (const auto& mesh : meshes()) {
     const auto tets = TetMesh::from(mesh);
     for (const auto c : tets.cells()) {
       const auto vertices = tets.cv_range(c);
@@ -89,7 +91,7 @@ TEST(TetMesh, FacesAndCells) {
 }
 
 TEST(TetMesh, NeighboursOfVerticesAgainstBruteForce) {
-  for (const auto& [mesh, tunnels] : meshes()) {
+  for (const auto& mesh : meshes()) {
     const auto tets = TetMesh::from(mesh);
     std::set<std::pair<int, int>> pairs;
     std::vector<std::vector<int>> cells(tets.n_vertices());
@@ -146,7 +148,7 @@ TEST(TetMesh, ManyCellsAroundOneEdge) {
 }
 
 TEST(TetMesh, RefusesDefectsAndKeepsItsElements) {
-  const auto good = meshes()[0].first;
+  const auto good = meshes()[0];
   TetMesh tets = TetMesh::from(good);
   auto flat = good;
   flat.points.row(2).setZero();
@@ -163,7 +165,7 @@ TEST(TetMesh, RefusesDefectsAndKeepsItsElements) {
 
 // The facets of a domain, in their own numbering and their own order of vertices.
 TEST(TetMesh, DomainIsThatOfTheDomainMesh) {
-  for (const auto& [mesh, tunnels] : meshes()) {
+  for (const auto& mesh : meshes()) {
     const auto expected = build_topology(mesh);
     const auto domain = make_domain(TetMesh::from(mesh));
     EXPECT_TRUE(bit_equal(domain.mesh.points, mesh.points));
@@ -175,7 +177,7 @@ TEST(TetMesh, DomainIsThatOfTheDomainMesh) {
 }
 
 TEST(TetMesh, DomainTurnsInvertedCells) {
-  for (const auto& [mesh, tunnels] : meshes()) {
+  for (const auto& mesh : meshes()) {
     DomainMesh<3> inverted = mesh;
     for (Index s = 0; s < mesh.num_cells(); s += 2) {
       std::swap(inverted.cells(s % 4, s), inverted.cells((s + 1) % 4, s));
@@ -205,7 +207,7 @@ TEST(TetMesh, DomainTurnsInvertedCells) {
 
 TEST(TetMesh, DomainNamesDefects) {
   expect_error<InputError>([] { make_domain(TetMesh()); }, {"no cells"});
-  auto mesh = meshes()[0].first;
+  auto mesh = meshes()[0];
   mesh.points.conservativeResize(3, 5);
   mesh.points.col(4).setConstant(7);
   TetMesh tets;
@@ -213,6 +215,80 @@ TEST(TetMesh, DomainNamesDefects) {
   EXPECT_TRUE(tets.vc_range(Vertex(4)).empty() && tets.vv_range(Vertex(4)).empty());
   EXPECT_FALSE(tets.is_boundary(Vertex(4)));
   expect_error<InputError>([&] { make_domain(tets); }, {"vertex 4", "belongs to no cell"});
+}
+
+// ------------------------------------------------------------------------------------ properties
+
+DomainMesh<3> box(Index subdivisions) {
+  return flbc::testing::make_sample<3>(Shape::kBox, subdivisions).mesh;
+}
+
+template <class PropHandle>
+class TetProperty : public ::testing::Test {};
+using Handles =
+    ::testing::Types<VPropHandleT<int>, EPropHandleT<int>, FPropHandleT<int>, CPropHandleT<int>>;
+TYPED_TEST_SUITE(TetProperty, Handles);
+
+TYPED_TEST(TetProperty, AddLookUpRemove) {
+  using Handle = typename TypeParam::Handle;
+  TetMesh mesh = TetMesh::from(box(2));
+  TypeParam added;
+  mesh.add_property(added, "numbers");
+  ASSERT_TRUE(added.is_valid());
+  EXPECT_EQ(mesh.property(added).n_elements(), mesh.n_elements<Handle>());
+  EXPECT_EQ(mesh.property(added).name(), "numbers");
+  mesh.property(added, Handle(2)) = 5;
+
+  const TetMesh& constant = mesh;
+  TypeParam found;
+  EXPECT_TRUE(constant.get_property_handle(found, "numbers"));
+  EXPECT_EQ(constant.property(found, Handle(2)), 5);
+  EXPECT_EQ(constant.property(found)[2], 5);
+  EXPECT_EQ(constant.property(found)[1], 0);
+
+  // A property with another type, kind, or name is another property.
+  CPropHandleT<float> of_other_type;
+  MPropHandleT<int> of_mesh;
+  EXPECT_FALSE(constant.get_property_handle(of_other_type, "numbers"));
+  EXPECT_FALSE(constant.get_property_handle(of_mesh, "numbers"));
+  EXPECT_FALSE(constant.get_property_handle(found, "Numbers"));
+  EXPECT_FALSE(found.is_valid());
+
+  mesh.remove_property(added);
+  EXPECT_FALSE(added.is_valid());
+  EXPECT_FALSE(mesh.get_property_handle(found, "numbers"));
+}
+
+TYPED_TEST(TetProperty, CopiesAreIndependent) {
+  using Handle = typename TypeParam::Handle;
+  TetMesh mesh = TetMesh::from(box(1));
+  TypeParam handle;
+  mesh.add_property(handle, "numbers");
+  mesh.property(handle, Handle(1)) = 7;
+  TetMesh copy(mesh), assigned = TetMesh::from(box(2));
+  assigned = mesh;
+  mesh.property(handle, Handle(1)) = 8;
+  for (const TetMesh* other : {&copy, &assigned}) {
+    EXPECT_EQ(other->n_cells(), mesh.n_cells());
+    ASSERT_EQ(other->property(handle).n_elements(), mesh.n_elements<Handle>());
+    EXPECT_EQ(other->property(handle, Handle(1)), 7);
+  }
+}
+
+TYPED_TEST(TetProperty, AssigningKeepsAndResizes) {
+  using Handle = typename TypeParam::Handle;
+  TetMesh mesh = TetMesh::from(box(1));
+  TypeParam handle;
+  mesh.add_property(handle, "numbers");
+  const int count = static_cast<int>(mesh.n_elements<Handle>());
+  for (int k = 0; k < count; ++k) mesh.property(handle, Handle(k)) = 10 + k;
+  for (const Index subdivisions : {3, 1}) {
+    mesh.assign(box(subdivisions));
+    ASSERT_EQ(mesh.property(handle).n_elements(), mesh.n_elements<Handle>());
+    for (int k = 0; k < static_cast<int>(mesh.n_elements<Handle>()); ++k) {
+      ASSERT_EQ(mesh.property(handle, Handle(k)), k < count ? 10 + k : 0);
+    }
+  }
 }
 
 }  // namespace

@@ -108,10 +108,7 @@ TYPED_TEST(WideProperty, FollowsItsElementsThroughGarbageCollection) {
   const auto of_edges = add_filled<typename TestFixture::Edges>(this->mesh_, "e", 4, 8);
   const auto of_faces = add_filled<typename TestFixture::Faces>(this->mesh_, "f", 3, 31);
   Mesh& mesh = this->mesh_;
-  mesh.request_vertex_status();
-  mesh.request_edge_status();
-  mesh.request_halfedge_status();
-  mesh.request_face_status();
+  request_status(mesh);
   const auto vertices = mesh.n_vertices(), faces = mesh.n_faces();
   mesh.delete_vertex(OpenMesh::VertexHandle(0));
   mesh.delete_vertex(OpenMesh::VertexHandle(24), false);
@@ -152,9 +149,13 @@ TYPED_TEST(WideProperty, IsCopiedWithItsMesh) {
   EXPECT_EQ(assigned.property(handle).width(), 1U);
 }
 
-TYPED_TEST(WideProperty, ClonesWithName) {
+TYPED_TEST(WideProperty, HasItsTypeAndNameAsItsCloneHas) {
   using Property = OpenMesh::PropertyT<typename TestFixture::Numbers>;
+  using Scalar = typename TypeParam::Scalar;
   const auto handle = add_filled<typename TestFixture::Vertices>(this->mesh_, "rows", 2, 9);
+  OpenMesh::VPropHandleT<Wide<std::conditional_t<std::is_same_v<Scalar, float>, double, float>>>
+      other;
+  EXPECT_FALSE(this->mesh_.get_property_handle(other, "rows"));
   expect_refused<Error>("is not stored in .om files",
                         [&] { this->mesh_.property(handle).set_persistent(true); });
   const Property& rows = this->mesh_.property(handle);
@@ -166,6 +167,10 @@ TYPED_TEST(WideProperty, ClonesWithName) {
   EXPECT_TRUE(is_filled(std::as_const(copy)[4], key(this->mesh_, OpenMesh::VertexHandle(4)), 2, 9));
   copy.set_shape(1, 1);
   expect_filled(this->mesh_, handle, 2, 9);
+  typename TestFixture::Vertices same;
+  EXPECT_TRUE(this->mesh_.get_property_handle(same, "rows"));
+  this->mesh_.remove_property(same);
+  EXPECT_FALSE(this->mesh_.get_property_handle(same, "rows"));
 }
 
 TYPED_TEST(WideProperty, WorksThroughPropertyManagers) {
@@ -200,18 +205,6 @@ TYPED_TEST(WideProperty, WorksThroughPropertyManagers) {
   mesh.mproperty(of_mesh.getRawProperty()).set_shape(2, 5);
   fill(of_mesh(), 11);
   EXPECT_TRUE(is_filled(std::as_const(mesh).property(of_mesh.getRawProperty()), 11, 2, 5));
-}
-
-TYPED_TEST(WideProperty, IsNotMistakenForAPropertyOfAnotherType) {
-  using Scalar = typename TypeParam::Scalar;
-  using Other = std::conditional_t<std::is_same_v<Scalar, float>, double, float>;
-  add_filled<typename TestFixture::Vertices>(this->mesh_, "rows", 2, 9);
-  OpenMesh::VPropHandleT<Wide<Other>> other;
-  EXPECT_FALSE(this->mesh_.get_property_handle(other, "rows"));
-  typename TestFixture::Vertices same;
-  EXPECT_TRUE(this->mesh_.get_property_handle(same, "rows"));
-  this->mesh_.remove_property(same);
-  EXPECT_FALSE(this->mesh_.get_property_handle(same, "rows"));
 }
 
 }  // namespace

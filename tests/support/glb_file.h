@@ -17,13 +17,14 @@
 
 namespace flbc::testing {
 
-//! A .glb file with one skinned mesh.
+//! A skinned mesh of a .glb file.
 class GlbFile {
  public:
   using Json = nlohmann::json;
 
   //! Expects what the specification demands of header, chunks, buffer views and accessors.
-  explicit GlbFile(const std::string& bytes) : bytes_(bytes) {
+  //! \param node  whose skinned mesh is looked at; default: the first mesh and skin
+  explicit GlbFile(const std::string& bytes, int node = -1) : bytes_(bytes) {
     EXPECT_EQ(bytes.substr(0, 4), "glTF");
     EXPECT_EQ(number(4), 2);
     EXPECT_EQ(number(8), bytes.size());
@@ -47,6 +48,9 @@ class GlbFile {
       EXPECT_LE(begin + size, buffer_size);
     }
     for (std::size_t k = 0; k < json["accessors"].size(); ++k) expect_sound_accessor(k);
+    if (node < 0) return;
+    mesh_ = json["nodes"][static_cast<std::size_t>(node)]["mesh"];
+    skin_ = json["nodes"][static_cast<std::size_t>(node)]["skin"];
   }
 
   //! A column per element; normalized integers are divided by their unit.
@@ -74,7 +78,7 @@ class GlbFile {
     return values;
   }
 
-  const Json& primitive() const { return json["meshes"][0]["primitives"][0]; }
+  const Json& primitive() const { return json["meshes"][mesh_]["primitives"][0]; }
   bool has(const std::string& attribute) const {
     return primitive()["attributes"].contains(attribute);
   }
@@ -112,7 +116,7 @@ class GlbFile {
 
   //! The joint of which all others are children.
   const Json& root_joint() const {
-    return json["nodes"][json["skins"][0]["skeleton"].get<std::size_t>()];
+    return json["nodes"][json["skins"][skin_]["skeleton"].get<std::size_t>()];
   }
 
   //! From the coordinates of the root joint to those of the scene.
@@ -126,7 +130,7 @@ class GlbFile {
 
   //! 3 x n, by the nodes of the control points, in the scene.
   Eigen::MatrixXd joints() const {
-    const auto& nodes = json["skins"][0]["joints"];
+    const auto& nodes = json["skins"][skin_]["joints"];
     constexpr std::size_t kOthers = 2;
     Eigen::MatrixXd result(3, nodes.size() - kOthers);
     for (std::size_t i = 0; i + kOthers < nodes.size(); ++i) {
@@ -147,7 +151,7 @@ class GlbFile {
       const Eigen::MatrixXd times = accessor(sampler["input"]);
       const Eigen::MatrixXd values = accessor(sampler["output"]);
       EXPECT_EQ(times.cols(), values.cols());
-      const auto& nodes = json["skins"][0]["joints"];
+      const auto& nodes = json["skins"][skin_]["joints"];
       const auto joint = std::find(nodes.begin(), nodes.end(), channel["target"]["node"]);
       EXPECT_NE(joint, nodes.end());
       result.col(joint - nodes.begin()) = root() * between(times, values, time);
@@ -157,7 +161,7 @@ class GlbFile {
 
   //! 3 x S: sum of w_i M_i x, where M_i is the joint's matrix times its inverse bind matrix.
   Eigen::MatrixXd skinned(const Eigen::MatrixXd& joints) const {
-    const Eigen::MatrixXd binds = accessor(json["skins"][0]["inverseBindMatrices"]);
+    const Eigen::MatrixXd binds = accessor(json["skins"][skin_]["inverseBindMatrices"]);
     const Eigen::MatrixXd positions = attribute("POSITION");
     const Eigen::MatrixXd numbers = influences("JOINTS_"), weights = influences("WEIGHTS_");
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3, positions.cols());
@@ -233,7 +237,7 @@ class GlbFile {
   }
 
   std::string bytes_;
-  std::size_t binary_begin_ = 0;
+  std::size_t binary_begin_ = 0, mesh_ = 0, skin_ = 0;
 };
 
 }  // namespace flbc::testing

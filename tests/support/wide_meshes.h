@@ -57,6 +57,15 @@ Mesh make_squares(int n = 6) {
   return mesh;
 }
 
+//! That elements can be deleted.
+template <class Mesh>
+void request_status(Mesh& mesh) {
+  mesh.request_vertex_status();
+  mesh.request_edge_status();
+  mesh.request_halfedge_status();
+  mesh.request_face_status();
+}
+
 //! A distinct number for every element of a kind; at most 5000.
 template <class Mesh>
 int key(const Mesh& mesh, OpenMesh::VertexHandle v) {

@@ -177,16 +177,12 @@ assert.ok(await meanWith(4) > 1.02 * near);
 await flbc.protect([]);
 
 // Arrays instead of files.
-const cage = await flbc.cage();
 const mesh = { points: [0.1, 0.1, 0.1, 0.2, 0.1, 0.1, 0.1, 0.2, 0.1], triangles: [0, 1, 2] };
 await flbc.setModel(mesh.points, mesh.triangles);
 await flbc.setCage([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2]);
 await flbc.setMesh([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], [0, 1, 2, 3]);
 await flbc.solve();
 assert.deepEqual([...(await flbc.weights()).starts], [0, 4, 8, 12]);
-assert.ok(largestDifference([...(await flbc.weights()).values],
-                            [0.7, 0.1, 0.1, 0.1, 0.6, 0.2, 0.1, 0.1, 0.6, 0.1, 0.2, 0.1]) < 1e-6);
-assert.ok(cage.points.length > 0);
 
 // Another cage ends what was computed with the one before.
 await flbc.reduce({ influences: 4 });
