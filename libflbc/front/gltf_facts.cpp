@@ -50,7 +50,8 @@ std::string describe_gltf(const std::string& path) {
     for (const auto& note : file.model().notes) text << "  " << note << '\n';
     double seconds = 0;
     for (const auto times : io::numbers_at(json, {"animations/*/samplers/*/input"})) {
-      seconds = std::max(seconds, json.at("accessors").at(times).at("max").at(0).get<double>());
+      const auto keys = document.numbers(times, 1);
+      if (keys.size() > 0) seconds = std::max(seconds, keys.maxCoeff());
     }
     if (seconds > 0) text << "  animation of " << seconds << " s\n";
     return text.str();

@@ -107,6 +107,7 @@ TEST_F(PolygonFile, OffVariants) {
       "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 0.5 0.5 0.5\n3 2 1 0 7\n",
       "OFF4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n" + faces,
       "4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n" + faces,
+      "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n" + faces + "made by a program\n",
       "OFF\r4 2 0\r0 0 0\r1 0 0\r1 1 0\r0 1 0\r4 0 1 2 3\r3 2 1 0\r",
   };
   for (const std::string& variant : variants) {

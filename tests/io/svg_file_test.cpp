@@ -128,8 +128,30 @@ TEST_F(SvgFile, PlacesAreThoseOfTheDrawingWithTheYAxisUp) {
   expect_box(R"svg(viewBox="0 0 100 80" width="10mm" height="8mm")svg", {30, 30}, {50, 70});
   expect_box(R"svg(viewBox="-10 -20 100 80")svg", {40, 10}, {60, 50});
   expect_box(R"svg(width="100" height="60")svg", {30, 10}, {50, 50});
-  const auto without_size = outline("", shape);
-  EXPECT_LT((without_size.high - without_size.low - Vector<2>(20, 40)).norm(), 0.05);
+  expect_box("", {30, 0}, {50, 40});  // the page ends where the ink does
+  // A viewer cuts off a band at both sides.
+  expect_box(
+      R"svg(viewBox="0 0 80 80" width="80" height="40" preserveAspectRatio="xMidYMax slice")svg",
+      {30, 30}, {50, 40});
+}
+
+// Fonts of few units, which librsvg may ask for in the size of their square.
+TEST_F(SvgFile, TextHasAnOutline) {
+  const auto text = [&](double size) {
+    const auto side = std::to_string(size);
+    return outline("viewBox=\"0 0 " + side + " " + side + "\"",
+                   "<text font-size=\"" + std::to_string(0.8 * size) + "\" y=\"" +
+                       std::to_string(0.8 * size) + "\">A</text>");
+  };
+  const auto large = text(1000);
+  EXPECT_EQ(large.loops, 2);
+  EXPECT_EQ(large.holes, 1);
+  for (const double size : {24.0, 100.0}) {
+    const auto other = text(size);
+    EXPECT_EQ(other.loops, 2);
+    EXPECT_NEAR(other.area / (size * size), large.area / 1e6, 0.01 * large.area / 1e6);
+    EXPECT_LT((other.high / size - large.high / 1e3).norm(), 0.01);
+  }
 }
 
 // Curves have as many corners as the tolerance needs, polygons only their own.
@@ -166,6 +188,11 @@ TEST_F(SvgFile, ErrorsNameTheFile) {
   expect_error<InputError>([&] { read("v 0 0 0\n"); }, {path("drawing.svg"), "not a drawing"});
   expect_error<InputError>([&] { read(head + "<defs><path d='M0 0h9v9z'/></defs></svg>"); },
                            {path("drawing.svg"), "nothing is to be seen"});
+  const std::string html = "<foreignObject width='9' height='9'/>";
+  expect_error<InputError>([&] { read(head + html + "</svg>"); }, {"foreignObject", "left out"});
+  EXPECT_EQ(
+      ModelFile(make("a.svg", head + html + "<path d='M0 0h9v9z'/></svg>")).model().notes.size(),
+      1U);
   const ModelFile file(make("b.svg", head + "<path d='M0 0h9v9z'/></svg>"));
   expect_error<OptionError>([&] { write_model(path("c.svg"), file.model()); },
                             {"write .glb, .ply, or .obj"});

@@ -11,6 +11,7 @@
 #include "model/gltf_json.h"
 #include "model/model_scan.h"
 #include "text/bytes.h"
+#include "text/text_reader.h"
 
 namespace flbc::io {
 namespace {
@@ -23,9 +24,16 @@ std::size_t aligned(std::size_t size) {
   return (size + kAlignment - 1) / kAlignment * kAlignment;
 }
 
+void require_version(const std::string& path, double version) {
+  if (std::floor(version) == 2) return;
+  throw InputError(path + ": glTF of version " + std::to_string(static_cast<int>(version)) +
+                   " is not supported; export version 2");
+}
+
 // Of a .glb file: the JSON and, if there is one, the binary chunk.
 std::array<Chunk, 2> chunks_of(const std::string& path, const std::string& bytes) {
   std::array<Chunk, 2> chunks{};
+  if (bytes.size() >= kGlbHeader) require_version(path, number_at<std::uint32_t>(bytes.data() + 4));
   std::size_t begin = kGlbHeader;
   for (auto& chunk : chunks) {
     if (bytes.size() < begin + kChunkHead) break;
@@ -79,10 +87,6 @@ std::string percent_decoded(const std::string& uri) {
   return text;
 }
 
-bool is_data(const std::string& uri) {
-  return uri.compare(0, 5, "data:") == 0;
-}
-
 // Bytes of a number by its type; 0 = unknown.
 std::size_t component_size(std::size_t type) {
   constexpr std::size_t kSizes[] = {1, 1, 2, 2, 0, 4, 4};  // 5120 .. 5126
@@ -112,6 +116,10 @@ int rows_of(const std::string& type) {
 }
 
 }  // namespace
+
+bool is_data(const std::string& uri) {
+  return lower_case(std::string_view(uri).substr(0, 5)) == "data:";
+}
 
 std::string media_type_of(const std::string& picture) {
   constexpr std::pair<std::string_view, const char*> kSignatures[] = {
@@ -184,6 +192,10 @@ GltfDocument::GltfDocument(std::string path, const std::string& bytes) : path_(s
     json = GltfJson::parse(bytes);
   }
   if (!json.is_object()) fail("not a glTF file, or damaged");
+  const auto asset = json.value("asset", GltfJson::object());
+  if (asset.contains("version")) {
+    require_version(path_, std::atof(asset["version"].get<std::string>().c_str()));
+  }
   const bool had_copies = drop_compressed_views();
   merge_buffers(std::move(binary));
   if (had_copies) pack();
@@ -212,6 +224,9 @@ void GltfDocument::merge_buffers(std::string binary_chunk) {
                    : is_first             ? std::move(binary_chunk)
                                           : std::string();
     const auto length = whole(buffer, "byteLength", content.size());
+    if (is_first && content.empty() && length > 0) {
+      fail("buffer 0 has no data; the binary chunk is missing");
+    }
     content.resize(std::min(length, content.size()));  // without what fills up a chunk
     binary_.resize(aligned(binary_.size()));
     begins.push_back(binary_.size());
@@ -233,8 +248,14 @@ std::string GltfDocument::file_of(const std::string& uri) const {
 
 std::string GltfDocument::content_of(const std::string& uri) const {
   if (is_data(uri)) {
-    return from_base64(std::string_view(uri).substr(std::min(uri.find(','), uri.size())));
+    const auto comma = std::min(uri.find(','), uri.size());
+    const auto content = percent_decoded(uri.substr(std::min(comma + 1, uri.size())));
+    const auto head = lower_case(std::string_view(uri).substr(0, comma));
+    const bool is_base64 = head.size() >= 7 && head.compare(head.size() - 7, 7, ";base64") == 0;
+    return is_base64 ? from_base64(content) : content;
   }
+  constexpr std::size_t kLongest = 1024;
+  if (uri.size() > kLongest) fail("the address " + in_quotes(uri) + " is no file");
   try {
     return read_file(file_of(uri));
   } catch (const IoError& error) {
@@ -406,7 +427,7 @@ std::vector<std::string> GltfDocument::embed_pictures() {
   if (!json.contains("images")) return missing;
   for (auto& image : json["images"]) {
     const auto uri = image.value("uri", "data:");
-    if (uri.compare(0, 5, "data:") == 0) continue;
+    if (is_data(uri)) continue;
     try {
       const auto bytes = content_of(uri);
       const auto type = media_type_of(bytes);

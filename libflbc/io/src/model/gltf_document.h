@@ -63,6 +63,9 @@ bool drop_extension(GltfJson& owner, const char* name);
 //! Removes the name of an extension from "extensionsUsed".
 void drop_extension_name(GltfJson& json, const char* name);
 
+//! Whether an address holds its content.
+bool is_data(const std::string& uri);
+
 //! "image/png", "image/jpeg", "image/webp", "image/avif", or "image/ktx2"; empty for other bytes.
 std::string media_type_of(const std::string& picture);
 

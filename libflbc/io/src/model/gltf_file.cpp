@@ -9,6 +9,7 @@
 #include <set>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -27,11 +28,12 @@ using Json = GltfJson;
 
 // Whether points, normals, and texture coordinates do not depend on an extension.
 bool is_understood(const std::string& extension) {
-  constexpr std::string_view kNames[] = {"KHR_mesh_quantization", "KHR_lights_punctual",
-                                         "KHR_texture_basisu", "EXT_texture_webp",
-                                         "EXT_texture_avif"};
-  return std::find(std::begin(kNames), std::end(kNames), extension) != std::end(kNames) ||
-         extension.compare(0, 14, "KHR_materials_") == 0;
+  constexpr std::string_view kBegins[] = {
+      "KHR_mesh_quantization", "KHR_lights_punctual", "KHR_materials_",  "KHR_texture_basisu",
+      "KHR_texture_ktx",       "EXT_texture_",        "GOOGLE_texture_", "KHR_techniques_webgl"};
+  return std::any_of(std::begin(kBegins), std::end(kBegins), [&](std::string_view begin) {
+    return extension.compare(0, begin.size(), begin) == 0;
+  });
 }
 
 class GltfScanner {
@@ -51,8 +53,19 @@ class GltfScanner {
     read_materials();
     visit_scene();
     if (model_.soup.polygons.empty()) {
-      fail("the file has " + (unread_.empty() ? "no" : unread_ + ", but no") +
-           " triangles; export the model as a mesh");
+      const auto num_meshes = json().value("meshes", Json::array()).size();
+      fail(!unread_.empty()  ? "the file has " + unread_ + ", but no triangles"
+           : num_meshes == 0 ? "the file has no meshes; export the model as a mesh"
+           : source_->parts.empty()
+               ? "the file has " + std::to_string(num_meshes) +
+                     (num_meshes == 1 ? " mesh" : " meshes") + ", but no node of the scene uses one"
+               : "the meshes have no triangles");
+    }
+    if (num_flat_ > 0) {
+      model_.notes.push_back(std::to_string(num_flat_) +
+                             (num_flat_ == 1 ? " triangle without area is left out"
+                                             : " triangles without area are left out"));
+      add_other(model_, "triangles without area");
     }
     for (const auto& name : other_pictures_) {
       model_.notes.push_back("pictures of the extension " + name +
@@ -145,7 +158,7 @@ class GltfScanner {
       return;
     }
     const auto uri = image.at("uri").get<std::string>();
-    if (uri.compare(0, 5, "data:") == 0) {
+    if (is_data(uri)) {
       material.picture = document_.content_of(uri);
     } else {
       material.texture = document_.file_of(uri);
@@ -158,13 +171,21 @@ class GltfScanner {
     const auto nodes = json().value("nodes", Json::array());
     parents_.assign(nodes.size(), -1);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
-      for (const auto child : wholes(nodes[k], "children"))
-        parents_.at(child) = static_cast<std::ptrdiff_t>(k);
+      for (const auto child : wholes(nodes[k], "children")) {
+        if (parents_.at(child) >= 0) fail("node " + std::to_string(child) + " has two parents");
+        parents_[child] = static_cast<std::ptrdiff_t>(k);
+      }
     }
+    visited_.resize(nodes.size());
     std::vector<std::size_t> roots;
-    if (json().contains("scenes")) {
-      const auto& scene = json().at("scenes").at(whole(json(), "scene", 0));
-      roots = wholes(scene, "nodes");
+    if (const auto scenes = json().value("scenes", Json::array()); !scenes.empty()) {
+      const auto number = whole(json(), "scene", 0);
+      roots = wholes(scenes.at(number), "nodes");
+      if (scenes.size() > 1) {
+        model_.notes.push_back("only scene " + std::to_string(number) + " of " +
+                               std::to_string(scenes.size()) + " is read");
+        add_other(model_, "other scenes");
+      }
     } else {
       for (std::size_t k = 0; k < nodes.size(); ++k) {
         if (parents_[k] < 0) roots.push_back(k);
@@ -178,8 +199,9 @@ class GltfScanner {
     while (!left.empty()) {
       const auto k = left.back();
       left.pop_back();
-      if (++visits_ > nodes.size()) fail("a node has two parents");
       const auto& node = nodes.at(k);
+      if (visited_[k]) continue;
+      visited_[k] = true;
       if (node.contains("mesh")) add_mesh(nodes, k);
       const auto children = wholes(node, "children");
       left.insert(left.end(), children.rbegin(), children.rend());
@@ -249,7 +271,7 @@ class GltfScanner {
 
   // Means of the transforms of the joints, weighted for each vertex. They do not depend on the
   // order of the joints.
-  std::vector<Eigen::Affine3d> skinned_frames(const Json& attributes, Eigen::Index count) const {
+  std::vector<Eigen::Affine3d> skinned_frames(const Json& attributes, Eigen::Index count) {
     std::vector<Eigen::MatrixXd> joints, weights;
     for (int set = 0; attributes.contains("JOINTS_" + std::to_string(set)); ++set) {
       const auto suffix = std::to_string(set);
@@ -264,12 +286,20 @@ class GltfScanner {
       for (std::size_t set = 0; set < joints.size(); ++set) {
         for (int slot = 0; slot < 4; ++slot) {
           const double weight = weights[set](slot, k);
+          check_weight(weight, k);
           if (weight != 0) influences.emplace_back(to_whole(joints[set](slot, k)), weight);
         }
       }
       frames.push_back(mean_frame(influences));
     }
     return frames;
+  }
+
+  void check_weight(double weight, Eigen::Index vertex) {
+    if (weight >= 0 && std::isfinite(weight)) return;
+    const auto name = "vertex " + std::to_string(vertex) + " of a mesh has a ";
+    if (!std::isfinite(weight)) fail(name + "weight that is not finite");
+    if (!std::exchange(has_negative_, true)) model_.notes.push_back(name + "negative weight");
   }
 
   Eigen::Affine3d mean_frame(std::vector<std::pair<std::size_t, double>>& influences) const {
@@ -352,7 +382,10 @@ class GltfScanner {
       references.push_back({has[0] ? attribute : -1, has[1] ? attribute : -1});
     }
     // Without an area it is no polygon for anyone.
-    if (polygon[0] == polygon[1] || polygon[1] == polygon[2] || polygon[2] == polygon[0]) return;
+    if (polygon[0] == polygon[1] || polygon[1] == polygon[2] || polygon[2] == polygon[0]) {
+      ++num_flat_;
+      return;
+    }
     model_.soup.polygons.push_back(std::move(polygon));
     model_.attributes.corners.push_back(std::move(references));
     model_.polygon_materials.push_back(material);
@@ -487,7 +520,7 @@ class GltfScanner {
   GltfDocument document_;
   std::shared_ptr<GltfSource> source_ = std::make_shared<GltfSource>();
   std::vector<std::ptrdiff_t> parents_;
-  std::size_t visits_ = 0;
+  std::vector<bool> visited_;
   std::size_t node_ = 0;                      // with the present mesh
   Eigen::Affine3d frame_;                     // of it
   std::vector<Eigen::Affine3d> joints_;       // of its skin, from where it was bound
@@ -498,7 +531,8 @@ class GltfScanner {
   std::map<std::tuple<double, double, double>, Index> number_of_;
   std::vector<double> normals_, texture_;  // of the vertices of the file
   std::map<Index, Vector<3>> colors_;      // of those of the model
-  bool has_normals_ = false, has_texture_ = false;
+  bool has_normals_ = false, has_texture_ = false, has_negative_ = false;
+  std::size_t num_flat_ = 0;  // triangles without area
 };
 
 }  // namespace

@@ -42,7 +42,8 @@ class OffReader {
       reader_.next_line_of("faces", f, num_polygons);
       read_polygon(num_points);
     }
-    if (reader_.next_line()) {
+    // Some programs write text there, but numbers are more faces than declared.
+    if (reader_.next_line() && reader_.peek().find_first_of("0123456789") == 0) {
       reader_.fail_expected("the end of the file after the last face", reader_.word());
     }
     if (!reads_attributes_) return;

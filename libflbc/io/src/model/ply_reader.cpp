@@ -14,10 +14,10 @@
 namespace flbc::io {
 namespace {
 
-constexpr PlyType kTypes[] = {{"char", "int8", 1, 'i'},     {"uchar", "uint8", 1, 'u'},
-                              {"short", "int16", 2, 'i'},   {"ushort", "uint16", 2, 'u'},
-                              {"int", "int32", 4, 'i'},     {"uint", "uint32", 4, 'u'},
-                              {"float", "float32", 4, 'f'}, {"double", "float64", 8, 'f'}};
+constexpr PlyType kTypes[] = {
+    {"char", "int8", 1, 'i'},   {"uchar", "uint8", 1, 'u'},   {"bool", "bool", 1, 'u'},
+    {"short", "int16", 2, 'i'}, {"ushort", "uint16", 2, 'u'}, {"int", "int32", 4, 'i'},
+    {"uint", "uint32", 4, 'u'}, {"float", "float32", 4, 'f'}, {"double", "float64", 8, 'f'}};
 
 }  // namespace
 
@@ -140,11 +140,12 @@ PlyReader::Number PlyReader::text_number(const PlyType& type) {
   position_ = std::min(content_.find_first_not_of(kBlanks, position_), content_.size());
   const std::size_t end = std::min(content_.find_first_of(kBlanks, position_), content_.size());
   if (end == position_) fail("the file ends where a number was expected");
-  const char* const begin = content_.data() + position_;
+  const auto word = std::string_view(content_).substr(position_, end - position_);
+  const auto digits = without_plus(word);
   double value = 0;
-  const auto parsed = from_chars(begin, content_.data() + end, value);
-  if (parsed.ec != std::errc() || parsed.ptr != content_.data() + end) {
-    fail("expected a number, found " + in_quotes({begin, end - position_}));
+  const auto parsed = from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (parsed.ec != std::errc() || parsed.ptr != digits.data() + digits.size()) {
+    fail("expected a number, found " + in_quotes(word));
   }
   const NumberPlace place{position_, static_cast<std::uint32_t>(end - position_),
                           type.kind == 'f' ? NumberForm::kText : NumberForm::kInteger};

@@ -73,7 +73,9 @@ class Rsvg {
     if (result) return result;
     const std::string why = failure != nullptr ? std::string(": ") + failure->message : "";
     if (failure != nullptr) call<void>("g_error_free", failure);
-    throw InputError(path_ + ": not a drawing that librsvg can paint" + why);
+    const bool is_font = why.find("Freetype") != std::string::npos;
+    throw InputError(path_ + ": not a drawing that librsvg can paint" + why +
+                     (is_font ? "; convert its text to paths" : ""));
   }
 
   // \param release  name of the function that frees the object
@@ -129,9 +131,18 @@ struct Picture {
   }
 };
 
+// Whether a drawing fills its page, which cuts off what is beyond.
+bool is_slice(const std::string& text) {
+  pugi::xml_document document;
+  document.load_buffer(text.data(), text.size());
+  const std::string fit = document.document_element().attribute("preserveAspectRatio").value();
+  return fit.find("slice") != std::string::npos;
+}
+
 class Drawing {
  public:
-  Drawing(const std::string& path, const std::string& text) : rsvg_(path) {
+  Drawing(const std::string& path, const std::string& text)
+      : rsvg_(path), has_text_(text.find("text") != std::string::npos) {
     auto* const handle =
         rsvg_.checked_call<void*>("rsvg_handle_new_from_data", text.data(), text.size());
     handle_ = rsvg_.owned(handle, "g_object_unref");
@@ -145,17 +156,23 @@ class Drawing {
     } width, height;
     rsvg_.call<void>("rsvg_handle_get_intrinsic_dimensions", handle, &has_width, &width,
                      &has_height, &height, &has_view, &view);
-    if (has_view == 0 && rsvg_.call<int>("rsvg_handle_get_intrinsic_size_in_pixels", handle,
-                                         &view.width, &view.height) == 0) {
-      view.width = view.height = kUsual;
+    Vector<2> whole(view.width, view.height), page = whole;
+    const bool has_size = rsvg_.call<int>("rsvg_handle_get_intrinsic_size_in_pixels", handle,
+                                          &page.x(), &page.y()) != 0;
+    is_endless_ = has_view == 0 && !has_size;
+    if (has_view != 0 || is_endless_) {
+      page = has_size && is_slice(text) ? page / page.cwiseQuotient(whole).maxCoeff() : whole;
     }
-    box_ = Box(Vector<2>::Zero(), Vector<2>(view.width, view.height));
-    const bool has_size = std::isfinite(view.width + view.height) && box_.volume() > 0;
-    if (!has_size) throw InputError(path + ": the drawing has no size; set its viewBox");
+    box_ = Box(Vector<2>::Zero(), page);
+    if (!page.allFinite() || !(box_.volume() > 0)) {
+      throw InputError(path + ": the drawing has no size; set its viewBox");
+    }
   }
 
   // From (0, 0), with the y axis down.
   const Box& box() const { return box_; }
+  // Whether neither a viewBox nor a size limits the page.
+  bool is_endless() const { return is_endless_; }
 
   // Hides elements for good. \param selector  of CSS
   void hide(const std::string& selector) {
@@ -174,9 +191,14 @@ class Drawing {
         rsvg_.owned(rsvg_.call<void*>("cairo_image_surface_create_for_data", picture.pixels.data(),
                                       kArgb, picture.width, picture.height, 4 * picture.width),
                     "cairo_surface_destroy");
+    // librsvg asks for fonts that are larger than FreeType can make them if it knows how close the
+    // picture is. Without text it must know, because it paints masks in pixels.
+    constexpr double kFar = 512;
+    const double closer = has_text_ ? std::max(1.0, scale * box_.sizes().maxCoeff() / kFar) : 1.0;
+    rsvg_.call<void>("cairo_surface_set_device_scale", surface.get(), closer, closer);
     const auto context =
         rsvg_.owned(rsvg_.call<void*>("cairo_create", surface.get()), "cairo_destroy");
-    rsvg_.call<void>("cairo_scale", context.get(), scale, scale);
+    rsvg_.call<void>("cairo_scale", context.get(), scale / closer, scale / closer);
     rsvg_.call<void>("cairo_translate", context.get(), -part.min().x(), -part.min().y());
     const Rsvg::Rectangle all{0, 0, box_.max().x(), box_.max().y()};
     rsvg_.checked_call<int>("rsvg_handle_render_document", handle_.get(), context.get(), &all);
@@ -186,6 +208,7 @@ class Drawing {
  private:
   Rsvg rsvg_;
   std::shared_ptr<void> handle_;
+  bool has_text_, is_endless_ = false;
   Box box_;
 };
 
@@ -369,13 +392,21 @@ void read_svg(const std::string& path, Extent, ModelScan& scan) {
   constexpr int kPixels = 2048;
   constexpr double kTolerance = 2;  // pixels, 0.1% of the longer side
   scan.fixed = path + ": a drawing is only read; write .obj";
+  std::string without;
+  if (scan.text.find("foreignObject") != std::string::npos) {
+    without = "; the HTML in it (foreignObject) is left out";
+    scan.model.notes.push_back(without.substr(2));
+  }
   const auto drawing = without_background(path, scan.text);
   auto picture = drawing.paint(drawing.box(), kPixels);
   for (int closer = 0; closer < 2; ++closer) {
     const auto part = picture.seen_box();
-    if (part.isEmpty()) throw InputError(path + ": nothing is to be seen in this drawing");
+    if (part.isEmpty())
+      throw InputError(path + ": nothing is to be seen in this drawing" + without);
     picture = drawing.paint(part, kPixels);
   }
+  const double bottom =
+      drawing.is_endless() ? picture.seen_box().max().y() : drawing.box().max().y();
   auto& soup = scan.model.soup;
   for (const auto& loop : simplified(Tracer(picture).loops(), kTolerance)) {
     auto& polyline = soup.polylines.emplace_back(loop.size());
@@ -383,7 +414,7 @@ void read_svg(const std::string& path, Extent, ModelScan& scan) {
     polyline.push_back(polyline.front());
     for (const auto& pixel : loop) {
       const Vector<2> place = picture.corner + pixel / picture.scale;
-      soup.points.emplace_back(place.x(), drawing.box().max().y() - place.y(), 0);
+      soup.points.emplace_back(place.x(), bottom - place.y(), 0);
     }
   }
 }

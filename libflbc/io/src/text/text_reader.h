@@ -110,6 +110,9 @@ class TextReader {
 
 std::string lower_case(std::string_view text);
 
+//! A word without its plus sign, which std::from_chars() does not accept.
+std::string_view without_plus(std::string_view word);
+
 //! A quoted piece of a file for messages: short and printable.
 std::string in_quotes(std::string_view text);
 
