@@ -1,5 +1,5 @@
 # Install rules; included after all targets are defined. Installed files do not contain the prefix,
-# so the tree can be moved. Install components are the packages (package.cmake): core, meshers, and
+# so the tree can be moved. What was not built is left out. Install components are the packages (package.cmake): core, meshers, and
 # openmesh have runtime files; core_dev, meshers_dev, and openmesh_dev have files for compiling and
 # linking; program has the program, and python the Python module (python/CMakeLists.txt).
 include(GNUInstallDirs)
@@ -13,13 +13,22 @@ function(flbc_install_component component package)
     if(NOT TARGET ${target})
       return()
     endif()
-    install(TARGETS ${target} EXPORT flbc_${component}
+    install(TARGETS ${target} EXPORT flbc_${component} OPTIONAL
       LIBRARY COMPONENT ${package} NAMELINK_COMPONENT ${package}_dev
       ARCHIVE COMPONENT ${package}_dev
       INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   endforeach()
   install(EXPORT flbc_${component} NAMESPACE flbc:: FILE flbc-${component}.cmake
     DESTINATION ${package_dir} COMPONENT ${package}_dev)
+  list(TRANSFORM ARGN REPLACE "(.+)" "$<TARGET_FILE:\\1>" OUTPUT_VARIABLE files)
+  install(CODE "
+    foreach(file ${files})
+      file(GLOB exports
+        \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${package_dir}/flbc-${component}*.cmake)
+      if(exports AND NOT EXISTS \${file})
+        file(REMOVE \${exports})
+      endif()
+    endforeach()" COMPONENT ${package}_dev)
 endfunction()
 flbc_install_component(core core flbc flbc_io)
 flbc_install_component(cgal meshers flbc_cgal)
@@ -28,15 +37,18 @@ flbc_install_component(tetgen meshers flbc_tetgen)
 flbc_install_component(netgen meshers flbc_netgen)
 flbc_install_component(openmesh openmesh flbc_openmesh flbc_gltf)
 if(TARGET flbc_app)
-  install(TARGETS flbc_app COMPONENT program)
+  install(TARGETS flbc_app OPTIONAL COMPONENT program)
   find_program(FLBC_HELP2MAN help2man)
   if(FLBC_HELP2MAN AND NOT CMAKE_CROSSCOMPILING)
     set(manual ${CMAKE_CURRENT_BINARY_DIR}/flbc.1)
-    install(CODE "execute_process(
-      COMMAND ${FLBC_HELP2MAN} --no-info \"--name=${PROJECT_DESCRIPTION}\" --output=${manual}
-        $<TARGET_FILE:flbc_app>
-      COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
-    install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+    install(CODE "
+      if(EXISTS $<TARGET_FILE:flbc_app>)
+        execute_process(
+          COMMAND ${FLBC_HELP2MAN} --no-info \"--name=${PROJECT_DESCRIPTION}\" --output=${manual}
+            $<TARGET_FILE:flbc_app>
+          COMMAND_ERROR_IS_FATAL ANY)
+      endif()" COMPONENT program)
+    install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL COMPONENT program)
   endif()
   install(FILES engines/deform.glsl engines/deform.wgsl engines/webgl.html
     DESTINATION ${CMAKE_INSTALL_DATADIR}/flbc/engines COMPONENT program)

@@ -7,7 +7,7 @@ import os
 import textwrap
 import warnings
 from typing import (
-    TYPE_CHECKING, Any, Callable, Dict, NamedTuple, Optional, TypedDict, TypeVar, Union,
+    TYPE_CHECKING, Any, Callable, Dict, List, NamedTuple, Optional, TypedDict, TypeVar, Union,
 )
 
 import numpy as np
@@ -18,7 +18,7 @@ from ._shapes import (
     DomainMesh, as_array, as_cage, as_floats, as_indices, as_mesh, as_points, as_polygons,
     check_scalars, frozen, mesh_from,
 )
-from ._weights import dense_of, from_core, is_sparse
+from ._weights import dense_of, from_core, is_sparse, joined
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -302,8 +302,25 @@ class Solution:
                 **self._proof,
             )
 
-    def at(self, points: ArrayLike, outside: str = "fail") -> Floats:
-        """Evaluates the coordinates at points.
+    def _evaluated(self, function: Any, points: ArrayLike, *rest: Any) -> List[Any]:
+        """Results of _core for batches of points. Ctrl-C ends them between two batches."""
+        cage, mesh = self.cage, self.mesh
+        places = as_points(points, "points", cage.dim)
+
+        def results(part: Floats) -> Any:
+            return function(
+                cage.points, cage.facets, mesh.points, mesh.cells, self._parts, part, *rest
+            )
+
+        size = 100_000
+        try:
+            return [results(places[k : k + size]) for k in range(0, max(len(places), 1), size)]
+        except InputError:
+            results(places)  # its error counts and numbers all points
+            raise
+
+    def at(self, points: ArrayLike, outside: str = "fail", *, sparse: bool = False) -> Weights:
+        """Evaluates the coordinates at points. Ctrl-C ends the evaluation.
 
         Parameters
         ----------
@@ -313,10 +330,12 @@ class Solution:
             For points outside the cage: "fail", "nearest" (the weights of the nearest point of
             the cage, which the point follows at a constant offset), "keep" (no weights: the
             point stays where it is), or "extend" (reproduce the point, with negative weights).
+        sparse : bool, default False
+            Returns a matrix of SciPy without zeros, for many points.
 
         Returns
         -------
-        ndarray, shape (P, n)
+        ndarray or scipy.sparse.csr_matrix, shape (P, n)
 
         Raises
         ------
@@ -324,24 +343,21 @@ class Solution:
             If points are outside and `outside` is "fail".
         """
         check_scalars(outside=(outside, "a name"))
-        cage, mesh = self.cage, self.mesh
-        places = as_points(points, "points", cage.dim)
-        return dense_of(
-            _core.weights_at(
-                cage.points, cage.facets, mesh.points, mesh.cells, self._parts, places, outside
-            )
-        )
+        found = joined(self._evaluated(_core.weights_at, points, outside))
+        return from_core(found) if sparse else dense_of(found)
 
-    def gradients(self, points: ArrayLike) -> Floats:
+    def gradients(self, points: ArrayLike, *, exact: bool = False) -> Floats:
         """Evaluates the gradients of the coordinates at points.
 
         They are averages of the gradients of the cells around each mesh vertex, and linear in each
-        cell. The gradients at a point sum to zero over the control points.
+        cell; with `exact`, the derivatives of `at`, which are constant in each cell. The gradients
+        at a point sum to zero over the control points.
 
         Parameters
         ----------
         points : array_like, shape (P, d)
             Inside the cage, in its units.
+        exact : bool, default False
 
         Returns
         -------
@@ -354,12 +370,8 @@ class Solution:
         InputError
             If points are outside.
         """
-        cage, mesh = self.cage, self.mesh
-        places = as_points(points, "points", cage.dim)
-        found = _core.gradients(
-            cage.points, cage.facets, mesh.points, mesh.cells, self._parts, places
-        )
-        return found.reshape(len(places), len(cage), cage.dim)
+        found: Floats = np.concatenate(self._evaluated(_core.gradients, points, exact))
+        return found.reshape(len(found), len(self.cage), self.cage.dim)
 
     def __repr__(self) -> str:
         shape = f"{len(self.mesh)}x{len(self.cage)}"

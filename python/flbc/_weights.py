@@ -76,6 +76,14 @@ def dense_of(found: Any) -> Floats:
     return dense
 
 
+def joined(blocks: Any) -> Any:
+    """The parts of a sparse matrix from those of its blocks of rows."""
+    values, columns, starts, counts = zip(*blocks)
+    ends = np.cumsum([0, *map(len, values)])
+    rows = [s[1:] + end for s, end in zip(starts, ends)]
+    return np.concatenate(values), np.concatenate(columns), np.concatenate([[0], *rows]), counts[0]
+
+
 def cage_after(weights: Any, cage: CageLike) -> Cage:
     if isinstance(weights, Cage):
         raise InputError("the first argument is weights, and the second is the cage")

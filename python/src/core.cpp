@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include <Eigen/LU>
+
 #include "arrays.h"
 #include "flbc/border.h"
 #include "flbc/cage_facts.h"
@@ -209,17 +211,38 @@ py::object weights_at(const Doubles& points, const Indices& facets, const Double
   });
 }
 
+// The derivatives of piecewise linear weights.
+template <int Dim>
+SparseWeights exact_gradients(const Known<Dim>& known, const std::vector<Location<Dim>>& places) {
+  const Index rows = Dim * known.cage.size();
+  return SparseWeights::of(
+      rows, static_cast<Index>(places.size()), [&](Index p) -> Eigen::VectorXd {
+        const auto cell = known.mesh.cells.col(places[p].cell);
+        Eigen::Matrix<double, Dim, Dim> sides;
+        Eigen::Matrix<double, Dim, Eigen::Dynamic> differences(Dim, known.cage.size());
+        for (int k = 0; k < Dim; ++k) {
+          sides.row(k) = known.mesh.points.col(cell[k + 1]) - known.mesh.points.col(cell[0]);
+          differences.row(k) = known.weights.at(cell[k + 1]) - known.weights.at(cell[0]);
+        }
+        return (sides.inverse() * differences).eval().reshaped();
+      });
+}
+
 // Gradients at points, P x Dim n: number Dim i + d of a point is the derivative of weight i in
 // direction d.
+// \param exact  derivatives of the weights, instead of smooth gradients
 py::array gradients(const Doubles& points, const Indices& facets, const Doubles& vertices,
-                    const Indices& cells, const py::object& weights, const Doubles& places) {
+                    const Indices& cells, const py::object& weights, const Doubles& places,
+                    bool exact) {
   return by_dimension(points, [&](auto dim) {
     constexpr int kDim = decltype(dim)::value;
     const Known<kDim> known(points, facets, vertices, cells, weights, places);
     return as_array(without_gil([&] {
       const auto placement = place_points(known.cage, known.mesh, known.places);
       const auto found = places_in_mesh(known.cage, known.mesh, placement);
-      return gradients_at(known.mesh, known.weights, found).dense();
+      return (exact ? exact_gradients(known, found)
+                    : gradients_at(known.mesh, known.weights, found))
+          .dense();
     }));
   });
 }

@@ -14,6 +14,7 @@ import time
 import flbc
 import numpy as np
 import pytest
+import scipy.sparse
 from conftest import MESHES
 
 
@@ -150,6 +151,16 @@ binding.reduced(6)
 """
 
 
+EVALUATION = """
+import flbc, numpy
+cage = flbc.read_cage({cage!r})
+solution = flbc.solve(cage, flbc.mesh(cage, vertices=1000), tolerance=1)
+points = numpy.tile(solution.mesh.points, (5000, 1))
+print("ready", flush=True)
+solution.at(points, sparse=True)
+"""
+
+
 def time_of_processor(process=None):
     """Of a child that runs, or of all that have ended; unlike a clock, the same on a busy machine."""
     if process is None:
@@ -159,7 +170,8 @@ def time_of_processor(process=None):
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-@pytest.mark.parametrize("code", [SLOW, REDUCTION], ids=["solve", "reduction"])
+@pytest.mark.parametrize("code", [SLOW, REDUCTION, EVALUATION],
+                         ids=["solve", "reduction", "evaluation"])
 def test_ctrl_c_stops_work(code):
     code = code.format(cage=str(MESHES / "3d/limb_cage.obj"),
                        model=str(MESHES / "3d/limb_model.obj"))
@@ -297,6 +309,22 @@ def test_gradients_are_those_of_the_weights(flat, solid):
         assert abs(jacobians - matrix).max() < 1e-8
         with pytest.raises(flbc.InputError, match="outside"):
             solution.gradients(points + 1e3)
+        exact, step = solution.gradients(points, exact=True), 1e-6 * np.ptp(cage.points)
+        for k, direction in enumerate(step * np.eye(cage.dim)):
+            change = solution.at(points + direction) - solution.at(points - direction)
+            assert abs(change / (2 * step) - exact[:, :, k]).max() < 1e-6
+
+
+def test_many_points_are_evaluated_in_batches(flat):
+    points = np.random.default_rng(1).uniform(0.1, 0.9, (250_000, 2))
+    few = np.arange(0, len(points), 9999)
+    sparse = flat.at(points, sparse=True)
+    assert (sparse != scipy.sparse.csr_matrix(flat.at(points))).nnz == 0
+    assert (sparse[few].toarray() == flat.at(points[few])).all()
+    assert (flat.gradients(points)[few] == flat.gradients(points[few])).all()
+    points[[7, 222_222]] = [[2, 0], [3, 0]]
+    with pytest.raises(flbc.InputError, match="^2 .*222222"):
+        flat.at(points)
 
 
 def test_import_is_fast():

@@ -116,5 +116,15 @@ TEST_F(TransferCommand, RefusesWithReason) {
   expect_transfer(weights + " --to " + far + " --from " + cage, 2, "has weights of 3 points");
 }
 
+TEST_F(TransferCommand, VerticesOutsideFollowTheNearestPointOfTheCage) {
+  const auto cage = file("cage.obj", "v 0 0\nv 1 0\nv 1 1\nv 0 1\nl 1 2 3 4 1\n");
+  const auto model = file("model.obj", "v 0.1 0.1 0\nv 0.9 0.1 0\nv 0.1 0.9 0\nf 1 2 3\n");
+  const auto wide = file("wide.obj", "v 0.1 0.1 0\nv 1.1 0.1 0\nv 0.1 0.9 0\nf 1 2 3\n");
+  expect("solve " + cage + " --method harmonic --vertices 200 -q --model " + model + " -o w.npy");
+  expect_transfer(
+      "w.npy --cage " + cage + " -o t.npy --to " + wide + " --from " + model + " --limit 0.5", 0,
+      "they follow its nearest point at a constant offset");
+}
+
 }  // namespace
 }  // namespace flbc::testing

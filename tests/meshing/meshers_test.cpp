@@ -4,6 +4,7 @@
 
 #include "support/mesh_checks.h"
 #include "support/model_cages.h"
+#include "support/sample_meshes.h"
 
 namespace flbc::testing {
 namespace {
@@ -37,6 +38,20 @@ TEST_IN_2D_AND_3D(MeshersTest, EmbeddedPointsFollowTheControlPoints) {
     expect_fills(cage, mesh, Dim == 2 ? 3 : 7);
     expect_vertices<Dim>(mesh, cage.size(), points);
     if (count > 0) expect_count(mesh, count, Dim == 2 ? 0.05 : 0.10);
+  }
+}
+
+TEST_IN_2D_AND_3D(MeshersTest, UnitsDoNotMatter) {
+  const auto cage = boundary_of(make_sample<Dim>(Shape::kStar, 2, 0.2).mesh);
+  const double size = bounding_box_diagonal(cage.points);
+  const auto mesh = fill<Dim>(cage, vertices<Dim>(1500));
+  for (const double unit : {0.001, 1000.0}) {
+    SCOPED_TRACE(unit);
+    const Cage<Dim> other{unit * cage.points, cage.facets};
+    const auto scaled = fill<Dim>(other, vertices<Dim>(1500));
+    expect_fills(other, scaled);
+    ASSERT_EQ(scaled.cells, mesh.cells);
+    EXPECT_LT((scaled.points / unit - mesh.points).cwiseAbs().maxCoeff(), 1e-12 * size);
   }
 }
 

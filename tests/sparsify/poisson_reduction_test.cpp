@@ -130,6 +130,7 @@ TEST_IN_2D_AND_3D(PoissonReductionTest, NothingTearsWhereVerticesAreDoubled) {
   WeightMatrix welded(12, 80);
   for (std::size_t k = 0; k < origin.size(); ++k) welded.col(origin[k]) = sparse.col(k);
   EXPECT_EQ(sparse, welded(Eigen::all, origin));
+  EXPECT_LT((welded - problem.reduce(at_most(Dim + 2))).cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_LT(problem.cost(welded), 0.8 * problem.cost(problem.plain(at_most(Dim + 2))));
 }
 

@@ -233,7 +233,7 @@ Binding<Dim> Binding<Dim>::transferred(const FacetList<3>& corners, const PointL
   auto result =
       bound_by<Dim>(cage, to, transfer(to, placement, masked, distances), std::move(to_edges));
   result.masks = is_masked;
-  result.policy = policy;
+  result.policy = placement.outside.empty() ? policy : placement.policy;
   result.outside.clear();
   for (const auto& point : placement.outside) result.outside.push_back(point.point);
   result.report = report;

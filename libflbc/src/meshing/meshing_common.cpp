@@ -95,6 +95,28 @@ PointList<Dim> collect_input_points(const Cage<Dim>& cage, const MeshingOptions<
   return input;
 }
 
+template <int Dim>
+DecimalUnit<Dim>::DecimalUnit(const PointList<Dim>& cage)
+    : exponent_(static_cast<int>(std::floor(std::log10(bounding_box_diagonal(cage) / 1.4)))) {
+}
+
+template <int Dim>
+PointList<Dim> DecimalUnit<Dim>::scaled(const PointList<Dim>& points) const {
+  constexpr int kDecimals = 12;
+  return (points * std::pow(10.0, kDecimals - exponent_)).array().round() /
+         std::pow(10.0, kDecimals);
+}
+
+template <int Dim>
+PointList<Dim> DecimalUnit<Dim>::restored(const PointList<Dim>& points,
+                                          const PointList<Dim>& input) const {
+  PointList<Dim> result = points;
+  if (exponent_ >= 0) result *= length();
+  if (exponent_ < 0) result /= std::pow(10.0, -exponent_);
+  result.leftCols(input.cols()) = input;
+  return result;
+}
+
 void check_vertex_count(Index wanted, Index minimum, double tolerance) {
   if (wanted == 0 || wanted >= (1 - tolerance) * minimum) return;
   throw TooFewVertices(
@@ -131,6 +153,8 @@ void finish_mesh(DomainMesh<Dim>& mesh, Index num_input_points) {
   require_connected(mesh);
 }
 
+template class DecimalUnit<2>;
+template class DecimalUnit<3>;
 FLBC_INSTANTIATE_FUNCTION(collect_input_points)
 FLBC_INSTANTIATE_FUNCTION(total_measure)
 FLBC_INSTANTIATE_FUNCTION(finish_mesh)

@@ -2,6 +2,7 @@
 // Common steps of meshers before and after the external library.
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include "flbc/cage.h"
@@ -18,6 +19,26 @@ constexpr double kPointTolerance = 1e-8;
 //! not strictly inside the cage, or coincides with another one or with a control point
 template <int Dim>
 PointList<Dim> collect_input_points(const Cage<Dim>& cage, const MeshingOptions<Dim>& options);
+
+//! Units in which meshers compute, because the last bits of coordinates decide about a mesh. Cages
+//! whose units differ by a power of ten, such as meters and millimeters, get the same mesh: their
+//! sizes are taken to the decade from 1.4 to 14, where coordinates are rounded to 12 decimals.
+template <int Dim>
+class DecimalUnit {
+ public:
+  explicit DecimalUnit(const PointList<Dim>& cage);
+
+  //! Cages in this decade, with at most 12 decimals, are unchanged.
+  PointList<Dim> scaled(const PointList<Dim>& points) const;
+
+  //! \param input  the first points of the result, before scaled()
+  PointList<Dim> restored(const PointList<Dim>& points, const PointList<Dim>& input) const;
+
+  double length() const { return std::pow(10.0, exponent_); }  //!< of this unit
+
+ private:
+  int exponent_;
+};
 
 //! \throws OptionError if `wanted` vertices (0 = any number) are fewer than `minimum`, by more than
 //! the relative `tolerance`

@@ -386,18 +386,11 @@ std::vector<Loop> simplified(const std::vector<Loop>& loops, double tolerance) {
   return result;
 }
 
-}  // namespace
-
-void read_svg(const std::string& path, Extent, ModelScan& scan) {
+// What is to be seen of a drawing, as large as it can be painted. \param without  what is left out,
+// for messages \param bottom  output: lower edge of the model
+Picture close_picture(const Drawing& drawing, const std::string& path, const std::string& without,
+                      double& bottom) {
   constexpr int kPixels = 2048;
-  constexpr double kTolerance = 2;  // pixels, 0.1% of the longer side
-  scan.fixed = path + ": a drawing is only read; write .obj";
-  std::string without;
-  if (scan.text.find("foreignObject") != std::string::npos) {
-    without = "; the HTML in it (foreignObject) is left out";
-    scan.model.notes.push_back(without.substr(2));
-  }
-  const auto drawing = without_background(path, scan.text);
   auto picture = drawing.paint(drawing.box(), kPixels);
   for (int closer = 0; closer < 2; ++closer) {
     const auto part = picture.seen_box();
@@ -405,8 +398,22 @@ void read_svg(const std::string& path, Extent, ModelScan& scan) {
       throw InputError(path + ": nothing is to be seen in this drawing" + without);
     picture = drawing.paint(part, kPixels);
   }
-  const double bottom =
-      drawing.is_endless() ? picture.seen_box().max().y() : drawing.box().max().y();
+  bottom = drawing.is_endless() ? picture.seen_box().max().y() : drawing.box().max().y();
+  return picture;
+}
+
+}  // namespace
+
+void read_svg(const std::string& path, Extent, ModelScan& scan) {
+  constexpr double kTolerance = 2;  // pixels, 0.1% of the longer side
+  scan.fixed = path + ": a drawing is only read; write .obj";
+  std::string without;
+  if (scan.text.find("foreignObject") != std::string::npos) {
+    without = "; the HTML in it (foreignObject) is left out";
+    scan.model.notes.push_back(without.substr(2));
+  }
+  double bottom = 0;
+  const auto picture = close_picture(without_background(path, scan.text), path, without, bottom);
   auto& soup = scan.model.soup;
   for (const auto& loop : simplified(Tracer(picture).loops(), kTolerance)) {
     auto& polyline = soup.polylines.emplace_back(loop.size());
@@ -421,10 +428,11 @@ void read_svg(const std::string& path, Extent, ModelScan& scan) {
 
 SvgDocument read_drawing(const std::string& path) {
   const auto text = read_file(path);
-  const Drawing drawing(path, text);
-  const Vector<2> page = drawing.box().sizes();
-  const Eigen::Affine2d upwards(Eigen::Translation2d(0, page.y()) * Eigen::Scaling(1.0, -1.0));
-  return {text, path, page, upwards};
+  const auto drawing = without_background(path, text);
+  double bottom = 0;
+  close_picture(drawing, path, "", bottom);
+  const Eigen::Affine2d upwards(Eigen::Translation2d(0, bottom) * Eigen::Scaling(1.0, -1.0));
+  return {text, path, drawing.box().sizes(), upwards};
 }
 
 }  // namespace flbc::io

@@ -156,15 +156,21 @@ DomainMesh<2> triangulate(const Cage<2>& cage, const MeshingOptions<2>& options)
   if (!defects.empty()) throw InputError(defects.front().message);
   const PointList<2> input = collect_input_points(cage, options);
 
-  DomainMesh<2> mesh = mesh_interior(cage, input, 0, options);
+  const DecimalUnit<2> unit(cage.points);
+  const auto scaled = unit.scaled(input);
+  const auto make_mesh = [&](double longest_edge) {
+    auto mesh = mesh_interior(cage, scaled, longest_edge / unit.length(), options);
+    mesh.points = unit.restored(mesh.points, input);
+    return mesh;
+  };
+
+  DomainMesh<2> mesh = make_mesh(0);
   check_vertex_count(options.vertices, mesh.num_vertices(), kCountTolerance);
   auto goal = VertexCountGoal<2>::of(options.vertices, kCountTolerance, mesh);
   if (options.vertices > mesh.num_vertices()) {
     // Assumes half as many vertices as triangles, and nearly equilateral triangles.
     const double first_bound = 1.6 * std::sqrt(total_measure(mesh) / goal.before_refining());
-    mesh = search_vertex_count<2>(goal, std::move(mesh), first_bound, 2, [&](double longest_edge) {
-      return mesh_interior(cage, input, longest_edge, options);
-    });
+    mesh = search_vertex_count<2>(goal, std::move(mesh), first_bound, 2, make_mesh);
   }
   finish_mesh(mesh, static_cast<Index>(input.cols()));
   return goal.result(std::move(mesh));

@@ -165,7 +165,9 @@ ProcessOutcome run_with_fallbacks(const TetgenInput& input, const std::string& s
 
 TetgenOutput run_tetgen(const TetgenInput& input, const std::string& switches,
                         const Patience& patience) {
-  const ProcessOutcome outcome = run_with_fallbacks(input, switches, patience);
+  const DecimalUnit<3> unit(input.points);
+  const ProcessOutcome outcome = run_with_fallbacks(
+      {unit.scaled(input.points), input.triangles, unit.scaled(input.holes)}, switches, patience);
   refuse_failure(outcome, patience.seconds);
 
   ByteSource source(outcome.output, [] { fail("sent an incomplete result"); });
@@ -178,6 +180,7 @@ TetgenOutput run_tetgen(const TetgenInput& input, const std::string& switches,
   source.take(result.mesh.points.data(), 3 * std::size_t(header.num_points));
   source.take(result.mesh.cells.data(), 4 * std::size_t(header.num_cells));
   source.take(result.regions.data(), result.regions.size());
+  result.mesh.points = unit.restored(result.mesh.points, input.points);
   return result;
 }
 

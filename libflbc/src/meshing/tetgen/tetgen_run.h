@@ -24,6 +24,7 @@ struct TetgenOutput {
   std::vector<Index> regions;  //!< per cell, the index of its region; facets separate regions
 };
 
+//! Runs TetGen in the units of DecimalUnit(input.points), to which volumes in switches refer.
 //! \param switches  of TetGen, for example "pq1.414QJA"
 //! \throws InputError if TetGen fails, crashes, or exceeds the time limit
 TetgenOutput run_tetgen(const TetgenInput& input, const std::string& switches,

@@ -167,8 +167,10 @@ struct Task {
 // \param patience  for each run of TetGen
 DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, const Patience& patience) {
   const Index most_points = std::max(kMostPoints, 4 * task.vertices);
+  const DecimalUnit<3> unit(task.input.points);
   const auto make_mesh = [&](double ratio, double largest_volume) {
-    const std::string switches = quality_switches(coplanar, ratio, largest_volume, most_points);
+    const double volume = largest_volume / std::pow(unit.length(), 3);
+    const std::string switches = quality_switches(coplanar, ratio, volume, most_points);
     DomainMesh<3> mesh = run_tetgen(task.input, switches, patience).mesh;
     if (mesh.num_vertices() - task.input.points.cols() >= most_points) {
       throw InputError("well-shaped cells would need more than " + std::to_string(most_points) +

@@ -2,12 +2,14 @@
 #include "sparsify/poisson/edge_graph.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <utility>
+
+#include "base/instantiate.h"
 
 namespace flbc {
-namespace {
 
-// For every point, the first point with the same position, weights, and masks.
 template <int Dim>
 std::vector<Index> find_representatives(const PointList<Dim>& points, const SparseWeights& weights,
                                         const PointMasks& masks) {
@@ -32,16 +34,30 @@ std::vector<Index> find_representatives(const PointList<Dim>& points, const Spar
   return representatives;
 }
 
-}  // namespace
+EdgeList welded_edges(const EdgeList& edges, const std::vector<Index>& number_of) {
+  std::vector<std::pair<std::array<Index, 2>, double>> all;
+  for (std::size_t e = 0; e < edges.ends.size(); ++e) {
+    const auto [a, b] = std::minmax(number_of[edges.ends[e][0]], number_of[edges.ends[e][1]]);
+    if (a != b) all.push_back({{a, b}, edges.weights.empty() ? 1 : edges.weights[e]});
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& s, const auto& t) { return s.first < t.first; });
+  EdgeList welded;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (k == 0 || all[k].first != all[k - 1].first) {
+      welded.ends.push_back(all[k].first);
+      welded.weights.push_back(0);
+    }
+    welded.weights.back() += all[k].second;
+  }
+  return welded;
+}
 
 template <int Dim>
-EdgeGraph::EdgeGraph(const PointList<Dim>& points, const SparseWeights& weights,
-                     const EdgeList& edges, const PointMasks& masks)
-    : representatives_(find_representatives<Dim>(points, weights, masks)) {
+EdgeGraph::EdgeGraph(const PointList<Dim>& points, const EdgeList& edges) {
   neighbours_ = items_by_vertex<Neighbour>(points.cols(), [&](const auto& visit) {
     for (std::size_t e = 0; e < edges.ends.size(); ++e) {
-      const Index a = representatives_[edges.ends[e][0]];
-      const Index b = representatives_[edges.ends[e][1]];
+      const auto [a, b] = edges.ends[e];
       if (a == b) continue;
       const double weight = edges.weights.empty() ? 1 : edges.weights[e];
       visit(a, Neighbour{b, weight});
@@ -60,7 +76,7 @@ EdgeGraph::EdgeGraph(const PointList<Dim>& points, const SparseWeights& weights,
 std::vector<EdgeGraph::Block> EdgeGraph::make_blocks() const {
   constexpr std::size_t kBlock = 128;  // points: their weights fit into the cache of a core
   std::vector<Block> blocks;
-  for (Index a = 0; a < static_cast<Index>(representatives_.size()); ++a) {
+  for (Index a = 0; a < static_cast<Index>(masses_.size()); ++a) {
     const auto neighbours = neighbours_of(a);
     if (neighbours.first == neighbours.last) continue;
     if (blocks.empty() || blocks.back().size() == kBlock) blocks.emplace_back();
@@ -71,7 +87,7 @@ std::vector<EdgeGraph::Block> EdgeGraph::make_blocks() const {
 
 // Greedy coloring: every block gets the first color that no neighbor has.
 void EdgeGraph::color(const std::vector<Block>& blocks) {
-  std::vector<std::size_t> block_of(representatives_.size());
+  std::vector<std::size_t> block_of(masses_.size());
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     for (const Index a : blocks[b]) block_of[a] = b;
   }
@@ -90,9 +106,8 @@ void EdgeGraph::color(const std::vector<Block>& blocks) {
   }
 }
 
-template EdgeGraph::EdgeGraph(const PointList<2>&, const SparseWeights&, const EdgeList&,
-                              const PointMasks&);
-template EdgeGraph::EdgeGraph(const PointList<3>&, const SparseWeights&, const EdgeList&,
-                              const PointMasks&);
+template EdgeGraph::EdgeGraph(const PointList<2>&, const EdgeList&);
+template EdgeGraph::EdgeGraph(const PointList<3>&, const EdgeList&);
+FLBC_INSTANTIATE_FUNCTION(find_representatives)
 
 }  // namespace flbc

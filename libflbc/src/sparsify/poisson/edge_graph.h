@@ -12,8 +12,16 @@
 
 namespace flbc {
 
-//! Coincident points with equal weights and masks are merged, including their edges, so that
-//! duplicated vertices (for example at texture seams) do not separate.
+//! For every point, the first point with the same position, weights, and masks. Duplicated vertices
+//! (for example at texture seams) must not separate.
+template <int Dim>
+std::vector<Index> find_representatives(const PointList<Dim>& points, const SparseWeights& weights,
+                                        const PointMasks& masks);
+
+//! The edges between representatives, each of which has the weights of all of its duplicates.
+//! \param number_of  of the representative of each point; the result uses these numbers
+EdgeList welded_edges(const EdgeList& edges, const std::vector<Index>& number_of);
+
 class EdgeGraph {
  public:
   struct Neighbour {
@@ -21,21 +29,16 @@ class EdgeGraph {
     double weight;
   };
 
-  //! \param points  Dim x P \param weights, masks  of P points \param edges  validated
+  //! \param points  Dim x P \param edges  validated
   template <int Dim>
-  EdgeGraph(const PointList<Dim>& points, const SparseWeights& weights, const EdgeList& edges,
-            const PointMasks& masks);
+  EdgeGraph(const PointList<Dim>& points, const EdgeList& edges);
 
-  //! The representative of a point: the first of its merged points.
-  Index representative(Index point) const { return representatives_[point]; }
-
-  //! The neighbors of a representative; other points have none.
   VertexItems<Neighbour>::Range neighbours_of(Index point) const { return neighbours_.of(point); }
 
   //! The sum of k_e |edge|^2 / 2 over the edges of a point, its share of area or volume.
   double mass(Index point) const { return masses_[point]; }
 
-  //! Consecutive representatives with neighbors. If close points have close numbers, a pass through
+  //! Consecutive points with neighbors. If close points have close numbers, a pass through
   //! a block finds most of what it needs in the cache.
   using Block = std::vector<Index>;
 
@@ -46,7 +49,6 @@ class EdgeGraph {
   std::vector<Block> make_blocks() const;
   void color(const std::vector<Block>& blocks);
 
-  std::vector<Index> representatives_;
   VertexItems<Neighbour> neighbours_;
   std::vector<double> masses_;
   std::vector<std::vector<Block>> colors_;

@@ -90,8 +90,7 @@ void overshoot(const PointWeights& before, PointWeights& after) {
   }
 }
 
-// Decreases the energy by changing the sparse weights of one point at a time. Points merged in the
-// graph count as one.
+// Decreases the energy by changing the sparse weights of one point at a time.
 template <int Dim>
 class PoissonDescent {
  public:
@@ -207,13 +206,12 @@ class PoissonDescent {
   // The weights of a point with exact sum and reproduction. Points without edges, or where
   // rounding prevents this, get those of sparsify(). Thread-safe.
   Eigen::VectorXd weights_of(Index point) const {
-    const Index representative = graph_.representative(point);
     Eigen::VectorXd projected = projected_.at(point), exact;
-    if (has_neighbours(representative)) {
-      const auto weights = to_dense(weights_[representative], control_points_.cols());
+    if (has_neighbours(point)) {
+      const auto weights = to_dense(weights_[point], control_points_.cols());
       if (weights == projected) return projected;
-      if (sparsifier_.projection().project(points_.col(point), weights_[representative].support,
-                                           weights, exact)) {
+      if (sparsifier_.projection().project(points_.col(point), weights_[point].support, weights,
+                                           exact)) {
         return exact;
       }
     }
@@ -498,10 +496,22 @@ SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const Poin
     return project_non_negative(control_points, points, weights, {}, masks);  // checks the input
   }();
   const auto& given = masks.empty() ? weights : projected;  // masked influences never enter
-  const auto energy = make_poisson_energy<Dim>(control_points, points, edges, poses);
-  const auto order = breadth_first_order(static_cast<Index>(points.cols()), edges);
-  std::vector<Index> place(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = static_cast<Index>(k);
+  // The representatives get numbers in their order, then their places in that of the descent.
+  std::vector<Index> place = find_representatives<Dim>(points, given, masks), order;
+  for (Index a = 0; a < static_cast<Index>(place.size()); ++a) {
+    const bool is_first = place[a] == a;
+    place[a] = is_first ? static_cast<Index>(order.size()) : place[place[a]];
+    if (is_first) order.push_back(a);
+  }
+  EdgeList sorted_edges = order.size() < place.size() ? welded_edges(edges, place) : edges;
+  const auto energy = make_poisson_energy<Dim>(control_points, points(Eigen::all, order).eval(),
+                                               sorted_edges, poses);
+  const auto found = breadth_first_order(static_cast<Index>(order.size()), sorted_edges);
+  std::vector<Index> rank(order.size());
+  for (std::size_t k = 0; k < found.size(); ++k) rank[found[k]] = static_cast<Index>(k);
+  renumber(place, rank);
+  for (auto& ends : sorted_edges.ends) renumber(ends, rank);
+  for (std::size_t a = place.size(); a-- > 0;) order[place[a]] = static_cast<Index>(a);
   const PointList<Dim> sorted_points = points(Eigen::all, order);
   const auto sorted_given = take_points(given, order);
   const auto sorted_projected = take_points(projected, order);
@@ -513,9 +523,7 @@ SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const Poin
   SparsifyOptions sorted_options = options;
   for (auto& mask : sorted_options.masks) renumber(mask.points, place);
   const auto sorted_masks = masks_of(sorted_options, sorted_given);
-  EdgeList sorted_edges = edges;
-  for (auto& ends : sorted_edges.ends) renumber(ends, place);
-  const EdgeGraph graph(sorted_points, sorted_given, sorted_edges, sorted_masks);
+  const EdgeGraph graph(sorted_points, sorted_edges);
   PoissonDescent<Dim> descent(energy, graph, control_points, sorted_points, sorted_given,
                               sorted_projected, sorted_start, options, sorted_masks);
   {
