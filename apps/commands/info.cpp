@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <numeric>
 
 #include "commands/commands.h"
 #include "flbc/errors.h"
@@ -13,6 +14,7 @@
 #include "flbc/quality.h"
 #include "front/estimate.h"
 #include "front/gltf_facts.h"
+#include "front/load.h"
 #include "front/make_domain.h"
 #include "front/movable_model.h"
 
@@ -106,6 +108,15 @@ void print_polygons(const InfoArguments& arguments) {
             << " polygons, " << soup.polylines.size() << " polylines\n";
   if (soup.points.empty()) return;
   print_box(io::to_points<3>(soup, path));
+  constexpr std::size_t kMostFacets = 100000;  // the check of a scan would take minutes
+  const auto num_facets = std::accumulate(
+      soup.polylines.begin(), soup.polylines.end(), soup.polygons.size(),
+      [](std::size_t sum, const auto& polyline) { return sum + polyline.size() - 1; });
+  if (num_facets > kMostFacets) {
+    std::cout << "  not checked as a cage, because it has more than " << kMostFacets
+              << " facets; flbc check does\n";
+    return;
+  }
   try {
     std::visit([&](const auto& cage) { print_cage(cage, arguments); }, io::to_cage(soup, path));
   } catch (const InputError& error) {

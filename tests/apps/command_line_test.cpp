@@ -141,6 +141,9 @@ TEST_F(CommandLine, TellsWhatIsInAFile) {
   result = expect("info " + file("scan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"));
   expect_piece(result.output, "4 vertices");
   expect_piece(result.output, "no facets and no polylines");
+  std::string scan = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int face = 0; face <= 100000; ++face) scan += "f 1 2 3\n";
+  expect_piece(expect("info " + file("scan.obj", scan)).output, "not checked as a cage");
   expect("info missing.obj", 4);
 }
 

@@ -31,7 +31,9 @@ TEST_IN_2D_AND_3D(SelfIntersectionTest, OverlappingBoxes) {
     EXPECT_TRUE(mentions(
         defect, std::to_string(defect.facets[0]) + " and " + std::to_string(defect.facets[1])));
   }
-  EXPECT_EQ(find_self_intersections(both, 1).size(), 1u);
+  const auto first = find_self_intersections(both, 1);
+  ASSERT_EQ(first.size(), 1u);
+  EXPECT_EQ(first[0].facets, defects[0].facets);
 }
 
 TEST_IN_2D_AND_3D(SelfIntersectionTest, CornerOnAFacetTouches) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What glTF documents say about shapes: skins, morph targets, mirrored nodes; what is not
 // understood; and what stays when vertices move.
+#include <cstdio>
+#include <cstring>
+#include <limits>
 #include <random>
 #include <sstream>
 
@@ -269,6 +272,104 @@ TEST_F(GltfDocumentTest, AddressesAreDecoded) {
   EXPECT_EQ(points(text), corners());
   expect_error<InputError>([&] { moved(text, 2 * points(text)); },
                            {"a.gltf", "write .glb or another format"});
+}
+
+// RFC 2397, in any case of letters.
+TEST_F(GltfDocumentTest, AddressesMayHoldTheirData) {
+  auto file = tetrahedron();
+  std::string percent;
+  for (const char c : file.bytes) {
+    char code[4];
+    std::snprintf(code, sizeof code, "%%%02x", static_cast<unsigned char>(c));
+    percent += code;
+  }
+  file.json["buffers"][0]["byteLength"] = file.bytes.size();
+  for (const std::string head : {"data:application/octet-stream,", "DATA:,"}) {
+    file.json["buffers"][0]["uri"] = head + percent;
+    make("a.gltf", file.json.dump());
+    EXPECT_EQ(io::to_points<3>(ModelFile(path("a.gltf")).model().soup, ""), corners());
+  }
+  file.json["buffers"][0] = {{"byteLength", 3}, {"uri", "DATA:;BASE64,AAAA"}};
+  refuse(file, "buffer view 0 ends outside its buffer");  // not: no such file
+  file.json["buffers"][0]["uri"] = "blob:" + std::string(2000, 'x');
+  make("bad.gltf", file.json.dump());
+  expect_error<InputError>([&] { ModelFile(path("bad.gltf")); },
+                           {"the address \"blob:xx", "...\" is no file"});
+}
+
+// --------------------------------------------------------------------------- what is not
+// understood
+
+TEST_F(GltfDocumentTest, ScenesWithoutAMeshSayWhy) {
+  auto file = tetrahedron();
+  file.json["nodes"] = Json::array();
+  file.json["scenes"] = {Json::object()};
+  refuse(file, "1 mesh, but no node of the scene uses");
+  file.json["scenes"] = Json::array();
+  refuse(file, "1 mesh, but no node of the scene uses");
+  file.json.erase("meshes");
+  refuse(file, "has no meshes");
+  // Without a scene all nodes count.
+  auto all = tetrahedron();
+  all.json["scenes"] = Json::array();
+  EXPECT_EQ(points(all), corners());
+}
+
+TEST_F(GltfDocumentTest, NodesCountOnce) {
+  auto file = tetrahedron();
+  file.json["scenes"][0]["nodes"] = {0, 0};
+  EXPECT_EQ(read(file).model().soup.polygons.size(), 4U);
+  file.json["nodes"].push_back({{"children", {0, 0}}});
+  file.json["scenes"][0]["nodes"] = {1};
+  refuse(file, "node 0 has two parents");
+}
+
+TEST_F(GltfDocumentTest, WhatIsNotReadIsNoted) {
+  const auto note_of = [&](const NewGlb& file) {
+    const auto notes = read(file).model().notes;
+    return notes.size() == 1 ? notes[0] : std::to_string(notes.size()) + " notes";
+  };
+  auto scenes = tetrahedron();
+  scenes.json["scenes"].push_back(scenes.json["scenes"][0]);
+  scenes.json["scene"] = 1;
+  EXPECT_EQ(note_of(scenes), "only scene 1 of 2 is read");
+  auto flat = tetrahedron();
+  flat.primitive(0)["indices"] =
+      flat.add<std::uint16_t>((Eigen::RowVectorXd(15) << kFaces, 0, 1, 0).finished());
+  EXPECT_EQ(note_of(flat), "1 triangle without area is left out");
+  EXPECT_EQ(read(flat).model().soup.polygons.size(), 4U);
+  Skinned skinned;
+  auto& attributes = skinned.file.primitive(0)["attributes"];
+  Points weights = Points::Zero(4, 4);
+  weights.row(0).setOnes();
+  weights(1, 2) = -0.125;
+  attributes["WEIGHTS_0"] = skinned.file.add<float>(weights);
+  EXPECT_EQ(note_of(skinned.file), "vertex 2 of a mesh has a negative weight");
+  weights(1, 2) = std::numeric_limits<double>::infinity();
+  attributes["WEIGHTS_0"] = skinned.file.add<float>(weights);
+  refuse(skinned.file, "vertex 2 of a mesh has a weight that is not finite");
+}
+
+TEST_F(GltfDocumentTest, OtherVersionsAndMissingChunksAreNamed) {
+  const auto whole = tetrahedron().glb();
+  for (const int version : {1, 3}) {
+    auto other = whole;
+    other[4] = static_cast<char>(version);
+    make("bad.glb", other);
+    expect_error<InputError>([&] { ModelFile(path("bad.glb")); },
+                             {"version " + std::to_string(version) + " is not supported"});
+    auto file = tetrahedron();
+    file.json["asset"]["version"] = std::to_string(version) + ".0";
+    refuse(file, "version " + std::to_string(version) + " is not supported");
+  }
+  std::uint32_t size = 0;
+  std::memcpy(&size, whole.data() + 12, sizeof size);
+  make("bad.glb", whole.substr(0, 20 + size));
+  expect_error<InputError>([&] { ModelFile(path("bad.glb")); }, {"the binary chunk is missing"});
+}
+
+TEST_F(GltfDocumentTest, FilesWithoutTheirBuffersAreNamed) {
+  auto file = tetrahedron();
   file.json["buffers"][0]["uri"] = "gone%21.bin";
   make("lost.glb", file.glb());
   expect_error<IoError>([&] { ModelFile(path("lost.glb")); }, {"lost.glb: ", "gone!.bin"});
@@ -293,8 +394,9 @@ TEST_F(GltfDocumentTest, ExtensionsAreRefusedOrNoted) {
   file.json.erase("extensionsRequired");
   EXPECT_TRUE(read(file).model().notes.empty());
   file.json["extensionsUsed"] = file.json["extensionsRequired"] = {
-      "KHR_mesh_quantization", "KHR_materials_unlit", "EXT_texture_webp", "EXT_texture_avif",
-      "KHR_texture_basisu"};
+      "KHR_mesh_quantization", "KHR_materials_unlit", "EXT_texture_webp",
+      "EXT_texture_avif",      "KHR_texture_basisu",  "KHR_texture_ktx",
+      "GOOGLE_texture_basis",  "KHR_techniques_webgl"};
   EXPECT_TRUE(read(file).model().notes.empty());
 }
 
@@ -422,6 +524,34 @@ TEST_F(GltfDocumentTest, TangentsAndMorphTargetsTurnAlong) {
     EXPECT_LT((target - turn * node.linear() * Vector<3>::Constant(0.5)).norm(), 1e-6);
     const Vector<3> tangent = node.linear() * tangents.col(v).head<3>().cast<double>();
     EXPECT_LT((tangent.normalized() - turn * Vector<3>::UnitY()).norm(), 1e-5);
+  }
+}
+
+// The surface is n x t, and textures run along t and w n x t, wherever the vertices are.
+TEST_F(GltfDocumentTest, TangentsKeepTheirSideOfTheTexture) {
+  const auto original = painted();  // w = -1
+  const auto file = read(original);
+  const GlbChunks before(original.glb());
+  Eigen::Matrix3d mirror = Vector<3>(-1, 1, 1).asDiagonal();
+  Eigen::Matrix3d shear;
+  shear << -1, 0.25, 0.5,  //
+      0.5, 3, 0,           //
+      0, -0.5, 0.5;
+  for (const Eigen::Matrix3d& map : {mirror, shear}) {
+    const auto after = moved(file, map * io::to_points<3>(file.model().soup, ""));
+    for (int v = 0; v < 4; ++v) {
+      const auto frame = [&](const GlbChunks& chunks) {
+        return std::pair(Vector<3>(chunks.floats(2, 3).col(v).cast<double>()),
+                         Eigen::Vector4d(chunks.floats(3, 4).col(v).cast<double>()));
+      };
+      const auto [n, t] = frame(before);
+      const auto [normal, tangent] = frame(after);
+      // The triangles keep their corners, so that their front is where the cofactors say.
+      const Vector<3> expected = map.determinant() * map.inverse().transpose() * n;
+      EXPECT_LT((normal - expected.normalized()).norm(), 1e-5);
+      const Vector<3> across = map * n.cross(t.head<3>()) * t[3];
+      EXPECT_GT(across.dot(normal.cross(tangent.head<3>()) * tangent[3]), 0);
+    }
   }
 }
 

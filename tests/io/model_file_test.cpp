@@ -2,6 +2,10 @@
 // Model files whose vertices move, against OpenMesh's readers and writers.
 #include "flbc/io/model_file.h"
 
+#include <cmath>
+#include <random>
+#include <sstream>
+
 #include "flbc/io/cage_io.h"
 #include "support/model_kinds.h"
 
@@ -75,6 +79,62 @@ TEST_F(ModelFileTest, NormalsTurnWithTheirPolygons) {
   flat.row(0).setZero();
   flat.row(2).setZero();
   EXPECT_EQ(file.moved<3>(flat).attributes.normals, normals);
+}
+
+// Normals of any direction: on sharp corners, on a smooth surface, on a plane, and of a polygon.
+TEST_F(ModelFileTest, NormalsAreCrossToWhatWasCrossToThem) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> number(-1, 1);
+  std::string text;
+  const auto row = [&](const char* word, const Vector<3>& v) {
+    std::ostringstream out;
+    out.precision(17);
+    out << word << v[0] << ' ' << v[1] << ' ' << v[2] << '\n';
+    text += out.str();
+  };
+  constexpr int kAround = 60, kRows = 40;
+  for (int i = 0; i < kRows; ++i) {  // a smooth tube, bent a little
+    for (int j = 0; j < kAround; ++j) {
+      const double angle = 2 * M_PI * j / kAround, x = 5.0 * i / kRows;
+      row("v ", {x, std::cos(angle) + 0.1 * x * x, std::sin(angle)});
+      row("vn ", Vector<3>(number(random), number(random), number(random)));
+    }
+  }
+  for (const double y : {-3, -4}) {  // a plane
+    for (const double x : {0, 5}) {
+      row("v ", {x, y, 0.5});
+      row("vn ", Vector<3>(number(random), number(random), number(random)));
+    }
+  }
+  const auto face = [&](std::initializer_list<int> corners) {
+    text += "f";
+    for (const int c : corners) text += " " + std::to_string(c + 1) + "//" + std::to_string(c + 1);
+    text += "\n";
+  };
+  for (int i = 0; i + 1 < kRows; ++i) {
+    for (int j = 0; j < kAround; ++j) {
+      const int next = (j + 1) % kAround, k = kAround * i;
+      face({k + j, k + next, k + kAround + next, k + kAround + j});
+    }
+  }
+  constexpr int kPlane = kAround * kRows;
+  face({kPlane, kPlane + 1, kPlane + 3, kPlane + 2});
+  const ModelFile file = open("a.obj", text);
+  const auto points = io::to_points<3>(file.model().soup, "");
+  const auto& normals = file.model().attributes.normals;
+  Eigen::Matrix3d stretch = Vector<3>(1, 1, 3).asDiagonal(), shear, mirror;
+  shear << 1, 0.5, 2, 0, 3, -1, 0.25, 0, 1.5;
+  mirror << 0.5, 1, 0, 0, -1, 0, 0.25, 0, 2;
+  for (const Eigen::Matrix3d& map : {stretch, shear, mirror}) {
+    const PointList<3> moved = (map * points).colwise() + Vector<3>(7, 8, 9);
+    const auto turned = file.moved<3>(moved).attributes.normals;
+    const Eigen::Matrix3d cofactors = map.determinant() * map.inverse().transpose();
+    for (Eigen::Index k = 0; k < normals.cols(); ++k) {
+      const Vector<3> expected = cofactors * normals.col(k);
+      EXPECT_LT((turned.col(k).normalized() - expected.normalized()).norm(), 1e-3) << k;
+      EXPECT_NEAR(turned.col(k).norm(), normals.col(k).norm(), 1e-12);
+    }
+  }
 }
 
 TEST_F(ModelFileTest, In2DZAndNormalsStay) {
@@ -185,6 +245,14 @@ TEST_F(ModelFileTest, OddStl) {
   EXPECT_FALSE(file.model().is_text);
   EXPECT_EQ(io::to_points<3>(file.model().soup, ""),
             points_of(read_by_openmesh(path("a.stl"), Options())));
+}
+
+TEST_F(ModelFileTest, PlyMayHavePlusSignsAndBools) {
+  const ModelFile file = open("a.ply",
+                              "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                              "property bool b\nproperty float y\nproperty float z\nend_header\n"
+                              "+1 1 -2 +3E+0\n");
+  EXPECT_EQ(file.model().soup.points[0], Vector<3>(1, -2, 3));
 }
 
 TEST_F(ModelFileTest, PlyWithPropertiesInAnyOrder) {

@@ -2,6 +2,10 @@
 // Updates normals of a model when its vertices move.
 #pragma once
 
+#include <vector>
+
+#include <Eigen/Core>
+
 #include "flbc/io/model.h"
 
 namespace flbc::io {
@@ -10,9 +14,17 @@ namespace flbc::io {
 //! the Jacobian leaves it no direction.
 Vector<3> transformed_normal(const Eigen::Matrix3d& jacobian, const Vector<3>& normal);
 
-//! Rotates normals with their polygons: first by the best-fit rotation, then so that the
-//! area-weighted mean of the polygon normals follows exactly. A normal therefore moves rigidly if
-//! its polygons do, and a normal that is their mean remains the mean.
+//! How a surface turns and stretches around each of its vertices, as the difference from the
+//! identity: exactly 0 around polygons that stay where they are, and right for affine maps. Edges
+//! define it along the surface; across a smooth or flat one it is that of the whole surface, turned
+//! as the edges are. Mirrored surfaces have negative determinants.
+std::vector<Eigen::Matrix3d> changes_of_space(const std::vector<std::vector<Index>>& polygons,
+                                              const PointList<3>& before,
+                                              const PointList<3>& after);
+
+//! Multiplies normals by the inverse transpose of the changes of space around them, without turning
+//! them over where these mirror, and then turns them so that the area-weighted mean of the polygon
+//! normals follows exactly: a normal that is this mean remains it. Lengths are kept.
 class FollowingNormals {
  public:
   //! The normals of a model, and of its polygons (3 x number of polygons, or empty); both must

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "flbc/io/cage_io.h"
 #include "flbc/io/files.h"
 #include "model/following_normals.h"
 #include "model/gltf_json.h"
@@ -42,43 +43,15 @@ bool are_references_known(const GltfJson& json) {
   });
 }
 
-// How space turns and stretches around each point: the area-weighted mean over its triangles, as
-// the difference from the identity, which is exactly 0 where nothing moves.
-std::vector<Eigen::Matrix3d> changes_of_space(const PolygonSoup& soup,
-                                              const std::vector<Vector<3>>& before) {
-  std::vector<Eigen::Matrix3d> sums(before.size(), Eigen::Matrix3d::Zero());
-  std::vector<double> areas(before.size(), 0);
-  const auto edges_of = [](const std::vector<Index>& triangle, const auto& points) {
-    Eigen::Matrix3d edges;
-    edges.col(0) = points[triangle[1]] - points[triangle[0]];
-    edges.col(1) = points[triangle[2]] - points[triangle[0]];
-    edges.col(2) = edges.col(0).cross(edges.col(1)).stableNormalized();
-    return edges;
-  };
-  for (const auto& triangle : soup.polygons) {
-    const auto rest = edges_of(triangle, before);
-    const double area = rest.determinant();
-    const Eigen::Matrix3d change = (edges_of(triangle, soup.points) - rest) * rest.inverse();
-    if (!(area > 0) || !change.allFinite()) continue;
-    for (const Index point : triangle) {
-      sums[point] += area * change;
-      areas[point] += area;
-    }
-  }
-  for (std::size_t v = 0; v < sums.size(); ++v) {
-    if (areas[v] > 0) sums[v] /= areas[v];
-  }
-  return sums;
-}
-
 // The vertices of the model in its file.
-std::vector<Vector<3>> points_of(GltfEdit& edit, const GltfSource& source, std::size_t count) {
-  std::vector<Vector<3>> points(count, Vector<3>::Zero());
+PointList<3> points_of(GltfEdit& edit, const GltfSource& source, Eigen::Index count) {
+  PointList<3> points = PointList<3>::Zero(3, count);
   for (const auto& part : source.parts) {
     const auto places = edit.places(part);
     for (std::size_t k = 0; k < part.points.size(); ++k) {
       const Vector<3> place = places.col(static_cast<Eigen::Index>(k));
-      points.at(static_cast<std::size_t>(part.points[k])) = part.frame(k) * place;
+      if (part.points[k] >= count) throw std::out_of_range("a vertex");
+      points.col(part.points[k]) = part.frame(k) * place;
     }
   }
   return points;
@@ -86,14 +59,13 @@ std::vector<Vector<3>> points_of(GltfEdit& edit, const GltfSource& source, std::
 
 // \param before  the points of the model in its file \param changes  of space around them
 GltfMotion motion_of(GltfEdit& edit, const GltfPart& part, const Model& model,
-                     const std::vector<Vector<3>>& before,
-                     const std::vector<Eigen::Matrix3d>& changes) {
+                     const PointList<3>& before, const std::vector<Eigen::Matrix3d>& changes) {
   GltfMotion motion{edit.places(part), edit.normals(part), {}, {}};
   for (std::size_t k = 0; k < part.points.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
     const Index v = part.points[k];
     const Eigen::Matrix3d local = part.frame(k).linear();
-    bool moves = model.soup.points[v] != before[v] || !changes[v].isZero(0);
+    bool moves = model.soup.points[v] != before.col(v) || !changes[v].isZero(0);
     if (motion.normals.cols() > 0) {
       const Vector<3> normal = model.attributes.normals.col(part.first + column);
       const Vector<3> rest = transformed_normal(local, Vector<3>(motion.normals.col(column)));
@@ -273,16 +245,22 @@ void GltfEdit::move(const GltfPart& part, const GltfMotion& motion) {
   for (Eigen::Index k = 0; k < count; ++k) {
     if (!moving(k)) continue;
     positions.col(k) = motion.places.col(k);
+    const Vector<3> old_normal =
+        normals.cols() > 0 ? Vector<3>(normals.col(k)) : Vector<3>(Vector<3>::Zero());
     if (has_morphed_normals) {
       normals.col(k) = transformed_normal(turn(k), Vector<3>(normals.col(k)));
     } else if (normals.cols() > 0) {
       normals.col(k) = motion.normals.col(k);
     }
     if (tangents.cols() == 0) continue;
+    const Vector<3> across = turn(k) * old_normal.cross(tangents.col(k).head<3>());
     Vector<3> tangent = turn(k) * tangents.col(k).head<3>();
     if (normals.cols() > 0) tangent -= tangent.dot(normals.col(k)) * normals.col(k);
     if (tangent.stableNorm() > 0) tangents.col(k).head<3>() = tangent.stableNormalized();
-    if (turn(k).determinant() < 0) tangents(3, k) *= -1;
+    // Mirrored textures stay mirrored on the side to which the normal now points.
+    if (normals.cols() > 0 && Vector<3>(normals.col(k)).cross(tangent).dot(across) < 0) {
+      tangents(3, k) *= -1;
+    }
   }
   for (std::size_t t = 0; t < targets.size(); ++t) {
     const auto target = static_cast<int>(t);
@@ -312,8 +290,9 @@ std::string moved_gltf(const Model& model) {
   return refusing_damage(source.path, [&] {
     GltfEdit edit(source);
     edit.document.embed_pictures();
-    const auto before = points_of(edit, source, model.soup.points.size());
-    const auto changes = changes_of_space(model.soup, before);
+    const auto after = to_points<3>(model.soup, source.path);
+    const auto before = points_of(edit, source, after.cols());
+    const auto changes = changes_of_space(model.soup.polygons, before, after);
     for (const auto& part : source.parts) {
       const auto motion = motion_of(edit, part, model, before, changes);
       if (std::count(motion.moves.begin(), motion.moves.end(), true) > 0) edit.move(part, motion);

@@ -22,11 +22,22 @@ using ExactKernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
 using FacetPair = std::pair<Index, Index>;
 
 template <int Dim>
-std::vector<FacetPair> find_pairs(const Cage<Dim>& cage) {
+std::vector<FacetPair> find_pairs(const Cage<Dim>& cage, std::size_t limit) {
+  const auto boxes = boxes_of<Dim, Dim>(cage.points, cage.facets);
+  const BoxTree<Dim> tree(boxes);
   std::vector<FacetPair> pairs;
-  for (const auto& [f, g] : close_pairs(boxes_of<Dim, Dim>(cage.points, cage.facets), 0)) {
-    if (intersect_improperly<Dim>(cage.points, cage.facets.col(f), cage.facets.col(g))) {
+  std::vector<Index> close;
+  for (Index f = 0; f < cage.facets.cols() && pairs.size() < limit; ++f) {
+    close.clear();
+    tree.any_of(boxes[f], [&](Index g) {
+      if (g > f) close.push_back(g);
+      return false;
+    });
+    std::sort(close.begin(), close.end());
+    for (const Index g : close) {
+      if (!intersect_improperly<Dim>(cage.points, cage.facets.col(f), cage.facets.col(g))) continue;
       pairs.emplace_back(f, g);
+      if (pairs.size() == limit) break;
     }
   }
   return pairs;
@@ -85,8 +96,7 @@ Defect describe_pair(const Cage<Dim>& cage, const FacetPair& pair) {
 
 template <int Dim>
 std::vector<Defect> find_self_intersections(const Cage<Dim>& cage, std::size_t limit) {
-  std::vector<FacetPair> pairs = find_pairs(cage);
-  if (pairs.size() > limit) pairs.resize(limit);
+  const std::vector<FacetPair> pairs = find_pairs(cage, limit);
   std::vector<Defect> defects;
   defects.reserve(pairs.size());
   for (const FacetPair& pair : pairs) defects.push_back(describe_pair(cage, pair));

@@ -44,10 +44,10 @@ class ModelFile {
 
   //! Writes the file with vertices moved to `points` (Dim x P); all other bytes are unchanged. Text
   //! coordinates have enough digits to read the same numbers back; binary coordinates keep the
-  //! precision of the file. In 2D, z and normals are unchanged. In 3D, normals rotate with their
-  //! polygons: rigidly where these move rigidly, and an area-weighted mean normal remains one.
-  //! Custom and inward normals stay custom and inward. In .glb files tangents and morph targets
-  //! turn as the triangles around their vertices do.
+  //! precision of the file. In 2D, z and normals are unchanged. In 3D, normals are multiplied by
+  //! the inverse transpose of the local deformation, which the polygons around their vertices show:
+  //! exactly if it is affine. An area-weighted mean normal remains one. Custom and inward normals
+  //! stay custom and inward. In .glb files tangents and morph targets follow the same deformation.
   //! \param jacobians  if not empty, 9 x P Jacobians at the vertices (flbc/gradients.h): normals are
   //! then multiplied by the inverse transpose of the mean Jacobian of their vertices, and keep
   //! their lengths
