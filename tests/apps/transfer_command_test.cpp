@@ -71,9 +71,9 @@ TEST_F(TransferCommand, VerticesOutsideFollowTheNearestPointOfTheCage) {
   const auto model = file("model.obj", "v 0.1 0.1 0\nv 0.9 0.1 0\nv 0.1 0.9 0\nf 1 2 3\n");
   const auto wide = file("wide.obj", "v 0.1 0.1 0\nv 1.1 0.1 0\nv 0.1 0.9 0\nf 1 2 3\n");
   expect("solve " + cage + " --method harmonic --vertices 200 -q --model " + model + " -o w.npy");
-  expect_transfer("w.npy --cage " + cage + " -o t.npy --to " + wide + " --from " + model +
-                      " --limit 0.5",
-                  0, "they follow its nearest point at a constant offset");
+  expect_transfer(
+      "w.npy --cage " + cage + " -o t.npy --to " + wide + " --from " + model + " --limit 0.5", 0,
+      "they follow its nearest point at a constant offset");
 }
 
 }  // namespace
