@@ -7,6 +7,7 @@
 #include "flbc/cage.h"
 #include "flbc/errors.h"
 #include "flbc/io/cage_io.h"
+#include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
 #include "fuzz/reader.h"
 #include "model/svg_document.h"

@@ -21,8 +21,9 @@ template <int Dim>
 PointList<Dim> collect_input_points(const Cage<Dim>& cage, const MeshingOptions<Dim>& options);
 
 //! Units in which meshers compute, because the last bits of coordinates decide about a mesh. Cages
-//! whose units differ by a power of ten, such as meters and millimeters, get the same mesh: their
-//! sizes are taken to the decade from 1.4 to 14, where coordinates are rounded to 12 decimals.
+//! whose units differ by a power of ten, such as meters and millimeters, get the same vertices:
+//! sizes are taken to the decade from 1.4 to 14, where coordinates are rounded to 12 decimals. With
+//! more decimals, rounding may still decide.
 template <int Dim>
 class DecimalUnit {
  public:

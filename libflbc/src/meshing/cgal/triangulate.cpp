@@ -159,9 +159,7 @@ DomainMesh<2> triangulate(const Cage<2>& cage, const MeshingOptions<2>& options)
   const DecimalUnit<2> unit(cage.points);
   const auto scaled = unit.scaled(input);
   const auto make_mesh = [&](double longest_edge) {
-    auto mesh = mesh_interior(cage, scaled, longest_edge / unit.length(), options);
-    mesh.points = unit.restored(mesh.points, input);
-    return mesh;
+    return mesh_interior(cage, scaled, longest_edge, options);
   };
 
   DomainMesh<2> mesh = make_mesh(0);
@@ -173,6 +171,7 @@ DomainMesh<2> triangulate(const Cage<2>& cage, const MeshingOptions<2>& options)
     mesh = search_vertex_count<2>(goal, std::move(mesh), first_bound, 2, make_mesh);
   }
   finish_mesh(mesh, static_cast<Index>(input.cols()));
+  mesh.points = unit.restored(mesh.points, input);
   return goal.result(std::move(mesh));
 }
 
