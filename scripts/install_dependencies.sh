@@ -75,7 +75,11 @@ fi
 # to compile for other systems. A list of our own leaves the lists of the system as they are.
 get_sources() {
   mkdir -p "$work/sources" "$work/lists/partial"
-  sed 's/^Types:.*/Types: deb-src/' /etc/apt/sources.list.d/debian.sources >"$work/sources/a.sources"
+  if [ -e /etc/apt/sources.list.d/debian.sources ]; then
+    sed 's/^Types:.*/Types: deb-src/' /etc/apt/sources.list.d/debian.sources >"$work/sources/a.sources"
+  else  # as mmdebstrap writes it
+    sed -n 's/^deb /deb-src /p' /etc/apt/sources.list >"$work/sources/a.list"
+  fi
   local from_sources=(apt-get -qq -o Dir::Etc::sourcelist=/dev/null
     -o Dir::Etc::sourceparts="$work/sources" -o Dir::State::lists="$work/lists"
     -o APT::Sandbox::User=root)
