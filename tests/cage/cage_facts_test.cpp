@@ -20,6 +20,22 @@ TEST_IN_2D_AND_3D(CageFactsTest, ABoxIsAsThinAsItsNarrowSides) {
   }
 }
 
+// Its opposite edges pass each other, while each corner is far from the opposite facet.
+TEST(CageFactsTest, AFlatTetrahedronIsAsThinAsItsEdgesAreClose) {
+  for (const double height : {1e-2, 1e-5, 1e-8}) {
+    Cage<3> cage{PointList<3>(3, 4), FacetList<3>(3, 4)};
+    cage.points << 0, 2, 2, 0,  //
+        0, 0, 2, 2,             //
+        0, height, 0, height;
+    cage.facets << 0, 0, 0, 1,  //
+        2, 1, 3, 2,             //
+        1, 3, 2, 3;
+    const auto place = thinnest_place(cage);
+    EXPECT_NEAR(place.distance, height, 1e-15);  // of the diagonals of the square
+    EXPECT_FALSE((cage.facets.col(place.facet).array() == place.control_point).any());
+  }
+}
+
 TEST_IN_2D_AND_3D(CageFactsTest, ACavityNearTheSurfaceIsAThinWall) {
   const auto cage = join(box_cage<Dim>(1), box_cage<Dim>(0.99));
   // Corners of the cavity are nearest to the outside.

@@ -336,6 +336,45 @@ TEST_IN_2D_AND_3D(RepairCageTest, RoundedPartsThatTouchAreRepaired) {
   }
 }
 
+// The corners of facets that share none are apart by more than the tolerance.
+TEST_IN_2D_AND_3D(RepairCageTest, CornersThatAreNearlyTheSameAreMerged) {
+  std::mt19937 random(4);
+  for (const double gap : {1e-5, 1e-4, 1e-3}) {
+    std::uniform_real_distribution<double> error(-gap, gap);
+    const auto box = box_cage<Dim>(1);
+    Cage<Dim> cage{PointList<Dim>(Dim, box.facets.size()), box.facets};
+    std::iota(cage.facets.reshaped().begin(), cage.facets.reshaped().end(), 0);
+    cage.points = box.points(Eigen::all, box.facets.reshaped());
+    for (double& x : cage.points.reshaped()) x += error(random);
+    const auto repaired = repair_cage(cage);
+    EXPECT_FALSE(repaired.is_wrapped);
+    EXPECT_EQ(repaired.cage.size(), box.size());
+    EXPECT_NEAR(measure_cage(repaired.cage).measure, 1 << Dim, 20 * gap);
+    EXPECT_TRUE(says(repaired.changes, "apart are merged"));
+  }
+}
+
+// A hole that touches the boundary with a corner (2D) or a side (3D) stays a hole. A box with a
+// side in that of another one and the same orientation may be a part of a decomposition.
+TEST_IN_2D_AND_3D(RepairCageTest, HolesThatTouchTheBoundaryStay) {
+  auto hole = box_cage<Dim>(0.5);
+  if constexpr (Dim == 2)
+    hole.points = Eigen::Rotation2Dd(std::atan(1)).toRotationMatrix() * hole.points;
+  hole.points.row(0).array() -= 1 + hole.points.row(0).minCoeff();
+  const auto repaired = repair(join(box_cage<Dim>(1), reversed(hole)));
+  EXPECT_FALSE(repaired.is_wrapped);
+  EXPECT_NEAR(measure_cage(repaired.cage).measure, (1 << Dim) - 1, 1e-3);
+  const auto united = repair(join(box_cage<Dim>(1), hole));
+  EXPECT_NEAR(measure_cage(united.cage).measure, Dim == 2 ? 3 : 8, 1e-3);
+}
+
+TEST(RepairCage3Test, AFlatCageEnclosesNothing) {
+  Cage<3> cage{PointList<3>(3, 4), FacetList<3>(3, 4)};
+  cage.points << 0, 2, 2, 0, 0, 0, 2, 2, 1, 1, 1, 1;
+  cage.facets << 0, 0, 0, 1, 2, 1, 3, 2, 1, 3, 2, 3;
+  EXPECT_THROW(repair_cage(cage), InputError);
+}
+
 TEST_IN_2D_AND_3D(RepairCageTest, InnerWallsGo) {
   auto cage = repair(cage_of<Dim>({box<Dim>(0, 1), moved<Dim>(box<Dim>(0, 1), 0, 1)})).cage;
   const auto count = static_cast<Index>(cage.facets.cols());

@@ -19,6 +19,28 @@ PolygonSoup square() {
   return soup;
 }
 
+// The reentrant corner is in line with two others, up to the digits of a file.
+TEST(CageIo, NoTriangleOfATurnedLIsFlat) {
+  std::vector<Vector<3>> corners{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};
+  for (int k = 0; k < 100; ++k) {
+    const Eigen::AngleAxisd turn(0.37 * k, Vector<3>(1, 0.3 * k, -0.7).normalized());
+    const double digits = std::pow(10.0, 6 + k % 10);
+    std::vector<Vector<3>> turned;
+    for (const auto& corner : corners) {
+      turned.push_back((digits * (turn * corner)).array().round() / digits);
+    }
+    double area = 0;
+    const auto triangles = cut_polygon(turned);
+    for (const auto& t : triangles.colwise()) {
+      const double own =
+          (turned[t(1)] - turned[t(0)]).cross(turned[t(2)] - turned[t(0)]).norm() / 2;
+      EXPECT_GT(own, 0.4) << k;
+      area += own;
+    }
+    EXPECT_NEAR(area, 3, 1e-5);
+  }
+}
+
 TEST(CageIo, PointsPolylineAndPolygonMakeTheSameFlatCage) {
   auto polyline = square();
   polyline.polylines = {{0, 1, 2, 3, 0}};

@@ -196,7 +196,8 @@ std::vector<std::set<Index>> merge_equal(CageDraft<Dim>& draft) {
 // Per side: whether it is inside the union of all parts.
 template <int Dim>
 std::vector<bool> sides_inside(const CageDraft<Dim>& draft, const Cells<Dim>& cells,
-                               const std::vector<std::set<Index>>& parts_of) {
+                               const std::vector<std::set<Index>>& parts_of,
+                               const std::map<Index, double>& measures) {
   std::set<Index> parts;
   for (const auto& own : parts_of) parts.insert(own.begin(), own.end());
   std::map<Index, std::vector<bool>> enclosed_by;
@@ -204,9 +205,14 @@ std::vector<bool> sides_inside(const CageDraft<Dim>& draft, const Cells<Dim>& ce
   std::map<Index, int> depths;
   for (const Index part : parts) {
     for (const auto& [other, is_enclosed] : enclosed_by) {
+      const double own = measures.at(part), whole = measures.at(other);
+      const bool may_touch = own * whole < 0 && std::abs(own) < 0.999 * std::abs(whole);
+      const auto is_within = [&, &around = is_enclosed](Index side) {
+        return around[side] || (may_touch && !enclosed_by.at(part)[side]);
+      };
       bool is_nested = other != part;
-      for (std::size_t f = 0; f < draft.facets.size() && is_nested; ++f) {
-        if (parts_of[f].count(part) > 0) is_nested = is_enclosed[2 * f] && is_enclosed[2 * f + 1];
+      for (Index f = 0; f < static_cast<Index>(parts_of.size()) && is_nested; ++f) {
+        if (parts_of[f].count(part) > 0) is_nested = is_within(2 * f) && is_within(2 * f + 1);
       }
       if (is_nested) ++depths[part];
     }
@@ -233,23 +239,39 @@ Vector<Dim> inward(const CageDraft<Dim>& draft, const std::vector<Index>& facets
 }  // namespace
 
 template <int Dim>
-void number_parts(CageDraft<Dim>& draft) {
+std::map<Index, double> number_parts(CageDraft<Dim>& draft, const std::vector<Index>& shells) {
+  const auto shell_of = [&](Index f) {
+    const Index number = draft.facets[f].number;
+    return number < 0 || shells.empty() ? -1 : shells[number];
+  };
+  std::map<Index, double> measures;
   UnionFind parts(static_cast<Index>(draft.facets.size()));
   for (const auto& [ridge, facets] : collect_ridges(draft)) {
-    for (const Index f : facets) parts.unite(facets[0], f);
+    const bool are_closed =
+        std::all_of(facets.begin(), facets.end(), [&](Index f) { return shell_of(f) >= 0; });
+    for (const Index f : facets) {
+      const auto first = std::find_if(facets.begin(), facets.end(), [&](Index g) {
+        return !are_closed || shell_of(f) == shell_of(g);
+      });
+      parts.unite(*first, f);
+    }
   }
   for (std::size_t f = 0; f < draft.facets.size(); ++f) {
     draft.facets[f].part = parts.find(static_cast<Index>(f));
     draft.facets[f].is_double = false;
+    const auto corners = corners_of(draft, static_cast<Index>(f));
+    const Vector<Dim> from = corners.col(0) - draft.points.col(0);
+    measures[draft.facets[f].part] += from.dot(facet_normal<Dim>(corners));
   }
+  return measures;
 }
 
 template <int Dim>
-bool keep_boundary(CageDraft<Dim>& draft) {
+bool keep_boundary(CageDraft<Dim>& draft, const std::map<Index, double>& measures) {
   const auto parts_of = merge_equal(draft);
   Cells<Dim> cells(draft);
   if (!cells.is_complete()) return false;
-  const auto is_inside = sides_inside(draft, cells, parts_of);
+  const auto is_inside = sides_inside(draft, cells, parts_of, measures);
   std::vector<typename CageDraft<Dim>::Facet> kept;
   std::map<Index, std::string> dropped;
   for (std::size_t f = 0; f < draft.facets.size(); ++f) {

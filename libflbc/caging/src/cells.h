@@ -2,6 +2,9 @@
 // The cells into which facets divide space, and the facets that bound the solid.
 #pragma once
 
+#include <map>
+#include <vector>
+
 #include "caging/repair_steps.h"
 
 namespace flbc {
@@ -17,17 +20,20 @@ void cut_at_crossings(CageDraft<3>& draft);
 void cut_where_facets_overlap(CageDraft<2>& draft);
 void cut_where_facets_overlap(CageDraft<3>& draft);
 
-//! Numbers the parts that are connected by ridges.
+//! Numbers the parts that are connected by ridges, and measures them. \param shells  per original
+//! facet: its closed shell, -1: none. Different ones that only touch stay apart. May be empty
+//! \return per part: several times its area or volume, negative if its normals are inward
 template <int Dim>
-void number_parts(CageDraft<Dim>& draft);
+std::map<Index, double> number_parts(CageDraft<Dim>& draft, const std::vector<Index>& shells);
 
 //! Removes facets with the inside on both sides, and orients the others with outward normals. The
-//! inside of a part is what it separates from infinity. A part inside another one is its cavity;
+//! inside of a part is what it separates from infinity. A part inside another one is its cavity,
+//! unless it touches it from within and is oriented alike;
 //! otherwise parts are united.
-//! \param draft  its facets meet only at common corners and edges
+//! \param draft  its facets meet only at common corners and edges \param measures  of its parts
 //! \return false if a facet has the outside on both sides, because it belongs to an open part
 template <int Dim>
-bool keep_boundary(CageDraft<Dim>& draft);
+bool keep_boundary(CageDraft<Dim>& draft, const std::map<Index, double>& measures);
 
 //! Control points at which the solid only touches itself get a copy for each of its corners there,
 //! at a distance that is visible to meshers.

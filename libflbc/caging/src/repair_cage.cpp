@@ -2,11 +2,16 @@
 #include "flbc/repair_cage.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "base/messages.h"
+#include "caging/cage_steps.h"
 #include "caging/cells.h"
 #include "caging/enclosure.h"
 #include "caging/repair_steps.h"
@@ -70,6 +75,9 @@ RepairedCage<Dim> finish(CageDraft<Dim>& draft) {
   return repaired;
 }
 
+// A change of area or volume above this fraction is a warning.
+constexpr double kLargeChange = 0.05;
+
 // The new surface should not be farther from the old one than this fraction of its size.
 constexpr double kClose = 0.02;
 
@@ -106,6 +114,20 @@ void wrap_closely(const Cage<Dim>& original, const std::string& reason,
                              reason);
 }
 
+// Of those that are longer.
+template <int Dim>
+double shortest_edge(const Cage<Dim>& cage, double than) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const auto& facet : cage.facets.colwise()) {
+    for (int k = 0; k < Dim; ++k) {
+      const double length =
+          (cage.points.col(facet(k)) - cage.points.col(facet((k + 1) % Dim))).norm();
+      if (length > than) shortest = std::min(shortest, length);
+    }
+  }
+  return shortest;
+}
+
 template <int Dim>
 void clean(CageDraft<Dim>& draft) {
   merge_close_points(draft);
@@ -134,13 +156,14 @@ void drop_sheets(CageDraft<Dim>& draft) {
 // The union of all parts, without walls inside. \return none if an open part remains, or if
 // rounding of crossings leaves a defect
 template <int Dim>
-std::optional<RepairedCage<Dim>> unite(const CageDraft<Dim>& parts, double& measure) {
+std::optional<RepairedCage<Dim>> unite(const CageDraft<Dim>& parts,
+                                       const std::vector<Index>& shells, double& measure) {
   const bool are_closed = is_closed(parts);
   // Facets may cross where close points have been merged, so the second attempt merges none.
   for (const double tolerance : {kMergeTolerance, 0.0}) {
     auto draft = parts;
     draft.tolerance = tolerance;
-    number_parts(draft);
+    const auto measures = number_parts(draft, shells);
     // Overlaps first, because their facets need not be exactly in one plane. The pieces are no
     // facets of the original, so what happens to them is not reported.
     for (const bool only_overlaps : {true, false}) {
@@ -150,7 +173,7 @@ std::optional<RepairedCage<Dim>> unite(const CageDraft<Dim>& parts, double& meas
       draft.changes = std::move(changes);
     }
     if (are_closed) drop_sheets(draft);
-    if (!keep_boundary(draft) || draft.facets.empty()) continue;
+    if (!keep_boundary(draft, measures) || draft.facets.empty()) continue;
     split_touching_corners(draft);
     auto united = finish(draft);
     measure = signed_measure<Dim>(united.cage, united.cage.points.col(0));
@@ -159,13 +182,59 @@ std::optional<RepairedCage<Dim>> unite(const CageDraft<Dim>& parts, double& meas
   return {};
 }
 
+// Per facet: the closed shell that it belongs to; -1: an open one.
+template <int Dim>
+std::vector<Index> closed_shells(const Cage<Dim>& cage) {
+  auto draft = draft_of(cage);
+  merge_close_points(draft);
+  number_parts(draft, {});
+  std::vector<Index> shells;
+  for (const auto& facet : draft.facets) shells.push_back(facet.part);
+  std::set<Index> open;
+  for (const auto& [ridge, facets] : collect_ridges(draft)) {
+    if (facets.size() == 1) open.insert(shells[facets[0]]);
+  }
+  for (Index& shell : shells) shell = open.count(shell) > 0 ? -1 : shell;
+  return shells;
+}
+
+// Cleaned up, without facets that do not bound anything. An open cage is closed by merging points
+// that are farther apart, where that suffices and all edges are much longer.
+template <int Dim>
+CageDraft<Dim> cleaned(const Cage<Dim>& cage, const std::vector<Index>& shells) {
+  const auto clean_up = [&](double tolerance) {
+    auto draft = draft_of(cage);
+    draft.tolerance = tolerance;
+    clean(draft);
+    // Where closed shells touch, each needs its facets for the union.
+    for (auto& facet : draft.facets) facet.part = shells[facet.number];
+    drop_repeated_facets(draft);
+    drop_flaps(draft, false);
+    return draft;
+  };
+  auto draft = clean_up(kMergeTolerance);
+  if (draft.facets.empty() || is_closed(draft)) return draft;
+  const double size = bounding_box_diagonal<Dim>(cage.points);
+  const double most = 0.1 * shortest_edge(cage, kMergeTolerance * size) / size;
+  for (double tolerance = 10 * kMergeTolerance; tolerance < most; tolerance *= 10) {
+    auto merged = clean_up(tolerance);
+    if (!is_closed(merged)) continue;
+    double gap = 0;
+    for (Index v = 0; v < cage.size(); ++v) {
+      gap = std::max(gap, (cage.points.col(v) - cage.points.col(merged.merged_into[v])).norm());
+    }
+    merged.changes.push_back("control points up to " + format_number(gap) +
+                             " apart are merged, because this closes the cage");
+    return merged;
+  }
+  return draft;
+}
+
 // Leaves the changes to the caller. \return without the figures
 template <int Dim>
 RepairedCage<Dim> repaired_without_figures(const Cage<Dim>& cage, double& measure) {
-  auto draft = draft_of(cage);
-  clean(draft);
-  drop_repeated_facets(draft);
-  drop_flaps(draft, false);
+  const auto shells = closed_shells(cage);
+  auto draft = cleaned(cage, shells);
   const bool was_closed = is_closed(draft);
   orient_alike(draft);
   close_holes(draft);
@@ -177,7 +246,10 @@ RepairedCage<Dim> repaired_without_figures(const Cage<Dim>& cage, double& measur
     return repaired;
   }
   if (repaired.cage.facets.cols() == 0) throw InputError(left.front().message);
-  auto united = unite(before, measure);
+  if (left.front().kind == DefectKind::kFlat) {
+    throw InputError(left.front().message + "; make a cage around it as a model (flbc cage)");
+  }
+  auto united = unite(before, shells, measure);
   if (!was_closed) measure = 0;
   if (united) return std::move(*united);
   if constexpr (Dim == 3) {
@@ -195,6 +267,12 @@ RepairedCage<Dim> repair_cage(const Cage<Dim>& cage) {
   double measure = 0;
   auto repaired = repaired_without_figures(cage, measure);
   repaired.measure_before = measure;
+  const double change = measure_cage(repaired.cage).measure / measure - 1;
+  if (measure > 0 && std::abs(change) > kLargeChange) {
+    repaired.changes.push_back(std::string("warning: the ") + (Dim == 2 ? "area" : "volume") +
+                               " changes by " + format_number(100 * change) +
+                               "%; compare the repaired cage with the original");
+  }
   const double distance =
       distances(repaired.cage, Enclosure<Dim>(cage.points, cage.facets)).largest;
   if (distance > kMergeTolerance * bounding_box_diagonal<Dim>(repaired.cage.points)) {

@@ -29,12 +29,14 @@ CageFacts<Dim> measure_cage(const Cage<Dim>& cage);
 //! The place where a cage comes closest to itself: a thin wall, or a nearly degenerate facet. A
 //! thinner place needs more cells for the same mesh quality.
 struct ThinPlace {
-  double distance = 0;  //!< from the control point to the facet, in cage units
+  double distance = 0;  //!< from the control point, or in 3D from an edge at it, to the facet
   Index control_point = -1;
   Index facet = -1;  //!< the control point is not one of its corners; -1: none
 };
 
-//! The smallest distance from a control point to a facet of which it is not a corner.
+//! The smallest distance from a control point to a facet of which it is not a corner, in cage
+//! units. In 3D instead that of two edges which pass each other at less than half of it, as in a
+//! flat tetrahedron.
 //! \param cage  has passed validate()
 template <int Dim>
 ThinPlace thinnest_place(const Cage<Dim>& cage);

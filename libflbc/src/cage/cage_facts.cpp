@@ -2,8 +2,11 @@
 #include "flbc/cage_facts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
+
+#include <Eigen/Geometry>
 
 #include "base/instantiate.h"
 #include "base/parallel.h"
@@ -77,6 +80,50 @@ std::vector<std::size_t> outer_shells(const OrientedCage<Dim>& oriented) {
   return outer;
 }
 
+// The distance of edges that pass each other between their ends. Infinite for others, because an
+// end is nearest.
+double passing_distance(const PointList<3>& points, Index a, Index b, Index c, Index d) {
+  const Vector<3> first = points.col(b) - points.col(a), second = points.col(d) - points.col(c);
+  const Vector<3> offset = points.col(c) - points.col(a), normal = first.cross(second);
+  if (!(normal.norm() > 1e-9 * first.norm() * second.norm())) {
+    return std::numeric_limits<double>::infinity();  // parallel
+  }
+  const double along_first = offset.cross(second).dot(normal) / normal.squaredNorm();
+  const double along_second = offset.cross(first).dot(normal) / normal.squaredNorm();
+  const bool pass = along_first > 0 && along_first < 1 && along_second > 0 && along_second < 1;
+  return pass ? std::abs(offset.dot(normal.normalized())) : std::numeric_limits<double>::infinity();
+}
+
+void compare_edges(const Cage<2>&, ThinPlace&) {
+}
+
+// Diagonals of neighboring sides of a box pass each other too, but not much closer than its
+// corners.
+// \param thinnest  of control points and facets
+void compare_edges(const Cage<3>& cage, ThinPlace& thinnest) {
+  FacetList<2> edges(2, 3 * cage.facets.cols());  // edge 3 f + k begins at corner k of facet f
+  for (int k = 0; k < 3; ++k) {
+    edges(0, Eigen::seqN(k, cage.facets.cols(), 3)) = cage.facets.row(k);
+    edges(1, Eigen::seqN(k, cage.facets.cols(), 3)) = cage.facets.row((k + 1) % 3);
+  }
+  double limit = thinnest.distance / 2;
+  const auto boxes = boxes_of<3, 2>(cage.points, edges);
+  const BoxTree<3> tree(boxes);
+  for (Index e = 0; e < edges.cols(); ++e) {
+    const Index from = edges(0, e), to = edges(1, e);
+    if (from > to) continue;  // the other facet has it too
+    const Vector<3> margin = Vector<3>::Constant(limit);
+    tree.any_of({boxes[e].min() - margin, boxes[e].max() + margin}, [&](Index other) {
+      const auto facet = cage.facets.col(other / 3);
+      const auto ends = edges.col(other);
+      if ((facet.array() == from).any() || (ends.array() == to).any()) return false;
+      const double distance = passing_distance(cage.points, from, to, ends(0), ends(1));
+      if (distance < limit) thinnest = {limit = distance, from, other / 3};
+      return false;
+    });
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -98,6 +145,7 @@ ThinPlace thinnest_place(const Cage<Dim>& cage) {
     const bool is_tie = distance == thinnest.distance && f < thinnest.facet;
     if (distance < thinnest.distance || is_tie) thinnest = {distance, i, f};
   }
+  compare_edges(cage, thinnest);
   return thinnest;
 }
 

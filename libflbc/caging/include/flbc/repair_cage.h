@@ -29,7 +29,8 @@ struct RepairedCage {
 
 //! Repairs a cage in this order:
 //! 1. merges coincident control points, and splits facets at control points that lie on their
-//! edges;
+//!    edges. If the cage is open, points farther apart are merged where this closes it, up to a
+//!    tenth of the shortest edge;
 //! 2. removes degenerate, duplicate, and dangling facets;
 //! 3. orients facets consistently, and closes holes;
 //! 4. if facets still cross, touch, or branch: cuts them where they meet, removes what has the

@@ -78,10 +78,9 @@ class PolygonCutter {
 
   // Whether the polygon turns left at the corner after `corner`, by more than rounding.
   bool turns_left(std::size_t corner) const {
-    constexpr double kStraight = 1e-9;
     const std::size_t next = after(corner), last = after(corner, 2);
     return area(rest_[corner], rest_[next], rest_[last]) >
-           kStraight * length(corner, next) * length(next, last);
+           straight_ * length(corner, next) * length(next, last);
   }
 
   bool is_convex() const {
@@ -95,17 +94,24 @@ class PolygonCutter {
   bool is_ear(std::size_t corner) const {
     if (!turns_left(corner)) return false;
     const Index a = rest_[corner], b = rest_[after(corner)], c = rest_[after(corner, 2)];
+    const auto is_left = [&](Index from, Index to, Index p) {
+      return area(from, to, p) >= -straight_ * (points_[to] - points_[from]).squaredNorm();
+    };
     return std::none_of(rest_.begin(), rest_.end(), [&](Index p) {
-      return p != a && p != b && p != c && area(a, b, p) >= 0 && area(b, c, p) >= 0 &&
-             area(c, a, p) >= 0;
+      return p != a && p != b && p != c && is_left(a, b, p) && is_left(b, c, p) && is_left(c, a, p);
     });
   }
 
-  // Continuing after the last ear avoids fans of slivers.
+  // Corners in line with others, up to rounding, would leave triangles without area. They count as
+  // ears if there are no others. Continuing after the last ear avoids fans of slivers.
   void cut_ears(std::vector<Triangle>& triangles) {
     std::size_t corner = 0;
     for (std::size_t tried = 0; rest_.size() > 3 && tried < rest_.size(); ++tried) {
       corner = after(corner);
+      if (tried + 1 == rest_.size() && straight_ > kRounding) {
+        straight_ = kRounding;
+        tried = 0;
+      }
       if (!is_ear(corner)) continue;
       const std::size_t tip = after(corner);
       triangles.emplace_back(rest_[corner], rest_[tip], rest_[after(tip)]);
@@ -115,8 +121,11 @@ class PolygonCutter {
     }
   }
 
+  static constexpr double kRounding = 1e-9;
+
   const std::vector<Vector<3>>& points_;
   Polygon rest_;
+  double straight_ = 1e-5;  // sines of smaller angles count as 0; files have six digits
   Vector<3> normal_ = Vector<3>::Zero();
 };
 

@@ -166,12 +166,17 @@ struct Task {
 
 // \param patience  for each run of TetGen
 DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, const Patience& patience) {
+  // TetGen, if it does not fail, makes the coarsest mesh at once. Others get the time for as many
+  // vertices, and far more, unless TetGen does not terminate.
+  const bool may_hang = coplanar == CoplanarFacets::kKeep;
+  Patience time = patience;
+  if (may_hang) time.seconds = std::min(time.seconds, 10 + 1e-3 * task.input.points.cols());
   const Index most_points = std::max(kMostPoints, 4 * task.vertices);
   const DecimalUnit<3> unit(task.input.points);
   const auto make_mesh = [&](double ratio, double largest_volume) {
     const double volume = largest_volume / std::pow(unit.length(), 3);
     const std::string switches = quality_switches(coplanar, ratio, volume, most_points);
-    DomainMesh<3> mesh = run_tetgen(task.input, switches, patience).mesh;
+    DomainMesh<3> mesh = run_tetgen(task.input, switches, time).mesh;
     if (mesh.num_vertices() - task.input.points.cols() >= most_points) {
       throw InputError("well-shaped cells would need more than " + std::to_string(most_points) +
                        " vertices in this cage" + describe_thinnest(task.cage) +
@@ -180,8 +185,13 @@ DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, const Patience& pa
     peel_flat_cells(task.cage, static_cast<Index>(task.input.points.cols()), mesh);
     return compact(task.cage, task.input.points, std::move(mesh));
   };
+  Stopwatch watch;
   DomainMesh<3> mesh = make_mesh(kRadiusEdgeRatio, 0);
   check_vertex_count(task.vertices, mesh.num_vertices(), kCountTolerance);
+  if (may_hang) {
+    const double ratio = static_cast<double>(task.vertices) / mesh.num_vertices();
+    time.seconds = std::min(patience.seconds, 5 + 20 * watch.lap() * std::max(1.0, ratio));
+  }
   const auto goal = VertexCountGoal<3>::of(task.vertices, kCountTolerance, mesh);
   if (task.vertices > mesh.num_vertices()) {
     const double bound = guess_volume_bound(task.cage, std::abs(total_measure(mesh)),
@@ -204,17 +214,6 @@ DomainMesh<3> keep_coplanar_edges(const Task& task, const Patience& patience) {
   return {};
 }
 
-// The time for a mesh of so many vertices, by that of the coarsest one, and far more, unless TetGen
-// does not terminate.
-Patience ample_time(const Task& task, const Patience& patience) {
-  Task coarsest = task;
-  coarsest.vertices = 0;
-  Stopwatch watch;
-  const auto mesh = fill(coarsest, CoplanarFacets::kJoin, patience);
-  const double ratio = static_cast<double>(task.vertices) / mesh.num_vertices();
-  return {std::min(patience.seconds, 5 + 20 * watch.lap() * std::max(1.0, ratio)), patience.poll};
-}
-
 // TetGen makes another mesh of a cage that is turned inward.
 Cage<3> outward(Cage<3> cage) {
   const Vector<3> origin = cage.points.col(0);
@@ -234,7 +233,7 @@ DomainMesh<3> tetrahedralize(const Cage<3>& given, const MeshingOptions<3>& opti
   DomainMesh<3> mesh;
   try {
     if (has_coplanar_facets(cage)) {
-      mesh = keep_coplanar_edges(task, ample_time(task, patience));
+      mesh = keep_coplanar_edges(task, patience);
     }
     const bool has_count =
         mesh.num_vertices() > 0 &&
