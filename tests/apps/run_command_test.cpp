@@ -282,7 +282,7 @@ TEST_F(RunCommand, SplatsGetACageAndMoveAsByDeform) {
              "--symmetric: there is no model");
   const auto masks = file("masks.json", "[{\"control_points\": [0], \"region\": [0]}]");
   expect_run("out", "out/cage.obj " + splat_file + " --locality " + masks, 1,
-             "has splats, which have no weights of their own");
+             "which have no weights of their own");
 }
 
 // The same surface or outline, with its vertices in another order.

@@ -99,6 +99,20 @@ TEST(SvgDocumentTest, AffineMapsAreExact) {
   }
 }
 
+TEST(SvgDocumentTest, AffineMapsKeepTheNumberOfCubics) {
+  const auto document = document_of("<path id=\"head\" d=\"" + std::string(kHead) + "\"/>");
+  Eigen::Matrix2d map;
+  map << 1.3, 0.5, -0.2, 0.8;
+  const auto text = document.moved(map * document.points());
+  bool is_whole = false;
+  const auto rest = parse_path(kHead, is_whole), moved = path_in(text, "head");
+  ASSERT_EQ(count_cubics(moved), count_cubics(rest));
+  for (std::size_t k = 0; k < count_cubics(rest); ++k) {
+    const Eigen::Matrix<double, 2, 4> expected = map * rest[0].cubics[k].points;
+    EXPECT_LT((moved[0].cubics[k].points - expected).cwiseAbs().maxCoeff(), 1e-3) << text;
+  }
+}
+
 TEST(SvgDocumentTest, BentCurvesAreWithinTheToleranceAndSmooth) {
   const auto document = document_of("<path id=\"head\" d=\"" + std::string(kHead) +
                                     "\"/><path id=\"mouth\" d=\"" + kMouth + "\"/>");

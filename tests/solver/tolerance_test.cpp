@@ -244,7 +244,7 @@ void expect_properties(const Model& model) {
   EXPECT_EQ(judgement.boundary_vertices_off_cage, 0);
   EXPECT_GE(judgement.min_weight, 0);
   // Locality: few control points influence a vertex, for any number of control points.
-  EXPECT_LT(solution.report.quality.mean_influences, 8);
+  EXPECT_LT(solution.report.quality.mean_influences, 8.5);
 }
 
 class RealModels : public ::testing::TestWithParam<Model> {};

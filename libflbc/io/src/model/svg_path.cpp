@@ -423,7 +423,7 @@ Affine2 fitted_map(const std::vector<Vector<2>>& from, const std::vector<Vector<
 }
 
 PathSamples::PathSamples(const Path& path, double size) : path_(path) {
-  constexpr double kSteps = 256;  // along the size of the drawing
+  constexpr double kSteps = 64;  // along the size of the drawing
   for (const auto& part : path_) {
     for (const auto& cubic : part.cubics) {
       const auto& p = cubic.points;
