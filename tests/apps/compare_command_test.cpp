@@ -65,7 +65,8 @@ TEST_F(CompareCommand, DistortionOfAffinePosesIsThatOfTheMap) {
     const Eigen::Matrix3d image = Vector<3>(-1, 1, 1).asDiagonal();
     for (const auto& [map, distortion, volume_change, flipped] :
          {std::tuple(turn, 0.0, 0.0, 0.0), {stretch, 0.25 + 1, 2.0, 0.0}, {image, 0.0, 2.0, 1.0}}) {
-      for (const auto& [name, facts] : measure(map).items()) {
+      const auto columns = measure(map);
+      for (const auto& [name, facts] : columns.items()) {
         EXPECT_NEAR(facts["distortion"].get<double>(), distortion, 1e-9) << name;
         EXPECT_NEAR(facts["volume_change"].get<double>(), volume_change, 1e-9) << name;
         EXPECT_NEAR(facts["flipped"].get<double>(), flipped, flipped * 1e-12) << name;
