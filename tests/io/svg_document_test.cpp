@@ -82,7 +82,7 @@ constexpr const char* kHead =
     "M100 20C150 20 180 60 180 110S150 190 100 190 20 160 20 110 50 20 100 20Z";
 constexpr const char* kMouth = "M60 140q40 40 80 0";
 
-TEST(SvgDocumentTest, AffineMapsAreExact) {
+TEST(SvgDocumentTest, GeometryStaysInEveryTransform) {
   const std::string shapes =
       R"svg(<path id="a" d="M100 20C150 20 180 60 180 110S150 190 100 190 20 160 20 110Z"/>
       <g transform="translate(30 40) rotate(20) scale(1.5 .7)"><path id="b" d="m10 10h20v20a5 9 30 1 0 -9 4z"/></g>)svg";

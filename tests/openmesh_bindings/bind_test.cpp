@@ -307,7 +307,8 @@ TYPED_TEST(Bind, BindingsOfOtherMeshesAreRefused) {
   expect_refused<Error>("but the binding has it at", set);  // not at rest
   openmesh::restore_rest(model);
   EXPECT_NO_THROW(set());
-  model.add_vertex(model.point(*model.vertices_begin()));
+  const auto first = model.point(OpenMesh::VertexHandle(0));
+  model.add_vertex(first);
   expect_refused<Error>("vertices, but the binding is of", set);
 }
 

@@ -286,9 +286,20 @@ struct SvgDocument::Content {
     }
   }
 
+  // Counts elements before they are copied, of which a few may make very many.
+  void count_copies(const xml_node& node) {
+    constexpr int kMost = 1000000;
+    std::vector<xml_node> open{node};
+    while (!open.empty()) {
+      const auto next = open.back();
+      open.pop_back();
+      if (++copies > kMost) throw InputError(name + ": the drawing repeats too much by <use>");
+      for (const auto& child : next.children()) open.push_back(child);
+    }
+  }
+
   xml_node copy_after(const xml_node& node, const std::string& id) {
-    constexpr int kMostCopies = 100000;
-    if (++copies > kMostCopies) throw InputError(name + ": the drawing repeats too much by <use>");
+    count_copies(node);
     auto copy = node.parent().insert_copy_after(node, node);
     set_attribute(copy, "id", id);
     by_id.emplace(id, copy);
@@ -309,8 +320,7 @@ struct SvgDocument::Content {
     for (auto above = use; above; above = above.parent()) {
       if (above == found->second) return {};  // it would contain itself
     }
-    constexpr int kMostCopies = 100000;
-    if (++copies > kMostCopies) throw InputError(name + ": the drawing repeats too much by <use>");
+    count_copies(found->second);
     const Vector<2> offset(length_of(use, "x", 0), length_of(use, "y", 0));
     use.remove_attribute(href_of(use));
     for (const char* key : {"x", "y", "width", "height"}) use.remove_attribute(key);
