@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Whether Blender moves a skin of flbc export, or a model with the vertex groups and bones that flbc
-# export writes for Blender, as flbc deform moves the model, and draws short bones:
-#   blender --background --factory-startup --python blender.py -- \
-#     SKIN.glb|GROUPS.py MODEL.obj CAGE.obj POSE.obj MOVED.obj
+# Whether Blender moves a skin of flbc export as flbc deform moves the model, and draws short bones:
+#   blender --background --factory-startup --python blender.py -- SKIN.glb CAGE.obj POSE.obj MOVED.obj
 # Positions may differ by 1e-6 of the size; of the bones' lengths the median is looked at.
 import statistics
 import sys
@@ -16,10 +14,10 @@ LONGEST_BONE = 1 / 20
 
 
 def read_points(path):
-    """The vertices of an .obj file, in a skin as Blender turns them: glTF's y is its z."""
+    """The vertices of an .obj file as Blender turns a skin: glTF's y is its z."""
     with open(path) as file:
         rows = [Vector(map(float, line.split()[1:4])) for line in file if line.startswith('v ')]
-    return [Vector((p.x, -p.z, p.y)) for p in rows] if is_skin else rows
+    return [Vector((p.x, -p.z, p.y)) for p in rows]
 
 
 def require(condition, message):
@@ -29,32 +27,23 @@ def require(condition, message):
 
 if not hasattr(numpy, 'bool'):  # Debian's Blender needs a name that Debian's NumPy has no more
     numpy.bool = bool
-skin, model, cage, pose, moved = sys.argv[sys.argv.index('--') + 1:]
-is_skin = skin.endswith('.glb')
+skin, cage, pose, moved = sys.argv[sys.argv.index('--') + 1:]
 bpy.ops.wm.read_factory_settings(use_empty=True)
-if is_skin:
-    bpy.ops.import_scene.gltf(filepath=skin)
-    mesh = next(item for item in bpy.data.objects
-                if item.type == 'MESH' and any(m.type == 'ARMATURE' for m in item.modifiers))
-else:
-    bpy.ops.wm.obj_import(filepath=model)
-    mesh = bpy.context.selected_objects[0]
-    bpy.context.view_layer.objects.active = mesh
-    with open(skin) as file:
-        exec(compile(file.read(), skin, 'exec'))
+bpy.ops.import_scene.gltf(filepath=skin)
+mesh = next(item for item in bpy.data.objects
+            if item.type == 'MESH' and any(m.type == 'ARMATURE' for m in item.modifiers))
 armature = next(item for item in bpy.data.objects if item.type == 'ARMATURE')
 
 expected = read_points(moved)
 size = max((a - expected[0]).length for a in expected)
 length = statistics.median(bone.length for bone in armature.data.bones) / size
-require(not is_skin or length <= LONGEST_BONE, f'bones are {length} of the size long, half of them more')
+require(length <= LONGEST_BONE, f'bones are {length} of the size long, half of them more')
 for i, (before, after) in enumerate(zip(read_points(cage), read_points(pose))):
     bone = armature.pose.bones[f'control_point_{i}']
     bone.matrix = Matrix.Translation(after - before) @ bone.bone.matrix_local
 bpy.context.view_layer.update()
 evaluated = mesh.evaluated_get(bpy.context.evaluated_depsgraph_get())
-place = evaluated.matrix_world if is_skin else Matrix()
-found = [place @ vertex.co for vertex in evaluated.to_mesh().vertices]
+found = [evaluated.matrix_world @ vertex.co for vertex in evaluated.to_mesh().vertices]
 require(len(found) == len(expected), f'{len(found)} vertices, expected {len(expected)}')
 error = max((a - b).length for a, b in zip(found, expected)) / size
 require(error <= TOLERANCE, f'vertices are {error} of the size away from flbc deform')

@@ -24,9 +24,7 @@ for name in 2d/figure 3d/limb; do
   "$flbc" solve "$cage" --method harmonic --vertices 1500 -q -o weights.npy --model "$model"
   "$flbc" sparsify weights.npy --cage "$cage" --points "$model" -k 4 -q -o few.mtx
   "$flbc" deform "$model" --weights few.mtx --pose "$pose" -q -o moved.obj
-  for output in skin.glb groups.py; do
-    "$flbc" export "$model" --weights few.mtx --cage "$cage" -k 4 -q -o $output
-    blender --background --factory-startup --python-exit-code 1 --python "$here/blender.py" -- \
-      $output "$model" "$cage" "$pose" moved.obj
-  done
+  "$flbc" export "$model" --weights few.mtx --cage "$cage" -k 4 -q -o skin.glb
+  blender --background --factory-startup --python-exit-code 1 --python "$here/blender.py" -- \
+    skin.glb "$cage" "$pose" moved.obj
 done
