@@ -288,7 +288,7 @@ struct SvgDocument::Content {
 
   // Counts elements before they are copied, of which a few may make very many.
   void count_copies(const xml_node& node) {
-    constexpr int kMost = 1000000;
+    constexpr int kMost = 100000;
     std::vector<xml_node> open{node};
     while (!open.empty()) {
       const auto next = open.back();
