@@ -1,7 +1,8 @@
 # Install rules; included after all targets are defined. Installed files do not contain the prefix,
-# so the tree can be moved. What was not built is left out. Install components are the packages (package.cmake): core, meshers, and
-# openmesh have runtime files; core_dev, meshers_dev, and openmesh_dev have files for compiling and
-# linking; program has the program, and python the Python module (python/CMakeLists.txt).
+# so the tree can be moved. What was not built is left out. Install components are the packages
+# (package.cmake): core, meshers, and openmesh have runtime files; core_dev, meshers_dev, and
+# openmesh_dev have files for compiling and linking; program has the program, and python the Python
+# module (python/CMakeLists.txt).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/flbc)

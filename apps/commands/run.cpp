@@ -209,7 +209,7 @@ void mirror_weights(RunArguments& arguments) {
 // Splats and drawings move with the mesh, so they have no weights of their own.
 void take_follower(RunArguments& arguments) {
   auto& settings = arguments.settings;
-  const auto is_drawing = [](const std::string& path) { return io::extension_of(path) == "svg"; };
+  const auto is_drawing = [](const std::string& path) { return moves_drawing({path, path}); };
   if (is_drawing(arguments.picture)) arguments.follower = arguments.picture;
   if (!is_drawing(settings.model) && !io::is_splat_file(settings.model)) return;
   arguments.follower = std::exchange(settings.model, "");

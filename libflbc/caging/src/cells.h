@@ -28,8 +28,7 @@ std::map<Index, double> number_parts(CageDraft<Dim>& draft, const std::vector<In
 
 //! Removes facets with the inside on both sides, and orients the others with outward normals. The
 //! inside of a part is what it separates from infinity. A part inside another one is its cavity,
-//! unless it touches it from within and is oriented alike;
-//! otherwise parts are united.
+//! unless it touches it from within and is oriented alike; otherwise parts are united.
 //! \param draft  its facets meet only at common corners and edges \param measures  of its parts
 //! \return false if a facet has the outside on both sides, because it belongs to an open part
 template <int Dim>

@@ -29,6 +29,12 @@ bool is_one_of(std::string_view word, std::string_view words) {
   return words.find(" " + std::string(word) + " ") != std::string_view::npos;
 }
 
+// Changes the name of an element in its namespace.
+void rename(xml_node node, const char* name) {
+  const std::string_view whole = node.name();
+  node.set_name((std::string(whole.substr(0, whole.find(':') + 1)) + name).c_str());
+}
+
 // The value of a property, from the style of an element or from its attribute.
 std::string property_of(const xml_node& node, const std::string& name) {
   const std::string style = node.attribute("style").value();
@@ -57,23 +63,16 @@ xml_attribute href_of(const xml_node& node) {
   return href ? href : node.attribute("xlink:href");
 }
 
-std::string without_blanks(const std::string& name) {
-  std::string kept;
-  for (const char c : name) {
-    if (c != ' ') kept += c;
-  }
-  return kept;
-}
-
 // Transforms of SVG up to the first error.
-Affine2 transform_of(const xml_node& node, const char* attribute = "transform") {
+Affine2 transform_in(std::string_view text) {
+  constexpr const char* kBlanks = " \t\r\n,";
   Affine2 all = Affine2::Identity();
-  std::string_view text = node.attribute(attribute).value();
   while (true) {
     const auto open = text.find('(');
     if (open == std::string_view::npos) return all;
-    const auto first = text.find_first_not_of(" \t\r\n,");
-    const auto name = without_blanks(std::string(text.substr(first, open - first)));
+    const auto first = text.find_first_not_of(kBlanks);
+    const auto word = text.substr(first, open - first);
+    const auto name = word.substr(0, word.find_last_not_of(kBlanks) + 1);
     text.remove_prefix(open + 1);
     double numbers[6] = {};
     int count = 0;
@@ -101,6 +100,10 @@ Affine2 transform_of(const xml_node& node, const char* attribute = "transform") 
     }
     all = all * one;
   }
+}
+
+Affine2 transform_of(const xml_node& node) {
+  return transform_in(node.attribute("transform").value());
 }
 
 std::string to_text(const Affine2& transform) {
@@ -324,9 +327,7 @@ struct SvgDocument::Content {
     const Vector<2> offset(length_of(use, "x", 0), length_of(use, "y", 0));
     use.remove_attribute(href_of(use));
     for (const char* key : {"x", "y", "width", "height"}) use.remove_attribute(key);
-    const std::string prefix(use.name(),
-                             static_cast<std::size_t>(local_name(use).data() - use.name()));
-    use.set_name((prefix + "g").c_str());
+    rename(use, "g");
     if (!offset.isZero()) {
       const Affine2 moved = transform_of(use) * Eigen::Translation2d(offset);
       set_attribute(use, "transform", to_text(moved));
@@ -394,20 +395,13 @@ struct SvgDocument::Content {
       from = next == by_id.end() ? xml_node() : next->second;
     }
     if (units.value() != std::string("userSpaceOnUse")) return;
-    const Affine2 rest = transform ? transform_of_attribute(transform) : Affine2::Identity();
+    const Affine2 rest = transform_in(transform.value());
     if (!used_gradients.insert(id).second) {
       const auto other = free_id(id);
       gradient = copy_after(gradient, other);
       replace_reference(target.element, property, id, other);
     }
     target.gradients.emplace_back(gradient, rest);
-  }
-
-  static Affine2 transform_of_attribute(const xml_attribute& attribute) {
-    pugi::xml_document holder;
-    auto node = holder.append_child("a");
-    set_attribute(node, "transform", attribute.value());
-    return transform_of(node);
   }
 
   void add_shape(xml_node node, const Affine2& parent, const Size& view) {
@@ -425,14 +419,12 @@ struct SvgDocument::Content {
       for (auto& cubic : part.cubics) cubic.points = to_root * cubic.points;
     }
     if (local_name(node) != "path") {
-      const std::string prefix(node.name(),
-                               static_cast<std::size_t>(local_name(node).data() - node.name()));
       for (auto attribute = node.first_attribute(); attribute;) {
         const auto next = attribute.next_attribute();
         if (is_one_of(attribute.name(), kOfShapes)) node.remove_attribute(attribute);
         attribute = next;
       }
-      node.set_name((prefix + "path").c_str());
+      rename(node, "path");
     }
     take_gradient(target, "fill");
     take_gradient(target, "stroke");
@@ -449,11 +441,9 @@ struct SvgDocument::Content {
     Size size(length_of(node, "width", view.x()), length_of(node, "height", view.y()));
     if (kind == "text") {
       const auto font = property_of(node, "font-size");
-      for (const auto& child : node.children("tspan")) {
-        if (!node.attribute("x")) corner.x() = length_of(child, "x", view.x(), corner.x());
-        if (!node.attribute("y")) corner.y() = length_of(child, "y", view.y(), corner.y());
-        break;
-      }
+      const auto child = node.child("tspan");
+      if (!node.attribute("x")) corner.x() = length_of(child, "x", view.x(), corner.x());
+      if (!node.attribute("y")) corner.y() = length_of(child, "y", view.y(), corner.y());
       std::string_view height = font;
       double em = 16;
       take_number(height, em);

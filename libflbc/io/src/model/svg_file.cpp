@@ -428,9 +428,9 @@ void read_svg(const std::string& path, Extent, ModelScan& scan) {
 
 SvgDocument read_drawing(const std::string& path) {
   const auto text = read_file(path);
-  const auto drawing = without_background(path, text);
-  double bottom = 0;
-  close_picture(drawing, path, "", bottom);
+  const Drawing drawing(path, text);
+  double bottom = drawing.box().max().y();
+  if (drawing.is_endless()) close_picture(without_background(path, text), path, "", bottom);
   const Eigen::Affine2d upwards(Eigen::Translation2d(0, bottom) * Eigen::Scaling(1.0, -1.0));
   return {text, path, drawing.box().sizes(), upwards};
 }

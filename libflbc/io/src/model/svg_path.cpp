@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <iterator>
 
 #include "text/float_chars.h"
 
@@ -16,10 +15,14 @@ void skip_blanks(std::string_view& text) {
   text.remove_prefix(first == std::string_view::npos ? text.size() : first);
 }
 
-// A flag of an arc is one character, and the next number may follow without a blank.
-bool take_flag(std::string_view& text, double& flag) {
+void skip_separator(std::string_view& text) {
   skip_blanks(text);
   if (!text.empty() && text.front() == ',') text.remove_prefix(1), skip_blanks(text);
+}
+
+// A flag of an arc is one character, and the next number may follow without a blank.
+bool take_flag(std::string_view& text, double& flag) {
+  skip_separator(text);
   if (text.empty() || (text.front() != '0' && text.front() != '1')) return false;
   flag = text.front() - '0';
   text.remove_prefix(1);
@@ -283,17 +286,20 @@ class Fitter {
   std::vector<Cubic>& cubics_;
 };
 
-// Directions at the ends of a row of samples, of second order.
+// The direction at an end of a row of samples, of second order. \param first, second, third  from
+// the end on \param last  the other end
+Vector<2> direction_from(const Vector<2>& first, const Vector<2>& second, const Vector<2>& third,
+                         const Vector<2>& last) {
+  const auto found = direction(4 * second - 3 * first - third);
+  return found.isZero() ? direction(last - first) : found;
+}
+// \param count  at least 5, as PathSamples has
 Vector<2> direction_at_begin(const Vector<2>* samples, std::size_t count) {
-  if (count < 3) return direction(samples[count - 1] - samples[0]);
-  const auto found = direction(4 * samples[1] - 3 * samples[0] - samples[2]);
-  return found.isZero() ? direction(samples[count - 1] - samples[0]) : found;
+  return direction_from(samples[0], samples[1], samples[2], samples[count - 1]);
 }
 Vector<2> direction_at_end(const Vector<2>* samples, std::size_t count) {
-  std::vector<Vector<2>> last(
-      std::make_reverse_iterator(samples + count),
-      std::make_reverse_iterator(samples + count - std::min<std::size_t>(count, 3)));
-  return -direction_at_begin(last.data(), last.size());
+  const Vector<2>* const end = samples + count;
+  return -direction_from(end[-1], end[-2], end[-3], end[-3]);
 }
 
 bool is_straight(const Vector<2>* samples, std::size_t count, double tolerance) {
@@ -338,8 +344,7 @@ Vector<2> Cubic::at(double t) const {
 
 bool take_number(std::string_view& text, double& number) {
   auto rest = text;
-  skip_blanks(rest);
-  if (!rest.empty() && rest.front() == ',') rest.remove_prefix(1), skip_blanks(rest);
+  skip_separator(rest);
   if (!rest.empty() && rest.front() == '+') rest.remove_prefix(1);
   const bool is_digit = !rest.empty() && (rest.front() == '-' || rest.front() == '.' ||
                                           (rest.front() >= '0' && rest.front() <= '9'));
