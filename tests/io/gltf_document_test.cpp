@@ -362,6 +362,10 @@ TEST_F(GltfDocumentTest, OtherVersionsAndMissingChunksAreNamed) {
     file.json["asset"]["version"] = std::to_string(version) + ".0";
     refuse(file, "version " + std::to_string(version) + " is not supported");
   }
+  auto huge = whole;
+  huge.replace(4, 4, "\xFF\xFF\xFF\xFF");
+  make("bad.glb", huge);
+  expect_error<InputError>([&] { ModelFile(path("bad.glb")); }, {"version 4.29497e+09 is not"});
   std::uint32_t size = 0;
   std::memcpy(&size, whole.data() + 12, sizeof size);
   make("bad.glb", whole.substr(0, 20 + size));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/messages.h"
 #include "flbc/io/files.h"
 #include "flbc/version.h"
 #include "model/gltf_json.h"
@@ -26,7 +27,7 @@ std::size_t aligned(std::size_t size) {
 
 void require_version(const std::string& path, double version) {
   if (std::floor(version) == 2) return;
-  throw InputError(path + ": glTF of version " + std::to_string(static_cast<int>(version)) +
+  throw InputError(path + ": glTF of version " + format_number(std::floor(version)) +
                    " is not supported; export version 2");
 }
 

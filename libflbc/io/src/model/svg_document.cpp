@@ -200,7 +200,7 @@ Path path_of(const xml_node& node, const Size& view, bool& is_whole) {
   return {{arc({x("cx"), y("cy")}, radii, 0, 2 * kPi), true}};
 }
 
-constexpr std::string_view kShapes = " path rect circle ellipse line polyline polygon ";
+constexpr std::string_view kPathShapes = " path rect circle ellipse line polyline polygon ";
 // Attributes that a path has not.
 constexpr std::string_view kOfShapes = " x y width height rx ry r cx cy x1 y1 x2 y2 points ";
 
@@ -265,7 +265,7 @@ struct SvgDocument::Content {
   std::vector<Target> targets{};
   PointList<2> points{};
   std::vector<std::string> notes{};
-  double size = 0;
+  double drawing_size = 0;
   std::map<std::string, std::string> clips{};  // that were visited: their transform
   std::set<std::string> used_gradients{};
   int copies = 0;
@@ -479,7 +479,7 @@ struct SvgDocument::Content {
     const Affine2 inside = to_root * transform_of(node);
     visit_clip(node, "clip-path", inside, view, open);
     visit_clip(node, "mask", inside, view, open);
-    if (is_one_of(kind, kShapes)) return add_shape(node, to_root, view);
+    if (is_one_of(kind, kPathShapes)) return add_shape(node, to_root, view);
     if (is_one_of(kind, " text image foreignObject ")) return add_moving(node, to_root, view);
     Affine2 own = inside;
     if (kind == "svg" && node != document.document_element()) {
@@ -502,10 +502,10 @@ struct SvgDocument::Content {
         }
       }
     }
-    size = box.isEmpty() ? 1 : std::max(box.sizes().maxCoeff(), 1e-300);
+    drawing_size = box.isEmpty() ? 1 : std::max(box.sizes().maxCoeff(), 1e-300);
     std::size_t count = 0;
     for (auto& target : targets) {
-      if (!target.path.empty()) target.samples.emplace_back(target.path, size);
+      if (!target.path.empty()) target.samples.emplace_back(target.path, drawing_size);
       target.begin = count;
       target.count = target.path.empty() ? target.corners.size() : target.samples[0].size();
       count += target.count;
@@ -538,11 +538,12 @@ struct SvgDocument::Content {
     }
     constexpr double kTolerance = 5e-4, kDigits = 1e-6;  // of the size of the drawing
     const Affine2 to_root = target.parent * target.own, back = to_root.inverse();
-    auto path = target.samples[0].fitted(to, kTolerance * size);
+    auto path = target.samples[0].fitted(to, kTolerance * drawing_size);
     for (auto& part : path) {
       for (auto& cubic : part.cubics) cubic.points = back * cubic.points;
     }
-    const double unit = kDigits * size / std::sqrt(std::abs(to_root.linear().determinant()));
+    const double unit =
+        kDigits * drawing_size / std::sqrt(std::abs(to_root.linear().determinant()));
     const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(unit))), 0, 12);
     set_attribute(target.element, "d", io::to_text(path, decimals));
     const auto& from = target.samples[0].points();

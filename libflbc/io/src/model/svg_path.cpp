@@ -230,7 +230,8 @@ class Fitter {
     constexpr int kSteps = 20;
     const std::size_t steps = end - begin;
     std::vector<double> at(steps + 1);
-    for (std::size_t k = 0; k <= steps; ++k) at[k] = static_cast<double>(k) / steps;
+    for (std::size_t k = 0; k <= steps; ++k)
+      at[k] = static_cast<double>(k) / static_cast<double>(steps);
     Cubic cubic;
     for (int step = 0; step < kSteps; ++step) {
       cubic = solved(begin, end, first, last, at);
