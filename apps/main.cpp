@@ -41,7 +41,7 @@ void refuse_empty_values(CLI::App& app) {
 
 std::string version() {
   const std::string without = FLBC_WITHOUT;
-  return "flbc " FLBC_VERSION "\nwith " FLBC_WITH +
+  return "flbc " FLBC_VERSION FLBC_COMMIT "\nwith " FLBC_WITH +
          (without.empty() ? "" : "\nwithout " + without) +
          "\nlicense of this program: " FLBC_LICENSE;
 }

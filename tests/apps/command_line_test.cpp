@@ -90,6 +90,9 @@ TEST_F(CommandLine, ParserNamesTheCommandAndVersionTheComponents) {
   EXPECT_GE(count, 14) << help;
   const auto version = run("--version").output;
   for (const char* component : {"\nwith", "CGAL (", "TetGen ("}) expect_piece(version, component);
+  // Between releases, with the commit where there is a repository.
+  EXPECT_TRUE(
+      std::regex_search(version, std::regex("^flbc [0-9.]+(-dev(, commit [0-9a-f]{7,})?)?\n")));
 }
 
 // The progress line fits one.

@@ -15,5 +15,5 @@ addon = sys.modules[scene.ADDON]
 manifest = (Path(addon.__file__).parent / 'blender_manifest.toml').read_text()
 for found in ('.'.join(map(str, addon.bl_info['version'])),
               manifest.split('\nversion = "')[1].split('"')[0]):
-    if found != version:
+    if found.removesuffix('-dev') != version:
         sys.exit(f'the add-on has version {found}, libflbc {version}')

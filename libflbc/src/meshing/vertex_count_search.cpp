@@ -14,6 +14,8 @@ namespace {
 
 // Width of a bracket in the logarithm of the bound: 1%.
 constexpr double kNarrow = 0.01;
+// Largest change of the bound in a step: counts that level off must not end in a huge mesh.
+const double kLargestStep = std::log(4.0);
 
 struct Sample {
   double log_bound;
@@ -54,7 +56,8 @@ DomainMesh<Dim> search_vertex_count(const VertexCountGoal<Dim>& goal, DomainMesh
       slope = std::clamp(secant, -2 * exponent, -exponent / 8);
     }
     last = sample;
-    log_bound = sample.log_bound + (wanted - sample.log_count) / slope;
+    const double step = (wanted - sample.log_count) / slope;
+    log_bound = sample.log_bound + std::clamp(step, -kLargestStep, kLargestStep);
     const bool has_bracket = std::isfinite(too_fine) && std::isfinite(too_coarse);
     if (has_bracket && too_coarse - too_fine < kNarrow) break;  // the count jumps within
     if (has_bracket && !(too_fine < log_bound && log_bound < too_coarse)) {
