@@ -87,8 +87,8 @@ int run(int argc, char** argv) {
   for (auto* add :
        {add_run_command, add_cage_command, add_mesh_command, add_solve_command, add_check_command,
         add_compare_command, add_compose_command, add_convert_command, add_deform_command,
-        add_sparsify_command, add_transfer_command, add_export_command, add_draw_command,
-        add_view_command, add_info_command}) {
+        add_fit_command, add_adjoint_command, add_sparsify_command, add_transfer_command,
+        add_export_command, add_draw_command, add_view_command, add_info_command}) {
     add(app, exit_status);
   }
   for (auto* command : app.get_subcommands([](CLI::App*) { return true; })) {

@@ -14,6 +14,8 @@ int main(int argc, char* argv[]) {
     argList::addOption(entry, "file");
   }
   argList::addOption("fixedPatches", "(patch ...)", "patches that do not move");
+  argList::addOption("joint", "smooth | curvature", "smooth end where the cage cuts the mesh");
+  argList::addOption("jointMass", "number", "weight from which on nothing changes, default 0.5");
   argList::addBoolOption("overwrite", "replace the points instead of writing the next time");
 
   const argList args(argc, argv);
@@ -26,6 +28,8 @@ int main(int argc, char* argv[]) {
   if (args.found("fixedPatches")) {
     dict.add("fixedPatches", args.getList<wordRe>("fixedPatches"));
   }
+  if (args.found("joint")) dict.add("joint", args.get<word>("joint"));
+  if (args.found("jointMass")) dict.add("jointMass", args.get<scalar>("jointMass"));
   const word instance = mesh.pointsInstance();
   const pointField rest = mesh.points();
   const flbc::foam::CageDeformer deformer(mesh, rest, dict, {{0, args.get<fileName>("pose")}});

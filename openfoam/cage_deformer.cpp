@@ -5,6 +5,7 @@
 #include <cmath>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -88,7 +89,7 @@ template <int Dim>
 class Motion {
  public:
   Motion(const Foam::polyMesh& mesh, const Foam::pointField& points, Binding<Dim> binding,
-         const std::vector<TimedPose>& poses)
+         const std::vector<TimedPose>& poses, const std::optional<Joint>& joint)
       : evaluator_(std::move(binding.cage), std::move(binding.domain),
                    std::move(binding.domain_weights), OutsidePoints::kKeep,
                    Foam::Pstream::parRun() ? 1 : 0) {
@@ -99,7 +100,8 @@ class Motion {
                                evaluator_.cage().points);
     }
     place(points);
-    fix_cuts(mesh, points, poses);
+    const auto is_cut = fix_cuts(mesh, points, poses);
+    if (joint) slow_down(*joint, is_cut);
   }
 
   // \param part  in [0, 1], between the poses `pose` and `pose` + 1
@@ -108,7 +110,9 @@ class Motion {
     if (part > 0) shifts += part * (displacements_[pose + 1] - displacements_[pose]);
     const auto moved = evaluator_.displace(placement_, evaluator_.pose(shifts));
     for (std::size_t k = 0; k < near_.size(); ++k) {
-      Eigen::Map<Vector<Dim>>(points[near_[k]].v_) += moved.col(static_cast<Eigen::Index>(k));
+      const double factor = factors_.empty() ? 1 : factors_[k];
+      Eigen::Map<Vector<Dim>>(points[near_[k]].v_) +=
+          factor * moved.col(static_cast<Eigen::Index>(k));
     }
   }
 
@@ -135,9 +139,9 @@ class Motion {
   }
 
   // Where facets cut through the mesh, their control points must not move, because the points
-  // outside do not.
-  void fix_cuts(const Foam::polyMesh& mesh, const Foam::pointField& points,
-                const std::vector<TimedPose>& poses) {
+  // outside do not. \return whether each control point is one of these
+  Foam::labelList fix_cuts(const Foam::polyMesh& mesh, const Foam::pointField& points,
+                           const std::vector<TimedPose>& poses) {
     const auto& cage = evaluator_.cage();
     std::vector<bool> is_still(static_cast<std::size_t>(points.size()), true);
     for (const auto p : near_) is_still[static_cast<std::size_t>(p)] = false;
@@ -172,12 +176,24 @@ class Motion {
         displacements_[k].col(i).setZero();
       }
     }
+    return is_cut;
+  }
+
+  // The displacement ends smoothly at these facets (Binding::joined()).
+  void slow_down(const Joint& joint, const Foam::labelList& is_cut) {
+    PointList<Dim> may_move = PointList<Dim>::Zero(Dim, evaluator_.cage().size());
+    for (Index i = 0; i < evaluator_.cage().size(); ++i) may_move(0, i) = is_cut[i] == 0 ? 1 : 0;
+    const auto masses = evaluator_.displace(placement_, evaluator_.pose(may_move));
+    for (Eigen::Index k = 0; k < masses.cols(); ++k) {
+      factors_.push_back(joint.factor(std::max(0.0, masses(0, k))));
+    }
   }
 
   Evaluator<Dim> evaluator_;
   std::vector<PointList<Dim>> displacements_;  // of the control points in each pose
   std::vector<Foam::label> near_;              // points in the bounding box of the cage
   Placement<Dim> placement_;                   // of these; those outside do not move
+  std::vector<double> factors_;                // of their displacements; empty: 1
 };
 
 }  // namespace
@@ -196,13 +212,21 @@ CageDeformer::CageDeformer(const Foam::polyMesh& mesh, const Foam::pointField& p
     }
     const auto file = in_case(mesh, dict.get<Foam::fileName>("binding"));
     auto binding = io::read_binding(file);
+    std::optional<Joint> joint;
+    if (dict.found("joint")) {
+      joint = parse_joint(dict.get<Foam::word>("joint"));
+      joint->mass = dict.lookupOrDefault<Foam::scalar>("jointMass", joint->mass);
+      if (!(joint->mass > 0 && joint->mass <= 1)) {
+        throw InputError("jointMass must be above 0 and at most 1");
+      }
+    }
     std::visit(
         [&](auto& of_dimension) {
           require_domain(of_dimension, file);
           validate(of_dimension.cage);
           constexpr int kDim = std::decay_t<decltype(of_dimension.points)>::RowsAtCompileTime;
           add_to_ = [motion = std::make_shared<const Motion<kDim>>(
-                         mesh, points, std::move(of_dimension), poses_)](
+                         mesh, points, std::move(of_dimension), poses_, joint)](
                         Foam::pointField& moved, std::size_t pose, double part) {
             motion->add_to(moved, pose, part);
           };

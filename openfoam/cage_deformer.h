@@ -26,6 +26,9 @@ class CageDeformer {
  public:
   //! Reads the files and places the points. The entries of the dictionary:
   //!  - binding: a .npz file with a domain mesh, relative to the case
+  //!  - joint (optional): smooth or curvature; the deformation then ends smoothly where facets cut
+  //!    through the mesh (Binding::joined())
+  //!  - jointMass (optional): Joint::mass
   //!  - fixedPatches (optional): patches that do not move
   //! Exits with a FatalError if a file is unusable, a pose does not have the vertices of the cage
   //! in their order, or it moves control points of facets that cut through the mesh.

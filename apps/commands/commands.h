@@ -23,10 +23,10 @@ enum ExitStatus : int {
 
 //! Adds a subcommand to the command line. Its callback changes the exit status unless it is kDone.
 using AddCommand = void(CLI::App& app, int& exit_status);
-AddCommand add_cage_command, add_check_command, add_compare_command, add_compose_command,
-    add_convert_command, add_deform_command, add_draw_command, add_export_command, add_info_command,
-    add_mesh_command, add_run_command, add_solve_command, add_sparsify_command,
-    add_transfer_command, add_view_command;
+AddCommand add_adjoint_command, add_cage_command, add_check_command, add_compare_command,
+    add_compose_command, add_convert_command, add_deform_command, add_draw_command,
+    add_export_command, add_fit_command, add_info_command, add_mesh_command, add_run_command,
+    add_solve_command, add_sparsify_command, add_transfer_command, add_view_command;
 
 //! Complaint about a number of vertices, for CLI::Option::check(); empty if it is fine.
 inline std::string refuse_vertex_count(const std::string& text) {

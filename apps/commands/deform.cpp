@@ -33,6 +33,7 @@ struct DeformArguments {
   PoseArguments poses;
   OutsidePoints outside = OutsidePoints::kFail;
   std::string normals = kPolygons;
+  std::string joint;
   std::string displacement;
   bool quiet = false;
 };
@@ -69,6 +70,7 @@ void check_arguments(const DeformArguments& arguments) {
       {"--relative", arguments.is_relative},
       {"--displacement", !arguments.displacement.empty()},
       {"--show-displacement", arguments.file.shows_displacement},
+      {"--joint", !arguments.joint.empty()},
       {"--domain", !arguments.files.domain.empty()}};
   for (const auto& [option, is_given] : of_rest) {
     if (is_given && !arguments.files.has_cage()) {
@@ -80,6 +82,9 @@ void check_arguments(const DeformArguments& arguments) {
   }
   if (arguments.is_relative && needs_jacobians(arguments)) {
     throw OptionError("--relative moves points, but neither splats nor normals by the Jacobian");
+  }
+  if (!arguments.joint.empty() && needs_jacobians(arguments)) {
+    throw OptionError("--joint moves vertices, but neither splats nor normals by the Jacobian");
   }
   if (moves_drawing(arguments.file) && !evaluates(arguments)) {
     throw OptionError(arguments.file.model +
@@ -250,6 +255,12 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
   std::optional<PointJacobians<Dim>> jacobians;
   if (arguments.method.empty()) {
     binding = bind_model(model, poses.front(), arguments);
+    if (!arguments.joint.empty()) {
+      const auto joint = parse_joint(arguments.joint);
+      const auto joined = naming(arguments.file.model, [&] { return binding.joined(joint); });
+      if (!arguments.quiet) print_joint(binding, joined, joint, arguments.file.model, poses);
+      binding = joined;
+    }
     if (needs_jacobians(arguments)) jacobians = binding.point_jacobians();
     if (!arguments.quiet && !arguments.is_relative && model.drawing() == nullptr) {
       warn_outside(binding, arguments.file.model);
@@ -319,6 +330,7 @@ void add_deform_command(CLI::App& app, int&) {
       "domain mesh that has these weights (domain_weights.npy of flbc run), instead of MODEL");
   domain->excludes(method)->excludes(relative);
   relative->excludes(method);
+  add_joint_option(*command, a.joint)->excludes(method)->excludes(relative);
   add_choice(*command, "--outside", a.outside,
              "method for splats and points outside the cage, and with --domain, as in flbc solve "
              "(default: that of the binding, or fail)");

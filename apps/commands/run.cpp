@@ -223,6 +223,11 @@ void take_follower(RunArguments& arguments) {
 void prepare_model(const CLI::App& command, RunArguments& arguments) {
   refuse_unread_options(command, arguments.settings);
   take_follower(arguments);
+  if (!arguments.joint.empty()) parse_joint(arguments.joint);
+  if (!arguments.joint.empty() && !arguments.follower.empty()) {
+    throw OptionError("--joint: " + arguments.follower +
+                      " moves with the domain mesh, which has no joint; leave out this option");
+  }
   mirror_weights(arguments);
   require_model_to_embed(arguments.settings);
 }
@@ -325,6 +330,7 @@ void add_run_command(CLI::App& app, int& exit_status) {
       ->type_name("OUTDIR");
   command->add_option("-k,--max-influences", a.max_influences,
                       "maximum influences per vertex (default: 8)");
+  add_joint_option(*command, a.joint);
   command->add_option("--control-point", a.control_point,
                       "control point to draw, counted from 0 (default: the one that moves most)");
   command->add_flag("--force", a.force, "replace files in OUTDIR that are not from an earlier run");

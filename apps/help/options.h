@@ -59,6 +59,15 @@ inline CLI::Option* add_cage_option(CLI::App& command, std::string& cage) {
   return command.add_option("--cage", cage, "rest cage of the weights; a .npz file has it");
 }
 
+//! Adds --joint.
+inline CLI::Option* add_joint_option(CLI::App& command, std::string& joint) {
+  return command
+      .add_option("--joint", joint,
+                  "how the deformation ends where the mesh passes through the cage: smooth, "
+                  "curvature, or one with the mass from which on nothing changes, as in smooth:0.3")
+      ->type_name("JOINT");
+}
+
 //! Adds --up of the commands that show or export models, with the default kAuto.
 inline CLI::Option* add_up_option(CLI::App& command, UpAxis& up) {
   return add_choice(

@@ -45,6 +45,43 @@ struct CellCount {
   }
 };
 
+// The number of cells between the border and the nearest vertex that a joint does not change; -1 if
+// it changes all.
+template <int Dim>
+Index cells_of_joint(const Binding<Dim>& before, const Binding<Dim>& joined, const Joint& joint,
+                     const std::vector<BorderCrossing<Dim>>& crossings) {
+  const Index count = before.weights.num_points();
+  std::vector<std::vector<Index>> neighbors(static_cast<std::size_t>(count));
+  for (const auto& [a, b] : before.edges.ends) {
+    neighbors[a].push_back(b);
+    neighbors[b].push_back(a);
+  }
+  const auto mass = [&](Index p) {
+    double sum = 0;
+    before.weights.visit(p, [&](Index i, double w) {
+      if (!std::binary_search(joined.held.begin(), joined.held.end(), i)) sum += w;
+    });
+    return sum;
+  };
+  std::vector<bool> is_seen(static_cast<std::size_t>(count), false);
+  std::vector<Index> front, next;
+  for (const auto& crossing : crossings) {
+    if (!is_seen[crossing.ends[0]]) front.push_back(crossing.ends[0]);
+    is_seen[crossing.ends[0]] = true;
+  }
+  for (Index depth = 1; !front.empty(); ++depth, front.swap(next), next.clear()) {
+    for (const Index p : front) {
+      if (mass(p) >= joint.mass) return depth;
+      for (const Index q : neighbors[p]) {
+        if (is_seen[q] || !before.weights.has_weights(q)) continue;
+        is_seen[q] = true;
+        next.push_back(q);
+      }
+    }
+  }
+  return -1;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -99,6 +136,42 @@ void warn_border(const Binding<Dim>& binding, const std::string& file,
 }
 
 template <int Dim>
+void print_joint(const Binding<Dim>& before, const Binding<Dim>& joined, const Joint& joint,
+                 const std::string& file, const std::vector<Pose<Dim>>& poses) {
+  const auto rest = before.rest();
+  const auto crossings = find_crossings(before.cage, rest, are_still(before.weights), before.edges);
+  double slopes[2] = {0, 0};
+  for (const auto& pose : poses) {
+    const PointList<Dim> moved[2] = {before.deform(pose.points), joined.deform(pose.points)};
+    for (const auto& crossing : crossings) {
+      Vector<Dim> place = Vector<Dim>::Zero();
+      for (int k = 0; k < Dim; ++k) {
+        place +=
+            crossing.coordinates[k] * before.cage.points.col(before.cage.facets(k, crossing.facet));
+      }
+      const Index inner = crossing.ends[0];
+      const double distance = (rest.col(inner) - place).norm();
+      if (distance <= kBoundaryTolerance * bounding_box_diagonal(before.cage.points)) continue;
+      for (int k = 0; k < 2; ++k) {
+        slopes[k] = std::max(slopes[k], (moved[k].col(inner) - rest.col(inner)).norm() / distance);
+      }
+    }
+  }
+  const Index band = cells_of_joint(before, joined, joint, crossings);
+  Facts facts;
+  facts << file << ": the joint holds control points " << app::joined(joined.held) << " and spans ";
+  if (band < 0) {
+    facts << "the whole mesh";
+  } else {
+    facts << band << (band == 1 ? " cell" : " cells");
+  }
+  facts << "; slope of the displacement at the border " << slopes[1] << " (without the joint: "
+        << slopes[0] << ")";
+  if (band >= 0 && band < 3) facts << "; fewer than 3 cells: take a larger mass, or a finer mesh";
+  std::cerr << "flbc: " << facts.text() << '\n';
+}
+
+template <int Dim>
 void warn_inverted(const MovableModel<Dim>& model, const PointList<Dim>& posed,
                    const std::string& file, const std::string& pose) {
   CellCount count;
@@ -124,6 +197,8 @@ void warn_inverted(const MovableModel<Dim>& model, const PointList<Dim>& posed,
   template void warn_border(const Binding<Dim>&, const std::string&,                               \
                             const std::vector<Pose<Dim>>&);                                        \
   template Json border_json(const Binding<Dim>&, const std::vector<Pose<Dim>>&);                   \
+  template void print_joint(const Binding<Dim>&, const Binding<Dim>&, const Joint&,                \
+                            const std::string&, const std::vector<Pose<Dim>>&);                    \
   template void warn_inverted(const MovableModel<Dim>&, const PointList<Dim>&, const std::string&, \
                               const std::string&);
 FLBC_INSTANTIATE(2)

@@ -28,6 +28,13 @@ template <int Dim>
 void warn_border(const Binding<Dim>& binding, const std::string& file,
                  const std::vector<Pose<Dim>>& poses);
 
+// Prints which control points a joint holds, how many cells it spans, and the largest slope of the
+// displacement at the border in the poses, before and after.
+// \param before  the binding without the joint \param file  of the model
+template <int Dim>
+void print_joint(const Binding<Dim>& before, const Binding<Dim>& joined, const Joint& joint,
+                 const std::string& file, const std::vector<Pose<Dim>>& poses);
+
 // Prints how many cells of a volume mesh, or polygons of a model in the plane, are inverted in a
 // pose, if there are any. Surfaces have none.
 template <int Dim>

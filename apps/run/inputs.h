@@ -48,6 +48,7 @@ struct RunArguments {
   std::string output;  //!< folder
   Index max_influences = 8;
   std::string reduction = kAutomatic;
+  std::string joint;             //!< as --joint; empty: none
   Index control_point = -1;      //!< whose function is drawn, -1 = the program chooses
   std::string pictures = "png";  //!< format of pictures
   double caging_seconds = 0;     //!< for making the cage

@@ -13,6 +13,7 @@
 #include "front/instantiate.h"
 #include "front/load.h"
 #include "gltf/skin.h"
+#include "poses/outside.h"
 #include "report/skin_facts.h"
 #include "report/sparsify_report.h"
 #include "run/steps.h"
@@ -109,11 +110,17 @@ void reduce_influences(Run<Dim>& run) {
   const auto method = reduction_for(run.arguments.reduction, file, shape.edges);
   run.reduced =
       naming(file, [&] { return reduce(run, method, poses, run.arguments.max_influences); });
-  if (method != kPoisson) run.reduced.edges = {};  // later reductions are alike
 
   const auto& before = run.weights();
   const auto& after = run.reduced.weights;
   const auto error = error_of_reduction(run, poses);
+  if (!run.arguments.joint.empty()) {
+    const auto joint = parse_joint(run.arguments.joint);
+    auto joined = naming(file, [&] { return run.reduced.joined(joint); });
+    if (!run.arguments.quiet) print_joint(run.reduced, joined, joint, file, run.poses());
+    run.reduced = std::move(joined);
+  }
+  if (method != kPoisson) run.reduced.edges = {};  // later reductions are alike
   run.folder.add(kSparseWeights, facts_of(before, after, error, poses.size()),
                  [&](const std::string& path) { io::write_weights(path, after); });
   run.folder.add(kBinding, "weights, cage, and all that other commands need of them",

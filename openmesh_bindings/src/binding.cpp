@@ -99,6 +99,14 @@ BindingRows rows_of(const Binding<Dim>& binding) {
   rows.cage = zeros(1, static_cast<std::size_t>(cage.size()), Dim);
   rows.cage[0].matrix() = cage.points.transpose();
   if (!binding.outside.empty()) rows.offsets = zeros(count, 1, Dim);
+  if (!binding.held.empty()) {
+    // Weights of a joint do not reproduce vertices inside, either.
+    rows.held = zeros(1, 1, static_cast<std::size_t>(cage.size()));
+    for (const Index i : binding.held) rows.held[0][static_cast<std::size_t>(i)] = 1;
+    for (std::size_t v = 0; v < count; ++v) {
+      rows.offsets[v].matrix() = binding.offsets.col(static_cast<Index>(v)).transpose();
+    }
+  }
   for (const Index v : binding.outside) {
     const auto offset = rows.offsets[static_cast<std::size_t>(v)];
     if (binding.offsets.cols() > 0) offset.matrix() = binding.offsets.col(v).transpose();
@@ -127,6 +135,9 @@ Binding<Dim> binding_from(SparseWeights weights, const BindingRows& rows,
                          binding.cage.points.cols());
   binding.points = flbc::deform<Dim>(weights, binding.cage.points);
   const bool has_offsets = rows.offsets.size() > 0;
+  for (std::size_t i = 0; rows.held.size() > 0 && i < rows.held.width(); ++i) {
+    if (rows.held[0][i] != 0) binding.held.push_back(static_cast<Index>(i));
+  }
   if (has_offsets) {
     require(rows.offsets.element_size() == Dim && rows.offsets.size() == positions.size(),
             "offsets");
@@ -143,7 +154,7 @@ Binding<Dim> binding_from(SparseWeights weights, const BindingRows& rows,
                        : positions[static_cast<std::size_t>(v)][static_cast<std::size_t>(d)];
       }
     }
-    if (!is_outside) continue;
+    if (!is_outside || (!stays && !binding.held.empty())) continue;
     binding.outside.push_back(v);
     const bool is_marked = binding.offsets.col(v).cwiseAbs().maxCoeff() <= kMark;
     binding.policy = stays       ? OutsidePoints::kKeep

@@ -84,6 +84,10 @@ std::string name_of_rest(const std::string& weights) {
 std::string name_of_masks(const std::string& weights) {
   return weights + ":masks";
 }
+std::string name_of_held(const std::string& weights) {
+  return weights + ":held";
+}
+
 std::string name_of_mirror(const std::string& weights) {
   return weights + ":mirror";
 }

@@ -12,6 +12,7 @@ layout and real or integer type; results are float64 in C order.
 Shapes              `Cage`, `DomainMesh`, `mesh`, `make_cage`, `repair`, `check`, `border`
 Models              `bind`, `Rig`, `Binding`: `load_binding`
 Coordinates         `solve`, `Solver`, `Solution`, `mean_value`
+Cells               `cell_quality`, `Binding.largest_step`
 Weights             `measure`; for weights from elsewhere, ``Binding(weights, cage, points)``
 Files               `read_cage`, `read_model`, `read_mesh`, `read_weights`, and
                     `write_...` for each; `Binding.export` (glTF, USD), `Binding.view` (a page)
@@ -23,6 +24,7 @@ import os as _os
 from . import _core
 from ._core import Progress
 from ._binding import Binding, Page, Rig, bind, load_binding
+from ._cells import cell_quality
 from ._errors import (
     Error, InputError, IoError, MaskConflict, NotConverged, OptionError, SolverError,
 )
@@ -39,7 +41,7 @@ __version__: str = _core.version
 __all__ = [
     "Binding", "Cage", "Certificate", "Defect", "DomainMesh", "Error", "InputError", "IoError",
     "MaskConflict", "Model", "NotConverged", "OptionError", "Page", "Progress", "Repaired", "Rig", "Solution", "Solver",
-    "SolverError", "SolverOptions", "bind", "border", "check", "load_binding", "make_cage", "mean_value",
+    "SolverError", "SolverOptions", "bind", "border", "cell_quality", "check", "load_binding", "make_cage", "mean_value",
     "measure", "mesh", "read_cage", "read_mesh", "read_model", "read_weights", "repair", "solve",
     "write_cage", "write_mesh", "write_model", "write_weights",
 ]

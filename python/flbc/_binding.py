@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _core
+from ._cells import largest_step
 from ._errors import InputError, OptionError
 from ._shapes import (
-    Cage, DomainMesh, as_array, as_cage, as_mesh, as_points, as_polygons, check_scalars, frozen,
+    Cage, DomainMesh, as_array, as_cage, as_indices, as_mesh, as_points, as_polygons, check_scalars, frozen,
     mesh_from, parts_of,
 )
 from ._solve import (
@@ -91,6 +92,8 @@ class Binding:
     masks : list of tuple
         Pairs of indices, ``(control_points, vertices)``, of weights that stay 0. They end at the
         facets of these control points.
+    held : ndarray of int
+        Control points that must stay at rest (`joined`).
     report : dict
         Of the solve, with ``note``: what differs from the request. A file has a part of it.
     solution : Solution or None
@@ -103,7 +106,8 @@ class Binding:
     """
 
     __slots__ = (
-        "weights", "offsets", "cage", "points", "outside", "masks", "report", "solution", "_any"
+        "weights", "offsets", "cage", "points", "outside", "masks", "held", "report", "solution",
+        "_any"
     )
     weights: csr_matrix
     offsets: Optional[Floats]
@@ -111,6 +115,7 @@ class Binding:
     points: Floats
     outside: Ints
     masks: List[Tuple[Ints, Ints]]
+    held: Ints
     report: Dict[str, Any]
     solution: Optional[Solution]
     _any: _core.Binding
@@ -160,9 +165,13 @@ class Binding:
     def _poses(self, poses: Any) -> List[Floats]:
         return [self._pose(pose, f"poses[{k}]") for k, pose in enumerate(poses)]
 
-    def deform(self, control_points: CageLike) -> Floats:
+    def deform(self, control_points: CageLike, *, joint: Optional[str] = None) -> Floats:
         """The vertices of the model, shape (P, d), for moved control points: a Cage, or an array of
-        shape (n, d). For a stack of poses, shape (T, n, d), the result has shape (T, P, d)."""
+        shape (n, d). For a stack of poses, shape (T, n, d), the result has shape (T, P, d).
+        Vertices whose control points rest stay where they are, to the bit. `joint` is that of
+        `joined`."""
+        if joint is not None:
+            return self.joined(joint).deform(control_points)
         if isinstance(control_points, Cage) or as_array(control_points, "control_points").ndim != 3:
             return self._any.deform(self._pose(control_points))
         moved = [self.deform(pose) for pose in as_array(control_points, "control_points")]
@@ -227,6 +236,62 @@ class Binding:
                              f"(m, {self.cage.dim})")
         shares = as_weights(as_matrix(map, "map"), "map", len(self.cage), len(outer))
         return _binding(self._any.composed(shares, outer.points, outer.facets))
+
+    def joined(self, joint: str = "smooth") -> Binding:
+        """The binding with a smooth end of the deformation where the mesh passes through the cage
+        and vertices outside stay (``outside="keep"``).
+
+        The control points of the facets there are `held`: a pose that moves one is refused. With
+        the sum m of the weights of all others, their displacement is multiplied by
+        ``s(min(1, m / mass))``, where ``s(t) = t (2 - t)`` for "smooth" and ``6 t^2 - 8 t^3 + 3 t^4``
+        for "curvature". "smooth:0.3" sets the mass, in (0, 1], by default 0.5. Raises InputError if
+        no edge of the model passes through the cage."""
+        return _binding(self._any.joined(joint))
+
+    def adjoint(self, gradients: ArrayLike, *, joint: Optional[str] = None) -> Floats:
+        """The derivatives of an objective by the control points, shape (n, d), from its derivatives
+        by the vertices, shape (P, d): the exact transpose of `deform`. Those of held control points
+        are 0."""
+        if joint is not None:
+            return self.joined(joint).adjoint(gradients)
+        return self._any.adjoint(as_points(gradients, "gradients", self.cage.dim, len(self.points)))
+
+    def fit(
+        self,
+        targets: ArrayLike,
+        *,
+        points: Optional[ArrayLike] = None,
+        hold: ArrayLike = (),
+        stiffness: float = 1e-5,
+    ) -> Tuple[Cage, Dict[str, float]]:
+        """The pose of the cage that moves vertices to `targets`, by least squares.
+
+        `targets` has shape (P, d), or a row for each of the indices `points`. The control points
+        `hold` stay at rest. `stiffness`, at least 0, makes neighbors in the cage move alike where
+        targets do not determine them. Returns the pose and a dict: ``rms`` and ``largest`` of the
+        distances that are left, ``worst``, the vertex with the largest, and ``condition`` of the
+        equations. Raises InputError if the targets do not determine the pose."""
+        check_scalars(stiffness=(stiffness, "a number"))
+        which = as_indices(as_array(() if points is None else points, "points"), "points",
+                           len(self.points)).tolist()
+        held = as_indices(as_array(hold, "hold"), "hold", len(self.cage)).tolist()
+        count = len(self.points) if points is None else len(which)
+        to = as_points(targets, "targets", self.cage.dim, count)
+        pose, facts = self._any.fit(to, which, held, stiffness)
+        return Cage(pose, self.cage.facets), facts
+
+    def largest_step(
+        self, control_points: CageLike, cells: ArrayLike, *, at_least: float = 0.1
+    ) -> float:
+        """The largest part of the way to a pose, from 0 to 1, up to which all cells of the model
+        keep at least this `cell_quality` ``jacobian``: ``rest + t * (pose - rest)`` is a pose of
+        the cage that keeps them. It is found by 33 steps and bisection."""
+        check_scalars(at_least=(at_least, "a number"))
+        if not 0 <= at_least < 1:
+            raise OptionError("at_least must be at least 0 and less than 1")
+        moves = self._pose(control_points) - self.cage.points
+        return largest_step(lambda t: self.deform(self.cage.points + t * moves), self.points, cells,
+                            at_least)
 
     def export(
         self,

@@ -43,7 +43,8 @@ py::dict arrays(const py::object& self) {
     py::dict dict("cage"_a = as_python(binding.cage), "weights"_a = view_of(binding.weights, self),
                   "points"_a = as_array(binding.rest()), "offsets"_a = py::none(),
                   "outside"_a = as_array(binding.outside), "masks"_a = masks,
-                  "report"_a = as_dict(binding.report), "domain"_a = py::none());
+                  "held"_a = as_array(binding.held), "report"_a = as_dict(binding.report),
+                  "domain"_a = py::none());
     if (binding.offsets.cols() > 0) dict["offsets"] = view_of(binding.offsets, self);
     if (binding.domain.num_cells() > 0) {
       dict["domain"] =
@@ -108,6 +109,32 @@ AnyBinding composed(const AnyBinding& self, const py::object& map, const Doubles
   });
 }
 
+AnyBinding joined(const AnyBinding& self, const std::string& joint) {
+  return changed(self,
+                 [&](const auto& binding, auto) { return binding.joined(parse_joint(joint)); });
+}
+
+py::array adjoint(const AnyBinding& self, const Doubles& gradients) {
+  return self.visit([&](const auto& binding) {
+    const auto columns = points_of<kDimOf<std::decay_t<decltype(binding)>>>(gradients);
+    return as_array(without_gil([&] { return binding.adjoint(columns); }));
+  });
+}
+
+// The control points, and numbers by name.
+py::tuple fit(const AnyBinding& self, const Doubles& targets, std::vector<Index> points,
+              std::vector<Index> held, double stiffness) {
+  using namespace py::literals;
+  const FitOptions options{std::move(points), std::move(held), stiffness};
+  return self.visit([&](const auto& binding) {
+    const auto columns = points_of<kDimOf<std::decay_t<decltype(binding)>>>(targets);
+    const auto found = without_gil([&] { return binding.fit(columns, options); });
+    return py::make_tuple(as_array(found.control_points),
+                          py::dict("rms"_a = found.rms, "largest"_a = found.largest,
+                                   "worst"_a = found.worst, "condition"_a = found.condition));
+  });
+}
+
 void save(const AnyBinding& self, const std::string& path) {
   without_gil([&] { self.visit([&](const auto& binding) { io::write_binding(path, binding); }); });
 }
@@ -136,6 +163,9 @@ void bind_bindings(py::module_& module) {
       .def("reduced", &reduced)
       .def("transferred", &transferred)
       .def("composed", &composed)
+      .def("joined", &joined)
+      .def("adjoint", &adjoint)
+      .def("fit", &fit)
       .def("save", &save)
       .def("content", &content);
   module.def("load_binding", &load);

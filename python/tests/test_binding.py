@@ -330,3 +330,125 @@ def test_pointwise_coordinates_are_exact_at_the_vertices(case):
         assert found.report["method"] == "meanvalue" and bool(found.domain) == bool(mesh)
     other = found.transferred(points[::2])
     assert abs(other.weights - exact[::2]).max() < 1e-14
+
+
+# ---- engineers: joint, gradients, and fit --------------------------------------------------------
+
+
+def column(dim):
+    """Points that pass through one side of a box, where they stay."""
+    cage = box(dim)
+    line = np.linspace(-0.5, 1.9, 25)
+    points = np.concatenate([[[x, 0.5 + 0.1 * k] + [0.5] * (dim - 2) for x in line] for k in (-1, 1)])
+    faces = [[k, k + 1, k + 26, k + 25] for k in range(24)]
+    return flbc.bind(points, faces, cage, mesh_vertices=300, outside="keep", max_influences=0), cage
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_a_joint_slows_what_moves_at_the_border(dim):
+    binding, cage = column(dim)
+    joined = binding.joined("smooth:0.4")
+    assert all(cage.points[joined.held, 0] == 0)
+    pose = cage.points + 0.3 * (cage.points[:, :1] > 0) * np.arange(1, dim + 1)
+    mass = binding.weights.toarray()[:, cage.points[:, 0] > 0].sum(1)
+    t = np.minimum(1, mass / 0.4)
+    moves = binding.deform(pose) - binding.points
+    assert np.allclose(joined.deform(pose), binding.points + (t * (2 - t))[:, None] * moves, 0, 1e-12)
+    assert np.array_equal(binding.deform(pose, joint="smooth:0.4"), joined.deform(pose))
+    assert np.array_equal(binding.deform(cage), binding.points)
+    again = pickle.loads(pickle.dumps(joined))
+    assert np.array_equal(again.held, joined.held)
+    with pytest.raises(flbc.InputError, match="control point 0 is held"):
+        again.deform(cage.points + 0.1)
+    with pytest.raises(flbc.OptionError, match="smooth or curvature"):
+        binding.joined("soft")
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_adjoint_is_the_derivative_of_an_objective(dim):
+    binding, cage = column(dim)
+    joined = binding.joined()
+    free = np.setdiff1d(np.arange(len(cage)), joined.held)
+
+    def objective(pose):
+        return np.sin(joined.deform(pose)).sum()
+
+    gradient = joined.adjoint(np.cos(joined.deform(cage)))
+    assert np.allclose(gradient, binding.adjoint(np.cos(binding.points), joint="smooth"), 1e-9)
+    for i in free:
+        for d in range(dim):
+            pose = np.array([cage.points, cage.points])
+            pose[0, i, d] += 1e-5
+            pose[1, i, d] -= 1e-5
+            slope = (objective(pose[0]) - objective(pose[1])) / 2e-5
+            assert abs(slope - gradient[i, d]) < 1e-8 * np.abs(gradient).max()
+    assert not gradient[joined.held].any()
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_fit_finds_the_pose_of_the_targets(dim):
+    case = Case(dim)
+    binding = flbc.bind(case.points[:-1], None, case.cage, outside="nearest", mesh_vertices=300)
+    random = np.random.default_rng(3)
+    pose = case.cage.points + 0.1 * random.normal(size=case.cage.points.shape)
+    found, facts = binding.fit(binding.deform(pose), stiffness=0)
+    assert np.abs(found.points - pose).max() < 1e-12 * facts["condition"]
+    assert facts["rms"] <= facts["largest"] < 1e-9
+    rows = binding.deform(pose)[10:90]
+    held, _ = binding.fit(rows, points=np.arange(10, 90), hold=[2])
+    assert np.array_equal(held.points[2], case.cage.points[2])
+    with pytest.raises(flbc.InputError, match="targets"):
+        binding.fit(rows)
+
+
+# Positively oriented cells of unit edges, in the order of VTK, with their Jacobians at the corners.
+CELLS = {
+    (2, 3): [[0, 0], [1, 0], [0, 1]],
+    (2, 4): [[0, 0], [1, 0], [1, 1], [0, 1]],
+    (3, 4): [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    (3, 5): [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0.5, 1]],
+    (3, 6): [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]],
+    (3, 8): [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0],
+             [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]],
+}
+
+
+@pytest.mark.parametrize("kind", CELLS)
+def test_cell_quality_follows_affine_maps_and_finds_folds(kind):
+    dim, count = kind
+    points = np.array(CELLS[kind], float)
+    whole = np.arange(count)[None]
+    turned = np.linalg.qr(np.random.default_rng(1).normal(size=(dim, dim)))[0]
+    turned[0] *= np.linalg.det(turned)
+    for cells in (whole, whole[:, ::-1] if count != 5 and count != 6 else whole):
+        at_rest = flbc.cell_quality(points, cells, points)
+        assert np.allclose(at_rest["jacobian"], 1) and (at_rest["orthogonality"] > 0.3).all()
+        spun = flbc.cell_quality(points, cells, 3 * points @ turned)
+        assert np.allclose(spun["jacobian"], 3 ** dim)
+        assert np.allclose(spun["orthogonality"], at_rest["orthogonality"])
+        assert (flbc.cell_quality(points, cells, points * ([-1] + [1] * (dim - 1)))["jacobian"] < 0).all()
+    folded = points.copy()
+    folded[0] += 3 * (points.mean(0) - points[0])  # beyond the opposite side
+    assert flbc.cell_quality(points, whole, folded)["jacobian"][0] < 0
+    with pytest.raises(flbc.InputError, match="cell 0 has no volume"):
+        flbc.cell_quality(points * ([0] + [1] * (dim - 1)), whole, points)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_the_largest_step_keeps_every_cell(dim):
+    case = Case(dim)
+    inside = case.points[:60]
+    cells = Delaunay(inside).simplices
+    shape = flbc.cell_quality(inside, cells, inside)
+    cells = cells[shape["orthogonality"] > 0.02]
+    binding = flbc.bind(inside, None, case.cage, mesh_vertices=300, max_influences=0)
+    pose = case.cage.points * ([0.2] + [1] * (dim - 1)) + np.arange(dim)
+    step = binding.largest_step(pose, cells, at_least=0.3)
+    assert 0 < step < 1
+
+    def least(t):
+        moved = binding.deform(case.cage.points + t * (pose - case.cage.points))
+        return flbc.cell_quality(inside, cells, moved)["jacobian"].min()
+
+    assert least(step) >= 0.3 > least(step + 1e-4)
+    assert binding.largest_step(case.cage, cells) == 1

@@ -135,8 +135,9 @@ class BoxInMesh : public OutsideCommand, public ::testing::WithParamInterface<in
   static double distance(const PointList<3>& a, const PointList<3>& b) {
     return (a - b).colwise().norm().maxCoeff();
   }
-  Ended run_box(const std::string& policy) {
-    return expect("run box.obj mesh.obj --vertices 400 --pose pose.obj -o out --outside " + policy);
+  Ended run_box(const std::string& policy, const std::string& options = "") {
+    return expect("run box.obj mesh.obj --vertices 400 --pose pose.obj -o out --outside " + policy +
+                  options);
   }
 };
 
@@ -225,6 +226,69 @@ TEST_P(BoxInMesh, WhatIsKeptStaysAndTheBorderIsNamed) {
   const auto still = run_box("keep");
   expect_no_piece(still.errors, "jump");
   EXPECT_GT(json_in("out/report.json")["deform"][0]["largest_displacement"], 0.1);
+}
+
+// Control point 4 is the only one that no facet at the border has.
+TEST_P(BoxInMesh, AJointEndsTheDeformationSmoothly) {
+  write_box("pose.obj", moved({4}, {0, 0.5, 0}));
+  run_box("keep");
+  const auto rest = points_in<3>("mesh.obj"), before = points_in<3>("out/deformed.obj");
+  const std::string deform = "deform mesh.obj --weights out/binding.npz -o smooth.obj --pose ";
+  const auto ended = expect(deform + "pose.obj --joint smooth");
+  expect_piece(ended.errors, "mesh.obj: the joint holds control points 0, 1, 2, 3");
+  expect_piece(ended.errors, "slope of the displacement at the border");
+  expect_piece(expect("deform mesh.obj --weights out/binding.npz -o x.obj --pose pose.obj --joint "
+                      "smooth:0.01")
+                   .errors,
+               "spans 1 cell; slope of the displacement");
+  const auto after = points_in<3>("smooth.obj");
+  for (Index p = 0; p < rest.cols(); ++p) {
+    const double length = (before.col(p) - rest.col(p)).norm();
+    const double mass = length / 0.5, t = std::min(1.0, mass / 0.5);
+    EXPECT_NEAR((after.col(p) - rest.col(p)).norm(), t * (2 - t) * length, 1e-12) << p;
+  }
+  // The same in one command, whose binding has the joint.
+  run_box("keep", " --joint smooth --force");
+  EXPECT_LT(distance(points_in<3>("out/deformed.obj"), after), 1e-12);
+  expect(deform + "pose.obj");
+  EXPECT_LT(distance(points_in<3>("smooth.obj"), after), 1e-12);
+  write_box("wrong.obj", moved({1}, {0, 0.5, 0}));
+  expect(deform + "wrong.obj", 2, "control point 1 is held by the joint, but moves by 0.5");
+  expect(deform + "pose.obj --joint round", 1, "use smooth or curvature");
+}
+
+TEST_P(BoxInMesh, FitAndAdjointReturnToTheCage) {
+  write_box("pose.obj", moved({4}, {0, 0.5, 0}));
+  run_box("keep");
+  expect("fit mesh.obj out/deformed.obj --weights out/binding.npz --stiffness 0 --hold " +
+             std::string(is_flat() ? "0,1,2,3,5" : "0,1,2,3,5,6,7,8,9,11") + " -o found.obj",
+         0, "condition");
+  EXPECT_LT(distance(points_in<3>("found.obj"), points_in<3>("pose.obj")), 1e-9);
+  expect("fit mesh.obj out/deformed.obj --weights out/binding.npz --hold 99 -o found.obj", 2,
+         "there is no control point 99");
+  // J = sum of all coordinates, so that dJ/dc_i is the sum of the weights of i.
+  const auto weights = io::read_weights("out/binding.npz").dense();
+  const std::string row = is_flat() ? "1,1\n" : "1,1,1\n";
+  std::string plain,
+      su2 = "\"PointID\",\"x\",\"Sensitivity_x\",\"Sensitivity_y\",\"Sensitivity_z\"\n";
+  for (Index p = 0; p < weights.cols(); ++p) {
+    plain += row;
+    su2 += std::to_string(weights.cols() - 1 - p) + ",0,1,1,1\n";
+  }
+  for (const auto& name : {file("ones.csv", plain), file("surface_adjoint.csv", su2)}) {
+    expect("adjoint " + name + " --weights out/binding.npz -o dc.csv");
+    const auto sums = io::read_weights("dc.csv").dense();
+    ASSERT_EQ(sums.cols(), weights.rows());
+    for (Index d = 0; d < sums.rows(); ++d) {
+      EXPECT_LT((sums.row(d).transpose() - weights.rowwise().sum()).norm(), 1e-12) << name;
+    }
+  }
+  expect("adjoint " + file("few.csv", row) + " --weights out/binding.npz -o dc.csv", 2,
+         "few.csv: there are gradients of 1 points");
+  const auto wrong =
+      file("wrong.csv", "PointID,Sensitivity_x,Sensitivity_y,Sensitivity_z\n0,1,x,1\n");
+  expect("adjoint " + wrong + " --weights out/binding.npz -o dc.csv", 2,
+         "wrong.csv:2: expected a number in the column Sensitivity_y");
 }
 
 INSTANTIATE_TEST_SUITE_P(In, BoxInMesh, ::testing::Values(2, 3));

@@ -100,6 +100,7 @@ void run_cpp(const Task& task) {
   auto binding = rig.binding();
   if (task.operation == "reduce8") binding = binding.reduced({8});
   if (task.operation == "reduce4") binding = binding.reduced({4});
+  if (task.operation == "joint") binding = binding.joined({});
   if (task.operation == "transfer") {
     const Shape<Dim> other(task.path("other.obj"));
     binding = binding.transferred(other.points, other.edges, OutsidePoints::kKeep);
@@ -147,6 +148,11 @@ void run_openmesh(const Task& task) {
   openmesh::bind(mesh, cage, options);
   if (task.operation == "reduce8") openmesh::sparsify(mesh, 8);
   if (task.operation == "reduce4") openmesh::sparsify(mesh, 4);
+  if (task.operation == "joint") {
+    auto known = openmesh::get_binding<Dim>(mesh);
+    known.cage = cage;  // with its facets
+    openmesh::set_binding(mesh, known.joined({}), 0);
+  }
   if (task.operation == "save") {
     auto copy = mesh;
     mesh = copy;

@@ -61,6 +61,7 @@ cageMotionCoeffs
     binding "%s";
     poses ((0 "%s") (1 "%s"));
     fixedPatches (%s);
+    %s
 }
 """
 
@@ -133,9 +134,9 @@ class Case:
     def end_at(self, time):
         self.dictionary("system/controlDict", CONTROL % time)
 
-    def move_to(self, pose, fixed="", rest="cage.obj", binding="binding.npz"):
+    def move_to(self, pose, fixed="", rest="cage.obj", binding="binding.npz", joint=""):
         self.dictionary("constant/dynamicMeshDict",
-                        MOTION % (self.library, binding, rest, pose, fixed))
+                        MOTION % (self.library, binding, rest, pose, fixed, joint))
 
     def run(self, *command, fails=False):
         """Runs a program in the case. Returns its output."""

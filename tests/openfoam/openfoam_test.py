@@ -86,6 +86,30 @@ class OpenFoamTest(unittest.TestCase):
         self.case.run_ranks(3, UTILITY, *files, "-pose", "pose.obj", "-overwrite")
         self.expect_moved(self.case.points_of_ranks(3, "constant"))
 
+    def test_a_joint_slows_points_by_the_mass_that_moves(self):
+        case = self.case
+        # A shift by 1 of all control points that may move shows the sum of their weights.
+        probe = channel.control_points()
+        probe[channel.control_points(1)[:, 1] != probe[:, 1], 0] += 1
+        channel.write_cage(case.path("probe.obj"), probe)
+        case.run(FLBC, "deform", "rest.npy", "--weights", "binding.npz", "--pose", "probe.obj",
+                 "--outside", "nearest", "-q", "-o", "probe.npy")
+        mass = (np.load(case.path("probe.npy")) - self.rest)[:, :1]
+        t = np.minimum(1, mass / 0.4)
+        moved = np.where(self.inside[:, None], self.rest + t * (2 - t) * (self.moved - self.rest),
+                         self.rest)
+        case.move_to("pose.obj", joint="joint smooth; jointMass 0.4;")
+        case.decompose(2)
+        case.run_ranks(2, "moveDynamicMesh")
+        self.assertLess(np.abs(case.points_of_ranks(2, "1") - moved).max(), 1e-12 * channel.SIZE)
+        self.tearDown()
+        case.decompose(2)
+        case.run_ranks(2, UTILITY, "-binding", "binding.npz", "-pose", "pose.obj",
+                       "-joint", "smooth", "-jointMass", "0.4")
+        self.assertLess(np.abs(case.points_of_ranks(2, "0.25") - moved).max(), 1e-12 * channel.SIZE)
+        case.move_to("pose.obj", joint="joint soft;")
+        self.assertIn("use smooth or curvature", case.run("moveDynamicMesh", fails=True))
+
     def test_plane_cages_move_both_sides_alike(self):
         case = self.case
         channel.write_plane_cage(case.path("plane.obj"), channel.control_points())

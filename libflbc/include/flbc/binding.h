@@ -65,6 +65,37 @@ struct BindReport {
   double mesh_seconds = 0, solve_seconds = 0, evaluate_seconds = 0, sparsify_seconds = 0;
 };
 
+//! How a deformation ends where a mesh passes through its cage (Binding::joined()).
+struct Joint {
+  //! Sum of the weights of control points that may move, in (0, 1], from which on nothing changes.
+  double mass = 0.5;
+  //! Whether second derivatives are continuous as well.
+  bool is_curvature = false;
+
+  //! s(min(1, m / mass)), by which the displacement is multiplied. \param m  >= 0
+  double factor(double m) const;
+};
+
+//! Reads "smooth", "curvature", or one of them with a mass, as in "smooth:0.3".
+//! \throws OptionError naming the text
+Joint parse_joint(const std::string& text);
+
+//! What Binding::fit() looks for.
+struct FitOptions {
+  std::vector<Index> points{};  //!< with targets, each once; empty: all
+  std::vector<Index> held{};    //!< control points that stay at rest
+  double stiffness = 1e-5;      //!< >= 0, relative: neighbors in the cage move alike
+};
+
+template <int Dim>
+struct Fit {
+  PointList<Dim> control_points{};  //!< Dim x n
+  double rms = 0;                   //!< of the distances to the targets
+  double largest = 0;               //!< of these distances
+  Index worst = -1;                 //!< the point with the largest
+  double condition = 0;             //!< largest over smallest eigenvalue of the equations
+};
+
 //! The P points of a model bound to a cage of n control points. Its functions keep what the weights
 //! promise, or refuse: masked weights stay exactly 0, mirrored ones bit-identical, sums 1, points
 //! reproduced, and points outside follow their policy. A Rig makes bindings, and flbc/io reads and
@@ -85,14 +116,39 @@ struct Binding {
   DomainMesh<Dim> domain{};        //!< of the interior of the cage, V vertices; may be empty
   SparseWeights domain_weights{};  //!< of V points
   BindReport report{};
+  std::vector<Index> held{};  //!< control points that must stay at rest, ascending (joined())
 
   //! Dim x P: where the points of the model rest.
   PointList<Dim> rest() const;
 
-  //! The points for moved control points.
+  //! The points for moved control points: x + sum_i w_i (c'_i - c_i). Points whose control points
+  //! rest stay where they are, to the bit.
   //! \param control_points  Dim x n \return Dim x P
-  //! \throws InputError if the number of control points differs
+  //! \throws InputError if the number of control points differs, or naming one that is held and
+  //! has moved
   PointList<Dim> deform(const PointList<Dim>& control_points) const;
+
+  //! The derivatives of a function of the points by the control points: the transpose of deform(),
+  //! dJ/dc_i = sum over points of w_i dJ/dx. Those of held control points are 0.
+  //! \param gradients  dJ/dx, Dim x P \return Dim x n
+  //! \throws InputError if the number of points differs, or a number is not finite
+  PointList<Dim> adjoint(const PointList<Dim>& gradients) const;
+
+  //! The pose of the cage that moves points to targets, in the sense of least squares:
+  //! c' = c + (W^T W + lambda L)^-1 W^T (y - x), with the graph Laplacian L of the cage and lambda
+  //! relative to the mean diagonal of W^T W.
+  //! \param targets  y, Dim x number of points
+  //! \throws OptionError, InputError naming what is not valid, or the control point that the targets
+  //! do not determine without stiffness
+  Fit<Dim> fit(const PointList<Dim>& targets, const FitOptions& options = {}) const;
+
+  //! The same binding with a smooth end where the mesh passes through the cage and points outside
+  //! stay. The control points of the facets there are held; m is the sum of the weights of all
+  //! others, and their displacement u becomes s(min(1, m / mass)) u with s(t) = t (2 - t), or
+  //! 6 t^2 - 8 t^3 + 3 t^4 for continuous curvature. Value and slope are 0 at the border. There is
+  //! no domain mesh then.
+  //! \throws OptionError; InputError if no edge passes through the cage, or nothing can move
+  Binding joined(const Joint& joint) const;
 
   //! The Jacobians of the deformation at the points, from smooth gradients of the weights on the
   //! domain mesh (gradients.h). Points that do not move have the identity.

@@ -56,6 +56,13 @@ void require_domain(const DomainMesh<Dim>& domain) {
       "bind the model again, or give a mesh");
 }
 
+// The weights of a joint do not reproduce points, as those of other points would.
+void require_no_joint(const std::vector<Index>& held, const char* change) {
+  if (held.empty()) return;
+  throw InputError(std::string("the binding has a joint, so it cannot be ") + change +
+                   "; do that first, then make the joint");
+}
+
 // Makes the weights of other points symmetric, as those of a mirrored binding are.
 // \param at  returns weights at given points
 template <int Dim>
@@ -107,16 +114,31 @@ template <int Dim>
 PointList<Dim> Binding<Dim>::rest() const {
   PointList<Dim> all = points;
   for (Index p = 0; offsets.cols() > 0 && p < weights.num_points(); ++p) {
-    if (weights.has_weights(p)) all.col(p) += offsets.col(p);
+    if (weights.has_weights(p)) {
+      all.col(p) += offsets.col(p);
+    } else if (!offsets.col(p).isZero(0)) {
+      all.col(p) = offsets.col(p);
+    }
   }
   return all;
 }
 
 template <int Dim>
 PointList<Dim> Binding<Dim>::deform(const PointList<Dim>& control_points) const {
-  PointList<Dim> moved = flbc::deform<Dim>(weights, control_points);
-  if (offsets.cols() > 0) moved += offsets;
-  return moved;
+  if (cage.size() == 0) {  // not known
+    PointList<Dim> moved = flbc::deform<Dim>(weights, control_points);
+    if (offsets.cols() > 0) moved += offsets;
+    return moved;
+  }
+  check_size(weights, control_points.cols(), points.cols());
+  const PointList<Dim> moves = control_points - cage.points;
+  for (const Index i : held) {
+    if (moves.col(i).isZero(0)) continue;
+    throw InputError("control point " + std::to_string(i) + " is held by the joint, but moves by " +
+                     format_number(moves.col(i).norm()) +
+                     "; leave it at rest, because the mesh passes through the cage there");
+  }
+  return rest() + flbc::deform<Dim>(weights, moves);
 }
 
 template <int Dim>
@@ -203,6 +225,7 @@ Binding<Dim> Binding<Dim>::transferred(const FacetList<3>& corners, const PointL
                                        EdgeList to_edges, double limit,
                                        Eigen::VectorXd* distances) const {
   validate(to_edges, to.cols());
+  require_no_joint(held, "transferred");
   const ModelElements<Dim> from{rest(), corners};
   const auto is_masked = masks_near(*this, from, to);
   const auto placed = [&](const PointList<Dim>& places) {
@@ -254,6 +277,7 @@ Binding<Dim> Binding<Dim>::composed(const SparseWeights& map, Cage<Dim> outer) c
         "a mirrored binding cannot be composed, because the map may not be symmetric; "
         "bind the model without the mirror");
   }
+  require_no_joint(held, "composed");
   check_size(map, outer.size(), cage.size());
   const auto lengths = displacements<Dim>(cage.points, flbc::deform<Dim>(map, outer.points));
   Eigen::Index worst = 0;
@@ -301,7 +325,7 @@ void Binding<Dim>::require_points(const PointList<Dim>& given) const {
 template <int Dim>
 void validate(const Binding<Dim>& binding) {
   const auto& [cage, weights, points, offsets, edges, masks, mirror, policy, outside, domain,
-               domain_weights, report] = binding;
+               domain_weights, report, held] = binding;
   const Index n = cage.size(), count = weights.num_points();
   check_size(weights, n, points.cols());
   check_finite<Dim>(cage.points);
@@ -316,6 +340,9 @@ void validate(const Binding<Dim>& binding) {
   PointMasks(masks, n, count);
   for (const Index p : outside) {
     if (p < 0 || p >= count) throw InputError("there is no point " + std::to_string(p));
+  }
+  for (const Index i : held) {
+    if (i < 0 || i >= n) throw InputError("there is no control point " + std::to_string(i));
   }
   if (mirror) MirroredModel<Dim>(cage, *mirror, points);
   if (domain.num_cells() == 0) return;

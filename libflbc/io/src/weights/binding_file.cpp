@@ -99,6 +99,7 @@ Binding<Dim> read(const NpzReader& file, const nlohmann::json& info) {
   binding.edges.weights = file.numbers<double>("edge_weights");
   binding.masks = masks_in(file);
   binding.outside = file.numbers<std::int32_t>("outside");
+  if (file.has("held")) binding.held = file.numbers<std::int32_t>("held");
   if (file.has("mirror_images")) {
     binding.mirror = {info.at("mirror_axis").get<int>(),
                       file.numbers<std::int32_t>("mirror_images"),
@@ -151,6 +152,7 @@ void write(const std::string& path, std::ostream& out, const Binding<Dim>& bindi
   file.add_list("edge_weights", binding.edges.weights);
   add_masks(file, binding.masks);
   file.add_list("outside", binding.outside);
+  if (!binding.held.empty()) file.add_list("held", binding.held);
   if (binding.mirror) {
     info["mirror_axis"] = binding.mirror->axis;
     file.add_list("mirror_images", binding.mirror->images);

@@ -90,6 +90,7 @@ std::string name_of_offset(const std::string& weights);
 std::string name_of_rest(const std::string& weights);
 std::string name_of_masks(const std::string& weights);
 std::string name_of_mirror(const std::string& weights);
+std::string name_of_held(const std::string& weights);
 
 //! What a binding has next to its weights, as properties store it; without elements: nothing.
 //! Values of new vertices are 0.
@@ -103,6 +104,7 @@ struct BindingRows {
   RowBlock<double> masks{};     //!< a row of n values per set of masked control points: 1 = masked
   RowBlock<double> partners{};  //!< per vertex: its number, and that of its image; from 1; 0: none
   RowBlock<double> mirror{};    //!< the axis, and the image of each control point
+  RowBlock<double> held{};      //!< a value per control point: 1 = a joint holds it
 };
 
 //! Calls a function for each property of BindingRows: action(handle, name, member).
@@ -117,6 +119,7 @@ void visit_rows(const std::string& weights, const Action& action) {
   action(of_mesh, name_of_masks(weights), &BindingRows::masks);
   action(of_vertices, name_of_mirror(weights), &BindingRows::partners);
   action(of_mesh, name_of_mirror(weights), &BindingRows::mirror);
+  action(of_mesh, name_of_held(weights), &BindingRows::held);
 }
 
 template <class Mesh>
