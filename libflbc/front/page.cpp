@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string_view>
 
 #include "flbc/deform.h"
 #include "flbc/errors.h"
@@ -200,20 +201,6 @@ Json to_json(const PageContent<Dim>& content) {
   return json;
 }
 
-// Text that may stand in an HTML script element: nothing in it can end the element.
-std::string to_script(const std::string& text) {
-  std::string script;
-  script.reserve(text.size());
-  for (const char c : text) {
-    if (c == '<') {
-      script += "\\u003c";
-    } else {
-      script += c;
-    }
-  }
-  return script;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -268,11 +255,16 @@ std::string make_content(const PageContent<Dim>& content) {
 
 template <int Dim>
 std::string make_page(const PageContent<Dim>& content) {
-  const auto data = to_script(make_content(content));
-  const std::string page = kPageTemplate;
-  const std::string place = "{{data}}";
+  const auto data = make_content(content);  // may be large
+  const std::string_view page = kPageTemplate, place = "{{data}}";
   const auto begin = page.find(place);
-  return page.substr(0, begin) + data + page.substr(begin + place.size());
+  std::string result;
+  result.reserve(page.size() + data.size());
+  result += page.substr(0, begin);
+  // Nothing in a text may end the script element that holds it.
+  for (const char c : data) c == '<' ? result += "\\u003c" : result += c;
+  result += page.substr(begin + place.size());
+  return result;
 }
 
 FLBC_INSTANTIATE_FUNCTION(edges_of_cage)
