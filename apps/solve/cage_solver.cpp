@@ -208,6 +208,7 @@ void CageSolver<Dim>::load_masks(bool quiet) {
         load_locality(settings_.locality, cage_, points, settings_.model, settings_.mirror_axis);
     options.masks = locality_.masks;
     options.solver.reach = locality_.reach;
+    options.solver.falloff = locality_.falloff;
     naming(settings_.locality, [&] { rig_->set_options(options); });
   }
   const auto& file = has_masks ? settings_.locality : settings_.model;

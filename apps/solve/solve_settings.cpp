@@ -134,10 +134,11 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
   add_choice(command, "--non-negative", options.non_negative,
              "method that keeps weights non-negative (default: depends on --method)");
   add_phi(command, settings);
-  command.add_option("--locality", settings.locality,
-                     "a .json file of masks, which are control points and the regions that they "
-                     "must not move (their weights there become exactly 0), and of reach, how far "
-                     "weights extend");
+  command.add_option(
+      "--locality", settings.locality,
+      "a .json file of masks, which are control points and the regions that they "
+      "must not move (their weights there become exactly 0), of reach, how far weights "
+      "extend, and of falloff, a band in which they fade out before a mask");
   add_choice(command, "--distances", options.distances,
              "compute distances on the mesh, or interpolate them from a coarser one (default: "
              "auto)");

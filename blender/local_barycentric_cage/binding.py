@@ -37,6 +37,7 @@ class Settings(NamedTuple):
     influences: int
     smoothness: float  # 0 to 0.03
     quality: str       # one of QUALITIES
+    falloff: float     # next to protected vertices, 0 to 0.3
 
 
 class Binding(bpy.types.PropertyGroup):
@@ -132,7 +133,7 @@ def bind(models, cage, settings, refine=False):
     bpy.context.view_layer.update()
     _require_ready(models, cage)
     with tempfile.TemporaryDirectory(prefix='flbc_') as folder:
-        task = _Task(Path(folder), models, cage)
+        task = _Task(Path(folder), models, cage, settings.falloff)
         yield from task.bind(settings)
         if refine and settings.quality == 'DRAFT':
             bpy.ops.ed.undo_push(message='Bind to Cage (Draft)')
@@ -142,7 +143,7 @@ def bind(models, cage, settings, refine=False):
 class _Task:
     """Models and a cage as they were at the start, and files of them."""
 
-    def __init__(self, folder, models, cage):
+    def __init__(self, folder, models, cage, falloff):
         self._folder = folder
         self._cage_name = cage.name
         self._cage = mesh.shape_of(cage.data)
@@ -156,7 +157,7 @@ class _Task:
         files.write_ply(folder / 'cage.ply', *self._cage)
         files.write_ply(folder / 'model.ply', *self._model)
         masks = _masks(models, cage)
-        (folder / 'locality.json').write_text(json.dumps(masks))
+        (folder / 'locality.json').write_text(json.dumps({'masks': masks, 'falloff': falloff}))
         self._locality = ['--locality', folder / 'locality.json'] if masks else []
 
     def _command(self, settings, *arguments):

@@ -114,7 +114,7 @@ class _InBackground:
 def _settings(context):
     scene = context.scene.flbc
     return binding.Settings(preferences.program(context), int(scene.influences),
-                            scene.smoothness, scene.quality)
+                            scene.smoothness, scene.quality, scene.falloff)
 
 
 class FLBC_OT_make_cage(_InBackground, bpy.types.Operator):

@@ -77,6 +77,7 @@ class FLBC_PT_cage(bpy.types.Panel):
         if groups:
             _text(column, 'Control points never move vertices of the same group: '
                   + ', '.join(groups), 'LOCKED')
+            column.prop(scene, 'falloff')
         text = f'Bind {models[0].name}' if len(models) == 1 else f'Bind {len(models)} Meshes'
         column.operator('flbc.bind', text=text if models else 'Bind to Cage', icon='MOD_MESHDEFORM')
 

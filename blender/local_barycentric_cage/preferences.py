@@ -30,6 +30,10 @@ class SceneSettings(bpy.types.PropertyGroup):
     smoothness: bpy.props.FloatProperty(
         name='Smoothness', default=0.003, min=0, max=0.03, precision=4, step=0.1,
         description='Removes creases, but control points reach farther. 0: as local as possible')
+    falloff: bpy.props.FloatProperty(
+        name='Falloff', default=0, min=0, max=0.3, precision=2, step=1,
+        description='Width of the band next to protected vertices in which weights fade out, as a '
+                    'part of the size of the cage. 0: they may end in a crease')
     quality: bpy.props.EnumProperty(
         name='Quality', default='GOOD',
         items=(('DRAFT', 'Draft', 'Bind at once, and refine in the background'),

@@ -164,6 +164,15 @@ std::vector<double> reach_in(const LocalityJson& json, const PointList<Dim>& con
   return reach;
 }
 
+double falloff_in(const LocalityJson& json) {
+  if (!json.contains("falloff")) return 0;
+  if (!json["falloff"].is_number()) throw InputError("falloff is not a number");
+  SolverOptions options;
+  options.falloff = json["falloff"].get<double>();
+  validate(options);
+  return options.falloff;
+}
+
 // Whether control points in conflict are removed from masks.
 bool relaxes(const LocalityJson& json) {
   const auto choice = json.is_array() ? "fail" : json.value("conflicts", "fail");
@@ -189,8 +198,9 @@ Locality load_locality(const std::string& path, const Cage<Dim>& cage, const Poi
   std::string entry;  // that is read
   try {
     const auto json = LocalityJson::parse(io::read_file(path));
-    if (json.is_object()) require_keys(json, {"masks", "conflicts", "reach"});
+    if (json.is_object()) require_keys(json, {"masks", "conflicts", "reach", "falloff"});
     locality.reach = reach_in<Dim>(json, cage.points);
+    locality.falloff = falloff_in(json);
     const auto list = json.is_array()          ? json
                       : json.contains("reach") ? json.value("masks", LocalityJson::array())
                                                : json.at("masks");

@@ -51,6 +51,7 @@ class SolverOptions(TypedDict, total=False):
     penalty: Optional[float]
     mask: Any
     reach: Optional[ArrayLike]
+    falloff: float
 
 
 class RigOptions(SolverOptions, total=False):
@@ -107,6 +108,9 @@ OPTIONS = """\
     reach : array_like, shape (n,), optional
         Factors from 1/16 to 16 by which phi of each control point is divided. Weights extend
         farther with a larger one. Not a guarantee, which a mask is.
+    falloff : float, default 0
+        Width of a band next to masks in which weights fade out before the mask, instead of
+        ending in a crease there, as a fraction of the cage size. Useful values are 0.05 to 0.2.
 """
 
 

@@ -50,6 +50,7 @@ void set(SolverOptions& options, const std::string& name, const py::handle& valu
   take("precision", options.precision);
   take("active_set", options.active_set);
   take("penalty", options.penalty);
+  take("falloff", options.falloff);
   if (name == "mask" && !value.is_none()) options.masks = masks_of(value.cast<MaskLists>());
   if (name == "reach" && !value.is_none()) options.reach = value.cast<std::vector<double>>();
 }

@@ -276,6 +276,7 @@ CHANGES = {
     "tolerance": lambda case: {"tolerance": 1e-8},
     "smoothness": lambda case: {"smoothness": 0.01},
     "reach": lambda case: {"reach": np.where(case.cage.points[:, 0] == 1, 2, 1)},
+    "falloff": lambda case: {"mask": case.options["mask"], "falloff": 0.1},
     "method": lambda case: {"method": "harmonic", "tolerance": None},
 }
 

@@ -85,6 +85,8 @@ TEST_F(LocalityCommand, DefectiveFilesAreRefused) {
           "not a list of indices");
   refused(R"({"masks": [], "conflicts": "no"})", "invalid value \"no\"; choose from fail");
   refused(R"({"mask": []})", "unknown key \"mask\"; choose from conflicts");
+  refused(R"({"masks": [], "falloff": "wide"})", "falloff is not a number");
+  refused(R"({"masks": [], "falloff": -0.1})", "falloff must be in [0, 1], as a part of cage size");
   refused(R"({"reach": [{"control_points": [0], "factor": 17}]})",
           "control point 0 must be in [1/16, 16]");
   refused(R"({"reach": [{"control_points": [99], "factor": 2}]})", "no control point 99");

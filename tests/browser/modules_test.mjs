@@ -429,7 +429,7 @@ test("a region is painted on the front of the model, and weights obey the latest
       asked.push(masks);
       const given = masks.masks ?? masks, reach = Array(8).fill(1);
       for (const { control_points: [i], factor } of masks.reach ?? []) reach[i] = factor;
-      return { onFacets: 0, conflict, reach: masks.reach ? reach : [], masks: given.map((mask) => ({ controlPoints: mask.control_points.slice(0, 1), vertices: mask.region.vertices })) };
+      return { onFacets: 0, conflict, reach: masks.reach ? reach : [], falloff: masks.falloff ?? 0, masks: given.map((mask) => ({ controlPoints: mask.control_points.slice(0, 1), vertices: mask.region.vertices })) };
     },
     refine: async () => ({ converged: asked.at(-1) === "refine" || asked.push("refine") > 0 }),
   });
@@ -467,8 +467,8 @@ test("a region is painted on the front of the model, and weights obey the latest
   assert.deepEqual(asked.at(-2), protector.masks());
   assert.deepEqual(protector.masks().map((mask) => mask.control_points), [[3, 5]]);
   const { vertices } = protector.masks()[0].region;
-  assert.deepEqual(protector.renumbered([0, 1, 2, 9, 4, 9, 6, 7]), { masks: [{ control_points: [9], region: { vertices } }], reach: [] });
-  assert.deepEqual(protector.renumbered([]), { masks: [], reach: [] });
+  assert.deepEqual(protector.renumbered([0, 1, 2, 9, 4, 9, 6, 7]), { masks: [{ control_points: [9], region: { vertices } }], reach: [], falloff: 0 });
+  assert.deepEqual(protector.renumbered([]), { masks: [], reach: [], falloff: 0 });
 
   // Regions of other control points overlap; erasing takes away those of the selection only.
   const before = protector.masked.size;
@@ -524,7 +524,12 @@ test("a region is painted on the front of the model, and weights obey the latest
   protector.undo();
   assert.deepEqual(protector.factors(), reach);
   await settled();
+  protector.setFalloff(0.1);
+  await settled();
+  assert.deepEqual(asked.at(-2), { masks: protector.masks(), reach, falloff: 0.1 });
   const saved = protector.locality();
+  protector.undo();
+  assert.deepEqual(protector.locality(), { masks: protector.masks(), reach });
   for (const _ of reach) protector.undo();
   await settled();
   assert.deepEqual(asked.at(-2), protector.masks(), "no reach is left");

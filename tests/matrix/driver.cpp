@@ -57,7 +57,9 @@ BindOptions options_of(const Task& task) {
   options.outside = OutsidePoints::kKeep;
   options.mirror_axis = 0;
   options.coordinates = value_named<Coordinates>(task.method);
-  if (!options.coordinates) options.masks = read_masks(task);
+  if (options.coordinates) return options;
+  options.masks = read_masks(task);
+  options.solver.falloff = 0.1;
   return options;
 }
 

@@ -101,7 +101,7 @@ def write_models(folder, dim):
     ends = np.flatnonzero(cage[:, 0] < -1.5)
     inside = np.flatnonzero((points[:, 0] > 0.5) & (points[:, 1] < 0.9))
     mask = {"control_points": ends.tolist(), "region": {"vertices": inside.tolist()}}
-    (folder / "locality.json").write_text(json.dumps([mask]))
+    (folder / "locality.json").write_text(json.dumps({"masks": [mask], "falloff": 0.1}))
     with open(folder / "masks.csv", "w") as file:
         for i, p in itertools.product(ends, inside):
             file.write(f"{i},{p}\n")
@@ -186,7 +186,7 @@ class Python:
             pairs = np.loadtxt(folder / "masks.csv", delimiter=",", dtype=int)
             mask = np.zeros((len(points), len(cage)), bool)
             mask[pairs[:, 1], pairs[:, 0]] = True
-            options["mask"] = mask
+            options.update(mask=mask, falloff=0.1)
         binding = flbc.bind(points, faces, cage, **options)
         if operation.startswith("reduce"):
             binding = binding.reduced(int(operation[-1]))

@@ -116,7 +116,7 @@ TEST_IN_2D_AND_3D(DistanceWeightsTest, EndInFlatCells) {
       distance::March<Dim> march(eikonal);
       const double size = bounding_box_diagonal(mesh.points);
       for (Index source = 0; source < mesh.num_vertices(); source += 7) {
-        for (const auto& arrival : march.run(source)) {
+        for (const auto& arrival : march.run({source})) {
           ASSERT_GE(arrival.distance, 0) << flatness << ' ' << source;
           ASSERT_LT(arrival.distance, 1.1 * size) << flatness << ' ' << source;
         }

@@ -174,6 +174,8 @@ const meanWith = async (factor) => {
 };
 const near = await meanWith(0.25);
 assert.ok(await meanWith(4) > 1.02 * near);
+assert.equal((await flbc.protect({ masks: [], falloff: 0.1 })).falloff, 0.1);
+await assert.rejects(flbc.protect({ masks: [], falloff: 2 }), { message: /falloff must be in \[0, 1\]/ });
 await flbc.protect([]);
 
 // Arrays instead of files.

@@ -39,6 +39,8 @@ export type Locality = LocalityMask[] | {
   conflicts?: "fail" | "relax";
   /** Factors from 1/16 to 16; weights extend farther with a larger one. */
   reach?: { control_points: LocalityMask["control_points"]; factor: number }[];
+  /** Width of a band next to masks in which weights fade out, as a part of the cage size; 0 to 1. */
+  falloff?: number;
 };
 export interface LocalityMask {
   control_points: number[] | { vertices: number[] } | { box: [number[], number[]] };
@@ -49,6 +51,7 @@ export interface Protection {
   masks: { controlPoints: number[]; vertices: number[] }[];
   /** The factor of each control point; empty if none are given. */
   reach: number[];
+  falloff: number;
   /** Vertices on facets of masked control points, which still move them. */
   onFacets: number;
   /** Control points that "relax" removed from the masks. */
@@ -102,7 +105,7 @@ export class Flbc {
   setMesh(points: Numbers, cells: Indices): Promise<void>;
 
   solve(options?: SolveOptions, onProgress?: OnProgress): Promise<{ iterations: number; objective: number; converged: boolean }>;
-  /** Regions of the model that control points must not move, and their reach, for the next solve() or move({ refine: true }). */
+  /** Regions of the model that control points must not move, their reach, and a falloff, for the next solve() or move({ refine: true }). */
   protect(locality: Locality | ArrayBuffer | Uint8Array): Promise<Protection>;
   /** What makeMesh() and solve() have computed. */
   solution(): Promise<Solution>;

@@ -39,6 +39,7 @@ export class Protector {
     this.ask = ask;
     this.masked = new Map();  // by vertex: the control points that must not move it, as text
     this.reach = new Map();   // by control point: a factor other than 1
+    this.falloff = 0;         // width of the band next to regions, as a part of the cage size
     this.sent = null;         // the last regions that were sent; another reach makes others
     this.accepted = [];       // the locality that the weights obey
     this.done = [];
@@ -75,10 +76,12 @@ export class Protector {
   }
 
   locality() {
-    return this.reach.size > 0 ? { masks: this.masks(), reach: this.factors() } : this.masks();
+    const { falloff } = this;
+    if (this.reach.size === 0 && falloff === 0) return this.masks();
+    return { masks: this.masks(), ...this.reach.size > 0 && { reach: this.factors() }, ...falloff > 0 && { falloff } };
   }
 
-  get state() { return { masked: this.masked, reach: this.reach }; }
+  get state() { return { masked: this.masked, reach: this.reach, falloff: this.falloff }; }
   get isUsed() { return this.masked.size > 0 || this.reach.size > 0; }
 
   // Masks and reach for a cage that has been edited. \param numbers  of its control points, by those of before
@@ -86,7 +89,7 @@ export class Protector {
     const known = (list) => [...new Set(list.map((i) => numbers[i]))].filter((i) => i !== undefined);
     const renamed = (choices) => choices.map(({ control_points, ...others }) => ({ control_points: known(control_points), ...others }))
       .filter(({ control_points }) => control_points.length > 0);
-    return { masks: renamed(this.masks()), reach: renamed(this.factors()) };
+    return { masks: renamed(this.masks()), reach: renamed(this.factors()), falloff: this.falloff };
   }
 
   // \param factor  of phi of the selection is divided; more lets weights extend farther
@@ -98,6 +101,13 @@ export class Protector {
       if (factor === 1) this.reach.delete(i);
       else this.reach.set(i, factor);
     }
+    this.keep(before);
+  }
+
+  setFalloff(width) {
+    const before = this.state;
+    this.masked = new Map(this.masked);
+    this.falloff = width;
     this.keep(before);
   }
 
@@ -201,10 +211,11 @@ export class Protector {
   // Takes a file. \param locality  its bytes, or its content
   async load(locality) {
     try {
-      const { masks, reach } = await this.ask.protect(locality);
+      const { masks, reach, falloff } = await this.ask.protect(locality);
       const before = this.state;
       this.masked = new Map();
       this.reach = new Map([...(reach ?? []).entries()].filter(([, factor]) => factor !== 1));
+      this.falloff = falloff ?? 0;
       for (const { controlPoints, vertices } of masks) {
         for (const vertex of controlPoints.length > 0 ? vertices : []) {
           this.masked.set(vertex, united(this.masked.get(vertex), controlPoints));
@@ -294,6 +305,8 @@ export function bindProtecting(protector) {
   protector.tell = tell;
   const reach = element("reach");
   const showReach = () => { element("reachFactor").textContent = `× ${Number((2 ** reach.value).toPrecision(2))}`; };
+  const falloff = element("falloff");
+  const showFalloff = () => { element("falloffWidth").textContent = falloff.value; };
   let shown = null;
   element("outline").insertAdjacentHTML("afterend", '<svg id="marks"></svg>');
   viewer.onPivot = (spot) => { onPivot(spot); protector.drawOver(); };
@@ -305,21 +318,25 @@ export function bindProtecting(protector) {
     element("protected").textContent = protector.describe();
     // Not while the slider is dragged.
     const { reach: factors, viewer: { editor: { selection } } } = protector;
-    const state = [...selection].map((i) => [i, factors.get(i)]).join();
+    const state = [protector.falloff, ...[...selection].map((i) => [i, factors.get(i)])].join();
     if (state === shown) return;
     shown = state;
     reach.disabled = selection.size === 0;
     reach.value = Math.log2(factors.get([...selection][0]) ?? 1);
     showReach();
+    falloff.value = protector.falloff;
+    showFalloff();
   };
   onClick("paint", () => protector.toggle());
   onClick("erase", () => { protector.erases = !protector.erases; viewer.changed(); });
-  onClick("release", () => protector.load({ masks: protector.masks(), reach: protector.factors(), conflicts: "relax" }));
+  onClick("release", () => protector.load({ masks: protector.masks(), reach: protector.factors(), falloff: protector.falloff, conflicts: "relax" }));
   onClick("saveLocality", () => protector.save());
   onClick("loadLocality", () => element("localityFile").click());
   element("brush").addEventListener("input", ({ target }) => { protector.radius = Number(target.value); });
   reach.addEventListener("input", showReach);
   reach.addEventListener("change", () => protector.setReach(2 ** Number(reach.value)));
+  falloff.addEventListener("input", showFalloff);
+  falloff.addEventListener("change", () => protector.setFalloff(Number(falloff.value)));
   element("localityFile").addEventListener("change", async ({ target }) => {
     if (target.files.length > 0) protector.load(await target.files[0].arrayBuffer());
     target.value = "";

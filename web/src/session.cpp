@@ -419,9 +419,10 @@ class Work {
 
   val solve(const Json& options) {
     auto binding = rig().options();
-    auto reach = std::move(binding.solver.reach);
+    const auto before = binding.solver;
     binding.solver = solver_options(options);
-    binding.solver.reach = std::move(reach);
+    binding.solver.reach = before.reach;
+    binding.solver.falloff = before.falloff;
     rig_->set_options(binding);
     solver_given_ = options;
     const auto& of = rig_->solve().report;
@@ -431,16 +432,19 @@ class Work {
                       {"converged", of.status == SolveStatus::kConverged}});
   }
 
-  // Takes masks and reach of a locality file for the next solve, unless vertices cannot obey.
+  // Takes masks, reach, and falloff of a locality file for the next solve, unless vertices cannot
+  // obey.
   val protect() {
     auto binding = rig().options();
     const auto locality = app::load_locality(kLocalityFile, cage_, points(), file_);
     binding.masks = locality.masks;
     binding.solver.reach = locality.reach;
+    binding.solver.falloff = locality.falloff;
     Index on_facets = 0;
     end_at_facets(cage_, points(), binding.masks, &on_facets);
     Json reply{{"masks", Json::array()},
                {"reach", locality.reach},
+               {"falloff", locality.falloff},
                {"freed", locality.freed},
                {"onFacets", on_facets}};
     for (const auto& [control_points, region] : binding.masks) {

@@ -58,10 +58,10 @@ class WeightFunctions {
                   Index num_control_points);
 
   //! n, or 0 if empty.
-  Eigen::Index rows() const { return cells_.cols() > 0 ? num_control_points_ : values_.rows(); }
+  Eigen::Index rows() const { return is_given() ? values_.rows() : num_control_points_; }
 
   //! F, or 0 if empty.
-  Eigen::Index cols() const { return cells_.cols() > 0 ? cells_.cols() : values_.cols(); }
+  Eigen::Index cols() const { return is_given() ? values_.cols() : cells_.cols(); }
 
   //! n F.
   Eigen::Index size() const { return rows() * cols(); }
@@ -79,11 +79,26 @@ class WeightFunctions {
   //! These factors; empty if all are 1.
   const std::vector<double>& reach() const { return reach_; }
 
-  //! phi_i on one cell, in [0, 1] if made from distances without reach.
+  //! Adds to phi_i the square of how near a cell is to the mask of control point i, times the
+  //! largest value of phi without reach, in place of what was added before
+  //! (SolverOptions::falloff).
+  //! \param rows  of each control point in `nearness`, -1 for none; n, or empty for no falloff
+  //! \param nearness  K x V, in [0, 1]; the mean counts in a cell \param mesh  V vertices, F cells
+  template <int Dim>
+  void set_falloff(std::vector<Index> rows, DistanceMatrix nearness, const DomainMesh<Dim>& mesh) {
+    rows_ = std::move(rows);
+    nearness_ = std::move(nearness);
+    if (rows_.empty()) return;
+    cells_ = mesh.cells;
+    if (is_given()) largest_ = values_.maxCoeff();
+  }
+
+  //! phi_i on one cell, in [0, 1] if made from distances without reach and falloff.
   //! \param i  control point \param s  cell
   double operator()(Eigen::Index i, Eigen::Index s) const {
-    const double value = cells_.cols() > 0 ? from_distances(i, s) : values_(i, s);
-    return reach_.empty() ? value : value / reach_[i];
+    double value = is_given() ? values_(i, s) : from_distances(i, s);
+    if (!reach_.empty()) value /= reach_[i];
+    return rows_.empty() || rows_[i] < 0 ? value : value + from_mask(rows_[i], s);
   }
 
   //! phi on one cell, one value per control point. \param s  cell
@@ -94,12 +109,16 @@ class WeightFunctions {
 
  private:
   double from_distances(Eigen::Index i, Eigen::Index s) const;
+  double from_mask(Eigen::Index row, Eigen::Index s) const;
 
   Eigen::MatrixXd values_;                                      // n x F, if phi was given
   DistanceMatrix distances_;                                    // n x V, otherwise
-  Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic> cells_;  // empty if given
+  DistanceMatrix nearness_;                                     // K x V, for falloff
+  std::vector<Index> rows_;                                     // of it, by control point
+  Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic> cells_;  // if one of these needs them
   DistanceScheme scheme_ = DistanceScheme::kConstant;
   double scale_ = 1;
+  double largest_ = 1;  // value without reach and falloff
   Eigen::Index num_control_points_ = 0;
   std::vector<double> reach_;
 };

@@ -134,6 +134,12 @@ struct SolverOptions {
   //! guarantee. For every method; a certificate holds for the divided phi.
   std::vector<double> reach{};
 
+  //! Width of a band next to masks, as a part of cage size (bounding_box_diagonal), in [0, 1].
+  //! There phi of the masked control points grows toward the mask, so that their weights fade out
+  //! before it instead of ending in a crease. Masks stay exact. Useful values are 0.05 to 0.2; 0 is
+  //! no band.
+  double falloff = 0;
+
   //! Number of threads, at most 1024; 0 = as many as OpenMP offers, or one if n V < 100,000.
   int threads = 0;
 };

@@ -116,8 +116,8 @@ class Solver {
   //! Changes the options of the following solves. The next solve resumes from the last state if
   //! only tolerance, gap, max_iterations, certify, or threads differ and distances are accurate
   //! enough. With other masks it starts from the duals of the last state and from the supports of
-  //! the coarse mesh. With another reach it starts over, without a new setup. Otherwise the problem
-  //! is set up again, as by a new Solver.
+  //! the coarse mesh. With another reach or falloff it starts over, without a new setup. Otherwise
+  //! the problem is set up again, as by a new Solver.
   //! \throws OptionError, SolverError; InputError for masks without weights; then options are
   //! unchanged
   void set_options(const SolverOptions& options);

@@ -31,9 +31,11 @@ void require_valid(const BindOptions& options) {
   }
   if (options.coordinates) {
     validate(*options.coordinates, {options.solver.non_negative, options.solver.threads});
-    if (!options.masks.empty() || !options.solver.masks.empty() || !options.solver.reach.empty()) {
-      throw OptionError(std::string("masks and reach are for local coordinates, not for ") +
-                        name_of(*options.coordinates));
+    if (!options.masks.empty() || !options.solver.masks.empty() || !options.solver.reach.empty() ||
+        options.solver.falloff != 0) {
+      throw OptionError(
+          std::string("masks, reach, and falloff are for local coordinates, not for ") +
+          name_of(*options.coordinates));
     }
   } else {
     validate(options.solver);
@@ -106,6 +108,7 @@ std::string describe(const BindOptions& options) {
     if (resolved.tolerance) add("tolerance", format_number(*resolved.tolerance));
     add("phi", options.phi.size() > 0 ? "given" : name_of(solver.phi));
     if (!solver.reach.empty()) add("reach", "given");
+    if (solver.falloff > 0) add("falloff", format_number(solver.falloff));
   }
   if (options.max_influences > 0) add("influences", std::to_string(options.max_influences));
   return text;
@@ -117,7 +120,7 @@ bool differ(const BindOptions& a, const BindOptions& b) {
     const auto& solver = options.solver;
     return std::tuple(options.coordinates, options.masks, solver.method, solver.phi,
                       solver.smoothness, solver.tolerance, solver.non_negative, solver.reach,
-                      solver.masks);
+                      solver.falloff, solver.masks);
   };
   return problem(a) != problem(b) || a.phi.size() != b.phi.size() ||
          (a.phi.size() > 0 && (a.phi.rows() != b.phi.rows() || a.phi != b.phi));

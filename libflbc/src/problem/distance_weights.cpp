@@ -45,6 +45,13 @@ double WeightFunctions::from_distances(Eigen::Index i, Eigen::Index s) const {
   return relative_to_weight(scheme_, scale_ * sum);
 }
 
+double WeightFunctions::from_mask(Eigen::Index row, Eigen::Index s) const {
+  double sum = 0;
+  for (Eigen::Index k = 0; k < cells_.rows(); ++k) sum += nearness_(row, cells_(k, s));
+  const double mean = sum / static_cast<double>(cells_.rows());
+  return largest_ * mean * mean;
+}
+
 Eigen::VectorXd WeightFunctions::col(Eigen::Index s) const {
   Eigen::VectorXd column(rows());
   for (Eigen::Index i = 0; i < column.size(); ++i) column[i] = (*this)(i, s);

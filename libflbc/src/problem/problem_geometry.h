@@ -3,6 +3,7 @@
 #pragma once
 
 #include <utility>
+#include <vector>
 
 #include "flbc/lbc_problem.h"
 
@@ -21,6 +22,11 @@ LbcProblem<Dim> make_geometry(Cage<Dim> cage, DomainMesh<Dim> mesh, MeshTopology
 template <int Dim>
 LbcProblem<Dim> make_geometry(Cage<Dim> cage, DomainMesh<Dim> mesh);
 
+//! As geodesic_distances(), from the nearest vertex of each set.
+template <int Dim>
+DistanceMatrix distances_from_sets(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
+                                   const std::vector<std::vector<Index>>& sources);
+
 //! Distances from the control points on the mesh of the problem, n x V; empty for kConstant.
 template <int Dim>
 DistanceMatrix distances_for(DistanceScheme scheme, const LbcProblem<Dim>& problem);
@@ -38,5 +44,10 @@ template <int Dim>
 void set_phi(LbcProblem<Dim>& problem, DistanceScheme scheme) {
   set_phi(problem, scheme, distances_for(scheme, problem));
 }
+
+//! Raises phi of masked control points next to their masks, in place of an earlier call.
+//! \param problem  with phi and masks \param falloff  SolverOptions::falloff
+template <int Dim>
+void set_falloff(LbcProblem<Dim>& problem, double falloff);
 
 }  // namespace flbc

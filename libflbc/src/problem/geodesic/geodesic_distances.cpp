@@ -12,6 +12,7 @@
 #include "base/stage_progress.h"
 #include "mesh/check_topology.h"
 #include "problem/geodesic/march.h"
+#include "problem/problem_geometry.h"
 
 namespace flbc {
 namespace {
@@ -26,10 +27,18 @@ DistanceMatrix geodesic_distances(const DomainMesh<Dim>& mesh, const MeshTopolog
                                   const std::vector<Index>& sources) {
   check_elements(mesh.points, mesh.cells, kMeshNames);
   check_topology(mesh, topology);
+  check_indices(Eigen::Map<const Eigen::Matrix<Index, 1, Eigen::Dynamic>>(
+                    sources.data(), 1, static_cast<Index>(sources.size())),
+                mesh.num_vertices(), {"list", "source", "vertex", "vertices"});
+  std::vector<std::vector<Index>> sets;
+  for (const Index source : sources) sets.push_back({source});
+  return distances_from_sets(mesh, topology, sets);
+}
+
+template <int Dim>
+DistanceMatrix distances_from_sets(const DomainMesh<Dim>& mesh, const MeshTopology<Dim>& topology,
+                                   const std::vector<std::vector<Index>>& sources) {
   const auto num_sources = static_cast<Index>(sources.size());
-  check_indices(
-      Eigen::Map<const Eigen::Matrix<Index, 1, Eigen::Dynamic>>(sources.data(), 1, num_sources),
-      mesh.num_vertices(), {"list", "source", "vertex", "vertices"});
   const EikonalMesh<Dim> eikonal(mesh, topology);
   constexpr Index kMost = 16;      // a cache line
   constexpr Index kPerThread = 4;  // for load balance
@@ -60,5 +69,6 @@ DistanceMatrix geodesic_distances(const DomainMesh<Dim>& mesh, const MeshTopolog
 }
 
 FLBC_INSTANTIATE_FUNCTION(geodesic_distances)
+FLBC_INSTANTIATE_FUNCTION(distances_from_sets)
 
 }  // namespace flbc

@@ -111,12 +111,13 @@ class March {
         queue_(0.02f * mesh.mean_length),
         tolerance_(2e-5f * mesh.mean_length) {}
 
-  //! Runs to all vertices. \return distances of all vertices, valid until the next run
-  const std::vector<Arrival>& run(Index source) {
+  //! Runs to all vertices. \param sources  the nearest one counts
+  //! \return distances of all vertices, valid until the next run
+  const std::vector<Arrival>& run(const std::vector<Index>& sources) {
     arrivals_.assign(mesh_.num_vertices(), Arrival{});
     passed_.assign(mesh_.cells.size(), 0);
     queue_.restart();
-    arrive(source, 0, false);
+    for (const Index source : sources) arrive(source, 0, false);
     for (Index v = queue_.pop(); v >= 0; v = queue_.pop()) {
       if (arrivals_[v].state != State::kWaiting) continue;
       if constexpr (Dim == 3) {

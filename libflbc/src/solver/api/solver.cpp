@@ -193,11 +193,11 @@ void require_points_for(const Cage<Dim>& cage, const PointList<Dim>& control_poi
 }
 
 // Options that stay the same during a run. All others take effect when it resumes, except for
-// masks and reach, for which another run begins. Names all options, so that a new one cannot be
-// forgotten.
+// masks, reach, and falloff, for which another run begins. Names all options, so that a new one
+// cannot be forgotten.
 auto fixed_in_a_run(const SolverOptions& options) {
   const auto& [method, phi, smoothness, distances, precision, non_negative, tolerance, gap,
-               active_set, max_iterations, penalty, certify, masks, reach, threads] =
+               active_set, max_iterations, penalty, certify, masks, reach, falloff, threads] =
       resolve(options);
   return std::tuple(method, phi, smoothness, distances, precision, non_negative, active_set,
                     penalty);
@@ -253,13 +253,13 @@ struct internal::SolverState {
     warm_start.reset();
   }
 
-  // Sets masks and reach. With another reach the next solve starts over, which takes fewer
-  // iterations than a warm start; with other masks it starts from the present state.
+  // Sets masks, reach, and falloff. With another reach or falloff the next solve starts over, which
+  // takes fewer iterations than a warm start; with other masks it starts from the present state.
   void change_problem(const SolverOptions& given) {
     auto& [problem, coarse, distances] = static_cast<NestedProblem<Dim>&>(*shape);
     auto masks =
         masks_inside(shape->cage.points, shape->mesh.points, problem.boundary, given.masks);
-    if (given.reach != options.reach) {
+    if (given.reach != options.reach || given.falloff != options.falloff) {
       warm_start.reset();
     } else if (!warm_start && shape->run->has_warm_start()) {
       warm_start = shape->run->warm_start();
@@ -267,6 +267,7 @@ struct internal::SolverState {
     coarse.reset();  // has those before
     problem.masks = std::move(masks);
     problem.phi.set_reach(given.reach);
+    set_falloff(problem, given.falloff);
     shape->run.emplace(problem);
   }
 
@@ -365,6 +366,7 @@ Solution solve(LbcProblem<Dim> problem, const SolverOptions& given, const Observ
     if (problem.masks.empty()) options.masks.clear();
   }
   if (!options.reach.empty()) problem.phi.set_reach(options.reach);
+  if (options.falloff > 0) set_falloff(problem, options.falloff);
   using State = internal::SolverState<Dim>;
   State state{options, std::make_unique<typename State::Shape>()};
   state.shape->problem = std::move(problem);
@@ -482,7 +484,10 @@ void Solver<Dim>::set_options(const SolverOptions& options) {
   const bool has_solved = state.solution.weights.num_points() > 0;
   if (has_solved && fixed_in_a_run(options) == fixed_in_a_run(state.options) &&
       !state.needs_other_phi(options)) {
-    if (options.masks != state.options.masks || options.reach != state.options.reach) {
+    const auto locality = [](const SolverOptions& of) {
+      return std::tie(of.masks, of.reach, of.falloff);
+    };
+    if (locality(options) != locality(state.options)) {
       state.change_problem(options);
     }
     state.options = options;

@@ -91,7 +91,8 @@ PointMasks masks_on_coarse(const PointMasks& masks, const CoarseProblem<Dim>& co
 
 // For any method.
 template <int Dim>
-std::optional<CoarseProblem<Dim>> make_coarse(const LbcProblem<Dim>& problem, DistanceScheme phi) {
+std::optional<CoarseProblem<Dim>> make_coarse(const LbcProblem<Dim>& problem, DistanceScheme phi,
+                                              double falloff) {
   auto coarse = coarse_mesh(problem.mesh);
   if (!coarse) return {};
   std::optional<CoarseProblem<Dim>> made;
@@ -105,6 +106,7 @@ std::optional<CoarseProblem<Dim>> make_coarse(const LbcProblem<Dim>& problem, Di
   made->problem.masks = masks_on_coarse(problem.masks, *made);
   made->problem.phi.set_reach(problem.phi.reach());
   set_phi(made->problem, phi);
+  set_falloff(made->problem, falloff);
   return made;
 }
 
@@ -124,8 +126,8 @@ template <int Dim>
 std::optional<CoarseProblem<Dim>> coarse_problem(const LbcProblem<Dim>& problem,
                                                  const plan::Settings& settings) {
   if (!plan::inherits(settings.method)) return {};
-  if (!problem.phi.is_given()) return make_coarse(problem, settings.phi);
-  auto coarse = make_coarse(problem, DistanceScheme::kConstant);
+  if (!problem.phi.is_given()) return make_coarse(problem, settings.phi, settings.falloff);
+  auto coarse = make_coarse(problem, DistanceScheme::kConstant, 0);
   if (coarse) coarse->problem.phi = on_coarse_cells(problem.phi, coarse->problem.mesh.num_cells());
   return coarse;
 }
@@ -139,12 +141,13 @@ NestedProblem<Dim> set_up(LbcProblem<Dim> geometry, const plan::Settings& settin
   problem.smoothness = *settings.smoothness;
   problem.phi.set_reach(settings.reach);
   if (plan::inherits(settings.method) || settings.distances == Distances::kInterpolated) {
-    coarse = make_coarse(problem, settings.phi);
+    coarse = make_coarse(problem, settings.phi, settings.falloff);
   }
   set_phi(problem, settings.phi,
           coarse && plan::interpolates(settings, 0)
               ? choose_distances(*coarse, problem, settings, report)
               : distances_for(settings.phi, problem));
+  set_falloff(problem, settings.falloff);
   if (!plan::inherits(settings.method)) coarse.reset();
   return nested;
 }

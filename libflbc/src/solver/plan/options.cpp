@@ -68,6 +68,8 @@ void validate(const SolverOptions& options) {
   validate_gap(options);
   validate_masks(options);
   validate_reach(options.reach);
+  require(options.falloff >= 0 && options.falloff <= 1, "falloff", options.falloff,
+          "in [0, 1], as a part of cage size, or 0 for none");
   if (options.active_set == ActiveSet::kOn && (options.certify || options.gap.value_or(0) > 0)) {
     throw OptionError(
         "active_set on has no certificate, which needs the duals of all pairs; choose active_set "
