@@ -41,6 +41,8 @@ ModelCage<Dim> make_cage([[maybe_unused]] const std::string& file,
     std::cerr << file << ": the cage has " << parts
               << " separate parts, because there are wide gaps between points\n";
   }
+  const auto bridged = describe_bridged_gaps(made);
+  if (!quiet && !bridged.empty()) std::cerr << file << ": " << bridged << '\n';
   return made;
 #else
   throw OptionError("this flbc was built without CGAL and cannot make cages");

@@ -2,6 +2,7 @@
 """Models in their cages: making, checking, and repairing cages."""
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Dict, List, NamedTuple, Optional
 
 import numpy as np
@@ -142,6 +143,8 @@ def make_cage(
 ) -> Cage:
     """Makes a cage around a model, which it encloses strictly.
 
+    Warns if the cage bridges narrow gaps of a 3D model, such as those between fingers.
+
     Parameters
     ----------
     vertices : array_like, shape (P, d)
@@ -177,4 +180,7 @@ def make_cage(
     )
     points = as_points(vertices, "vertices")
     polygons = as_polygons(faces, "faces", len(points))
-    return Cage(*_core.make_cage(points, polygons, control_points, offset, symmetry))
+    made, note = _core.make_cage(points, polygons, control_points, offset, symmetry)
+    if note:
+        warnings.warn(note, stacklevel=2)
+    return Cage(*made)

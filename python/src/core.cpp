@@ -151,7 +151,8 @@ py::tuple make_cage([[maybe_unused]] const Doubles& points,
         facets.col(static_cast<Eigen::Index>(e)) << ends[e][0], ends[e][1];
       }
     }
-    return as_python(without_gil([&] { return cage_from_model<kDim>(all, facets, options).cage; }));
+    const auto made = without_gil([&] { return cage_from_model<kDim>(all, facets, options); });
+    return py::make_tuple(as_python(made.cage), describe_bridged_gaps(made));
   });
 #else
   throw OptionError("this flbc was built without CGAL and cannot make cages");

@@ -421,6 +421,121 @@ TEST(CageLimitsTest, LegsOnBothSidesOfTheMirrorPlaneStayApart) {
   }
 }
 
+// A prism along z.
+Cage<3> pillar(double x, double radius, double low, double high, int sides) {
+  Cage<3> prism{PointList<3>(3, 2 * sides + 2), FacetList<3>(3, 4 * sides)};
+  for (int k = 0; k < sides; ++k) {
+    const double angle = 2 * std::acos(-1.0) * k / sides + 0.1;
+    const Vector<3> corner(x + radius * std::cos(angle), radius * std::sin(angle), low);
+    prism.points.col(k) = corner;
+    prism.points.col(sides + k) = Vector<3>(corner.x(), corner.y(), high);
+    const Index a = k, b = (k + 1) % sides;
+    prism.facets.middleCols(4 * k, 4) << a, b, b, sides + a,  //
+        b, sides + b, a, sides + b,                           //
+        sides + a, sides + a, 2 * sides, 2 * sides + 1;
+  }
+  prism.points.rightCols(2) << x, x, 0, 0, low, high;
+  return prism;
+}
+
+// Fingers 0.7 wide on a palm.
+struct Hand {
+  Cage<3> model;
+  double gap;
+  std::vector<double> fingers;  // their centers
+  Eigen::Matrix3d turn;
+
+  Hand(int count, double width, double angle)
+      : model(box_cage<3>(Vector<3>(-0.4, -0.25, -1),
+                          Vector<3>((count - 1) * (0.7 + width) + 0.4, 0.25, 0.02))),
+        gap(width),
+        turn(Eigen::AngleAxisd(angle, Vector<3>(1, 2, 0.5).normalized()).toRotationMatrix()) {
+    for (int k = 0; k < count; ++k) {
+      fingers.push_back(k * (0.7 + gap));
+      model = join(model, pillar(fingers.back(), 0.35, 0, 2.2, 10));
+    }
+    model.points = turn * model.points;
+  }
+
+  Vector<3> finger_at(int number, double height) const {
+    return turn * Vector<3>(fingers[number], 0, height);
+  }
+  // Between a finger and the next one.
+  Vector<3> gap_at(int number, double height) const {
+    return turn * Vector<3>(fingers[number] + 0.35 + gap / 2, 0, height);
+  }
+  // How many of the gaps have nothing of the cage in the middle of them.
+  int open_gaps(const Cage<3>& cage) const {
+    int count = 0;
+    for (int k = 0; k + 1 < static_cast<int>(fingers.size()); ++k) {
+      bool is_open = true;
+      for (const double height : {0.7, 1.1, 1.5, 1.9}) {
+        EXPECT_NEAR(winding_number<3>(cage, finger_at(k, height)), 1, 1e-6);
+        is_open = is_open && std::abs(winding_number<3>(cage, gap_at(k, height))) < 0.5;
+      }
+      count += is_open ? 1 : 0;
+    }
+    return count;
+  }
+};
+
+TEST(BridgedGapsTest, FingersApartByAThirdOfTheirWidthStayApart) {
+  for (const int count : {2, 3, 4, 5}) {
+    for (const double angle : {0.0, 0.6}) {
+      SCOPED_TRACE(std::to_string(count) + " fingers, turned by " + std::to_string(angle));
+      const Hand hand(count, 0.21, angle);
+      const auto made = make(hand.model, {});
+      EXPECT_EQ(hand.open_gaps(made.cage), count - 1);
+      EXPECT_TRUE(made.bridged_gaps.empty());
+      EXPECT_EQ(describe_bridged_gaps(made), "");
+    }
+  }
+}
+
+// Gaps are open, or they are reported with a place in them and their width.
+TEST(BridgedGapsTest, NarrowerGapsAreOpenOrReported) {
+  for (const double gap : {0.14, 0.07, 0.035}) {
+    for (const Index control_points : {0, 20, 60, 240}) {
+      SCOPED_TRACE(std::to_string(gap) + ", " + std::to_string(control_points));
+      const Hand hand(4, gap, 0.3);
+      const auto made = make(hand.model, at_most(control_points));
+      std::set<int> reported;
+      for (const auto& bridged : made.bridged_gaps) {
+        EXPECT_NEAR(bridged.width, gap, 0.3 * gap);
+        const Vector<3> place = hand.turn.transpose() * bridged.place;
+        const auto number = static_cast<int>(std::floor(place.x() / (0.7 + gap)));
+        EXPECT_NEAR(place.x(), hand.fingers[number] + 0.35 + gap / 2, 0.2);
+        EXPECT_GT(place.z(), 0);
+        EXPECT_LT(place.z(), 2.2);
+        reported.insert(number);
+      }
+      EXPECT_EQ(reported.size(), made.bridged_gaps.size());
+      EXPECT_GE(hand.open_gaps(made.cage) + static_cast<int>(reported.size()), 3);
+      if (!reported.empty()) {
+        EXPECT_EQ(describe_bridged_gaps(made).find("the cage bridges " +
+                                                   std::to_string(reported.size()) + " narrow gap"),
+                  0u);
+      }
+    }
+  }
+}
+
+TEST(BridgedGapsTest, MoreControlPointsOpenNarrowerGaps) {
+  const Hand hand(4, 0.07, 0);
+  EXPECT_EQ(hand.open_gaps(make(hand.model, at_most(300)).cage), 3);
+}
+
+// What is around a leg moves with it, and solid models have nothing to bridge.
+TEST(BridgedGapsTest, ModelsWithoutLimbsHaveNone) {
+  auto trousers = join(pillar(0, 0.5, 0, 2, 12), reversed(pillar(0, 0.4, 0.1, 1.9, 12)));
+  trousers = join(trousers, pillar(0, 0.3, 0.2, 1.8, 12));
+  for (const auto& model : {box_cage<3>(1), turned(crossed_bars<3>()), spider(), trousers}) {
+    for (const Index control_points : {0, 40}) {
+      EXPECT_TRUE(make(model, at_most(control_points)).bridged_gaps.empty());
+    }
+  }
+}
+
 // Such as a crest or a fin: on both sides of the plane, and in it.
 TEST(CageLimitsTest, FlatPartsInTheMirrorPlane) {
   const auto box = box_cage<3>(Vector<3>(-0.2, -0.5, -1), Vector<3>(0.2, 0.5, 1));
@@ -461,6 +576,30 @@ TEST(CageLimitsTest, DetailsOfOneSideDoNotHideASymmetry) {
   EXPECT_EQ(made.symmetry_axis, 0);
   for (const double side : {-1, 1}) {
     EXPECT_NEAR(winding_number<3>(made.cage, Vector<3>(side * 0.45, 0.35, 1.2)), 1, 1e-6);
+  }
+}
+
+// Small parts far from a symmetric one: a cage of their mirror images would be around nothing.
+TEST_IN_2D_AND_3D(CageFromModelTest, NoPartOfACageIsEmpty) {
+  auto model = box_cage<Dim>(1);
+  for (const double side : {-1.0, 1.0}) {
+    auto small = box_cage<Dim>(0.01);
+    small.points.array() += 1.6 * side;
+    model = join(model, small);
+  }
+  // Many vertices, so that the small parts are details.
+  const PointList<Dim> more = model.points.leftCols(box_cage<Dim>(1).size());
+  auto dense = model;
+  for (int k = 0; k < 120; ++k) {
+    dense.points.conservativeResize(Dim, dense.points.cols() + more.cols());
+    dense.points.rightCols(more.cols()) = (0.9 - 0.005 * k) * more;
+  }
+  const auto made = make(dense, {});
+  const auto parts = cage_parts(made.cage);
+  EXPECT_EQ(parts.size(), 3u);
+  for (const auto& part : parts) {
+    EXPECT_LT(points_outside<Dim>(part.cage, model.points).size(),
+              static_cast<std::size_t>(model.points.cols()));
   }
 }
 

@@ -232,6 +232,80 @@ TEST_IN_2D_AND_3D(RepairCageTest, TouchingPartsAreUnited) {
   expect_union<Dim>({one, moved<Dim>(moved<Dim>(one, 0, 1), 1, 0.4)});
 }
 
+// A convex polyhedron between a chord of a ring and the opposite one.
+struct Wedge {
+  double begin, end;  // angles
+  double inner, outer, low, high;
+
+  Cage<3> cage() const {
+    auto box = box_cage<3>(Vector<3>::Zero(), Vector<3>::Ones());
+    for (auto&& p : box.points.colwise()) {
+      const double radius = p.x() > 0 ? outer : inner, angle = p.y() > 0 ? end : begin;
+      p = Vector<3>(radius * std::cos(angle), radius * std::sin(angle), p.z() > 0 ? high : low);
+    }
+    return box;
+  }
+  bool contains(const Vector<3>& p) const {
+    const double middle = (begin + end) / 2, half = (end - begin) / 2;
+    const Eigen::Vector2d along(std::cos(middle), std::sin(middle)), q = p.head<2>();
+    const Eigen::Vector2d across(-along.y(), along.x());
+    const double depth = along.dot(q) / std::cos(half);
+    return p.z() >= low && p.z() <= high && depth >= inner && depth <= outer &&
+           std::abs(across.dot(q)) <= along.dot(q) * std::tan(half);
+  }
+};
+
+// A cup as physics programs decompose it: 13 wedges and a bottom, that overlap or touch. What is in
+// the cup is outside.
+TEST(RepairCage3Test, DecompositionsIntoHullsAreUnited) {
+  constexpr int kWedges = 13;
+  const double step = 2 * std::acos(-1.0) / kWedges;
+  for (const double overlap : {0.0, 0.03}) {
+    for (const bool is_rounded : {false, true}) {
+      std::vector<Wedge> wedges;
+      auto all = box_cage<3>(Vector<3>(-0.7, -0.7, -0.2), Vector<3>(0.7, 0.7, overlap));
+      for (int k = 0; k < kWedges; ++k) {
+        wedges.push_back({k * step - overlap, (k + 1) * step + overlap, 0.6, 1, 0, 2});
+        all = join(all, wedges.back().cage());
+      }
+      const Eigen::Matrix3d turn =
+          Eigen::AngleAxisd(0.6, Vector<3>(1, 2, 0.5).normalized()).toRotationMatrix();
+      if (is_rounded) all.points = (1e6 * turn * all.points).array().round() / 1e6;
+      const auto repaired = repair(all);
+      EXPECT_FALSE(repaired.is_wrapped);
+      EXPECT_EQ(measure_cage(repaired.cage).parts, 1);
+      expect_inside(repaired.cage, [&](const Vector<3>& point) {
+        const Vector<3> p = is_rounded ? Vector<3>(turn.transpose() * point) : point;
+        const bool is_in_bottom =
+            (p.head<2>().array().abs() <= 0.7).all() && p.z() >= -0.2 && p.z() <= overlap;
+        return is_in_bottom || std::any_of(wedges.begin(), wedges.end(),
+                                           [&](const Wedge& wedge) { return wedge.contains(p); });
+      });
+    }
+  }
+}
+
+// 82 bricks in a running bond touch with parts of their sides.
+TEST(RepairCage3Test, WallsOfBricksAreUnited) {
+  Boxes<3> bricks;
+  for (int course = 0; course < 11; ++course) {
+    for (int k = course % 2 == 0 ? 0 : -1; k < 14; k += 2) {
+      bricks.emplace_back(Vector<3>(std::max(k, 0), 0, 0.6 * course),
+                          Vector<3>(std::min(k + 2, 14), 1, 0.6 * (course + 1)));
+    }
+  }
+  ASSERT_EQ(bricks.size(), 82u);
+  for (const bool is_rounded : {false, true}) {
+    auto wall = cage_of<3>(bricks);
+    if (is_rounded) {
+      wall.points = Eigen::AngleAxisd(0.6, Vector<3>(1, 2, 0.5).normalized()).toRotationMatrix() *
+                    wall.points;
+      wall.points = (1e5 * wall.points).array().round() / 1e5;
+    }
+    expect_united(repair(wall), 14 * 6.6, 1e-3);
+  }
+}
+
 // Plates that cross each other, in any direction: rounded crossings are close to each other.
 TEST_IN_2D_AND_3D(RepairCageTest, CrossingPlatesAreUnited) {
   std::mt19937 random(5);

@@ -71,6 +71,8 @@ export interface CageFacts {
   /** Distance from the model, relative to its size. */
   offset?: number;
   symmetry?: "none" | "x" | "y" | "z";
+  /** About narrow gaps of the model that makeCage() bridges; "": none. */
+  note?: string;
   /** What a repair changed, one sentence each. */
   changes?: string[];
 }

@@ -20,6 +20,7 @@ const kPicture = /\.(png|jpe?g)$/i;
 const kDrawing = /\.svg$/i;
 const kScreens = ["start", "busy", "drawing"];
 const kParts = ["stage", "timeline", "panel", "keyHelp"];
+const sentence = (text = "") => text.slice(0, 1).toUpperCase() + text.slice(1);
 
 class App {
   constructor() {
@@ -111,7 +112,8 @@ class App {
         const { vertices, isFilled } = await this.flbc.readModel(model.name, model.bytes, model.files);
         model.isFilled = isFilled;
         if (vertices > 20000) element("remaining").textContent = `This model takes about ${Math.round(vertices / 7000)} s`;
-        await this.flbc.makeCage({}, onProgress);
+        const { note } = await this.flbc.makeCage({}, onProgress);
+        model.note = model.note || sentence(note);
         Object.assign(this, { model, cage: await this.cageFile(), view: null });
         await this.solve(onProgress);
       });
@@ -164,10 +166,12 @@ class App {
     const before = this.state;
     element("cageProblem").hidden = true;
     element("repair").hidden = true;
+    let note = "";
     try {
       const isDone = await this.work(title, async (onProgress) => {
         await this.prepared;
-        await make(onProgress);
+        const made = await make(onProgress);
+        note = sentence(made?.note);
         this.cage = file ?? await this.cageFile();
         await this.solve(onProgress);
       });
@@ -175,6 +179,7 @@ class App {
     } catch (error) {
       return await this.refuse(error, before);
     }
+    if (note) tell(note);
     if (!before.protector?.isUsed) return;
     if (numbers) await this.protector.load(before.protector.renumbered(numbers));
     else tell("Protected regions and reach are gone: they were of control points of the old cage");

@@ -302,6 +302,7 @@ class Work {
     set_cage(made.cage);
     auto facts = cage_facts();
     facts["offset"] = made.offset / size;
+    facts["note"] = describe_bridged_gaps(made);
     facts["symmetry"] = made.symmetry_axis < 0 ? "none" : std::string(1, "xyz"[made.symmetry_axis]);
     return from_json(facts);
   }

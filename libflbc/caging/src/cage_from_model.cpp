@@ -19,6 +19,7 @@
 #include "caging/cage_steps.h"
 #include "caging/coarsening.h"
 #include "caging/enclosure.h"
+#include "caging/gaps.h"
 #include "caging/mirror_plane.h"
 #include "caging/surface_tools.h"
 #include "caging/thickness.h"
@@ -186,11 +187,12 @@ class Caging {
 
   // \return empty if no cage encloses the model
   std::optional<ModelCage<Dim>> make() {
-    const bool is_given = options_.control_points > 0;
+    const Index given = options_.control_points;
     auto made = make_by_wrap();
     if constexpr (Dim == 3) {
       if (!made) return {};
-      if (auto convex = make_convex(*made, is_given)) return convex;
+      if (auto convex = make_convex(*made, given > 0)) made = convex;
+      part_limbs(*made, given);
     }
     return made;
   }
@@ -248,14 +250,19 @@ class Caging {
       if (size.alpha > kCoarsest * size_) return {};
       const auto surface = wrap_of(size);
       if (surface.facets.cols() == 0) continue;
-      auto own = limits;
-      if constexpr (Dim == 3) {
-        own.lengths = edge_lengths(surface, kShort);
-        own.lengths_grow = true;
-      }
-      const auto cage = reduced(surface, size.offset, options_.control_points, own);
-      if (cage) return describe(*cage, size.offset);
+      if (auto made = make_of_number(surface, size.offset, limits)) return made;
     }
+  }
+
+  std::optional<ModelCage<Dim>> make_of_number(const Cage<Dim>& surface, double offset,
+                                               CageLimits limits) const {
+    if constexpr (Dim == 3) {
+      limits.lengths = edge_lengths(surface, kShort);
+      limits.lengths_grow = true;
+    }
+    const auto cage = reduced(surface, offset, options_.control_points, limits);
+    if (!cage) return {};
+    return describe(*cage, offset);
   }
 
   // Chooses the number of control points. If it fails, the usual number is left to be tried.
@@ -267,12 +274,12 @@ class Caging {
     } else {
       // Longer edges take fewer control points. A model with thin limbs gets a finer wrap, unless
       // it would take too many control points: then it is boxed in.
-      const double most = 0.97 * kMaxCageVolume * volume_;
+      const double most = most_volume();
       options_.control_points = kMostByShape;
       std::map<Index, Cage<3>> wraps;
       for (const auto& [fineness, limit, edge] :
-           {std::tuple(kUsualNumber<3>, most, kShort), std::tuple(kUsualNumber<3>, most, 1.4),
-            std::tuple(kMostByShape, most, 1.4), std::tuple(kUsualNumber<3>, kNoLimit, 1.4)}) {
+           {std::tuple(kUsualNumber<3>, most, kShort), std::tuple(kUsualNumber<3>, most, kLong),
+            std::tuple(kMostByShape, most, kLong), std::tuple(kUsualNumber<3>, kNoLimit, kLong)}) {
         const auto size = size_at(fineness);
         const auto [surface, is_new] = wraps.try_emplace(fineness);
         if (is_new) surface->second = wrap_of(size);
@@ -316,6 +323,35 @@ class Caging {
     return signed_measure<3>(convex_hull(whole.points), model_->box().center());
   }
 
+  // If a cage bridges narrow gaps, tries a wrap that is fine enough for them.
+  void part_limbs(ModelCage<3>& made, Index given) {
+    const Gaps gaps(whole_, *model_);
+    made.bridged_gaps = gaps.bridged_by(made.cage);
+    if (made.bridged_gaps.empty() || options_.offset > 0) return;
+    double width = size_;
+    for (const auto& gap : made.bridged_gaps) width = std::min(width, gap.width);
+    made.may_part = kAlphaOfGap * width > kFinestWrap * size_;
+    const double finest = given == 0 || !is_closed_ ? kFinestByShape : kFinestWrap;
+    width = std::max(width, finest / kAlphaOfGap * size_);
+    const WrapSize size{kAlphaOfGap * width, kOffsetOfGap * width};
+    const auto surface = wrap_of(size);
+    if (surface.facets.cols() == 0) return;
+    const auto whole = plane_.is_there() ? join_halves(surface, plane_) : surface;
+    const auto count = made.bridged_gaps.size();
+    if (gaps.bridged_by(whole).size() >= count) return;
+    options_.control_points = given > 0 ? given : kMostByShape;
+    for (const double edge : {kShort, kLong}) {
+      auto other = given > 0 ? make_of_number(surface, size.offset, limits_)
+                             : make_close(surface, size.offset, most_volume(), edge);
+      if (!other) continue;
+      other->bridged_gaps = gaps.bridged_by(other->cage);
+      if (other->bridged_gaps.size() >= count) continue;
+      other->may_part = made.may_part;
+      made = *other;
+      return;
+    }
+  }
+
   // From the convex hull instead of a wrap, if the model is convex and that is smaller without more
   // control points, or if the other cage is much larger than the hull.
   std::optional<ModelCage<3>> make_convex(const ModelCage<3>& other, bool is_given) {
@@ -350,6 +386,8 @@ class Caging {
     }
     return {};
   }
+
+  double most_volume() const { return 0.97 * kMaxCageVolume * volume_; }
 
   // Half a surface needs no facets in the plane, because the origin is in it too.
   double volume_of(const Cage<3>& surface) const {
@@ -394,7 +432,11 @@ class Caging {
 
   static constexpr Index kMostByShape = 300, kLeastOfConvex = 8, kFewOfConvex = 16;
   // Edges no longer than the wrap is thick leave three rings at a limb.
-  static constexpr double kShort = 1;
+  static constexpr double kShort = 1, kLong = 1.4;
+  // Of a wrap, relative to the width of a gap that it enters. Its smallest alpha, relative to model
+  // size.
+  static constexpr double kAlphaOfGap = 0.33, kOffsetOfGap = 0.1, kFinestWrap = 5e-3,
+                          kFinestByShape = 8e-3;
   static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
   CagingOptions options_;
@@ -460,7 +502,34 @@ ModelCage<Dim> make_checked(const PointList<Dim>& points, const FacetList<Dim>& 
                    " control points encloses the model; allow more control points");
 }
 
+// Whether a part of the cage contains only the mirror image of a part of the model.
+template <int Dim>
+bool has_empty_part(const Cage<Dim>& cage, const PointList<Dim>& points) {
+  const auto parts = cage_parts(cage);
+  return parts.size() > 1 && std::any_of(parts.begin(), parts.end(), [&](const auto& part) {
+           return static_cast<Eigen::Index>(points_outside<Dim>(part.cage, points).size()) ==
+                  points.cols();
+         });
+}
+
 }  // namespace
+
+template <int Dim>
+std::string describe_bridged_gaps(const ModelCage<Dim>& made) {
+  constexpr std::size_t kMostShown = 4;
+  const auto& gaps = made.bridged_gaps;
+  if (gaps.empty()) return {};
+  std::string places;
+  for (std::size_t k = 0; k < std::min(gaps.size(), kMostShown); ++k) {
+    places += (k > 0 ? ", " : "") + format_point(gaps[k].place) + " (" +
+              format_number(gaps[k].width) + " wide)";
+  }
+  if (gaps.size() > kMostShown) places += ", ...";
+  return "the cage bridges " + std::to_string(gaps.size()) +
+         (gaps.size() == 1 ? " narrow gap of the model at " : " narrow gaps of the model, at ") +
+         places + ", so parts on both sides move together; " +
+         (made.may_part ? "allow more control points" : "open the gaps in the model");
+}
 
 template <int Dim>
 ModelCage<Dim> cage_from_model(const PointList<Dim>& points, const FacetList<Dim>& facets,
@@ -470,15 +539,23 @@ ModelCage<Dim> cage_from_model(const PointList<Dim>& points, const FacetList<Dim
   const double unit = std::exp2(std::ilogb(bounding_box_diagonal<Dim>(points)));
   CagingOptions scaled = options;
   scaled.offset /= unit;
-  auto made = make_checked<Dim>(points / unit, facets, scaled);
+  const PointList<Dim> own = points / unit;
+  auto made = make_checked<Dim>(own, facets, scaled);
+  if (made.symmetry_axis >= 0 && scaled.symmetry == CageSymmetry::kAuto &&
+      has_empty_part<Dim>(made.cage, own)) {
+    scaled.symmetry = CageSymmetry::kNone;
+    made = make_checked<Dim>(own, facets, scaled);
+  }
   made.cage.points *= unit;
   made.offset *= unit;
   made.symmetry_place *= unit;
   made.mean_distance *= unit;
   made.max_distance *= unit;
+  for (auto& gap : made.bridged_gaps) gap = {unit * gap.place, unit * gap.width};
   return made;
 }
 
 FLBC_INSTANTIATE_FUNCTION(cage_from_model)
+FLBC_INSTANTIATE_FUNCTION(describe_bridged_gaps)
 
 }  // namespace flbc

@@ -47,6 +47,7 @@ CollapseCheck<Dim>::CollapseCheck(const EditableSurface<Dim>& surface,
       enclosure_(enclosure),
       clearance_(clearance),
       limits_(limits),
+      moved_(surface.points()),
       representatives_(enclosure.representatives()) {
   const auto& plane = surface.plane();
   if (!plane.is_there()) return;
@@ -94,11 +95,15 @@ bool CollapseCheck<Dim>::keeps_half(const Replacement<Dim>& change,
 template <int Dim>
 bool CollapseCheck<Dim>::meets_surface(const Replacement<Dim>& change,
                                        const Vector<Dim>& position) const {
-  PointList<Dim> points = surface_.points();
-  points.col(change.vertex) = position;
   const auto& facets = change.new_facets;
+  const auto& points = moved_;
+  const auto place = [&](const FacetCorners<Dim>& corners) {
+    for (const Index v : corners) moved_.col(v) = surface_.points().col(v);
+    moved_.col(change.vertex) = position;
+  };
   Eigen::AlignedBox<double, Dim> all(position);
   for (const auto& corners : facets) {
+    place(corners);
     for (int k = 0; k < Dim; ++k) all.extend(points.col(corners(k)));
   }
   for (std::size_t k = 0; k < facets.size(); ++k) {
@@ -106,18 +111,17 @@ bool CollapseCheck<Dim>::meets_surface(const Replacement<Dim>& change,
       if (intersect_improperly<Dim>(points, facets[k], facets[l])) return true;
     }
   }
-  for (Index other = 0; other < static_cast<Index>(surface_.facets().size()); ++other) {
-    if (!surface_.box(other).intersects(all)) continue;
+  return surface_.any_near(all, [&](Index other) {
     const auto& old = change.old_facets;
-    if (std::find(old.begin(), old.end(), other) != old.end()) continue;
-    for (const auto& corners : facets) {
+    if (std::find(old.begin(), old.end(), other) != old.end()) return false;
+    place(surface_.facets()[other]);
+    return std::any_of(facets.begin(), facets.end(), [&](const auto& corners) {
       Eigen::AlignedBox<double, Dim> box;
       for (int k = 0; k < Dim; ++k) box.extend(points.col(corners(k)));
-      if (!box.intersects(surface_.box(other))) continue;
-      if (intersect_improperly<Dim>(points, corners, surface_.facets()[other])) return true;
-    }
-  }
-  return false;
+      return box.intersects(surface_.box(other)) &&
+             intersect_improperly<Dim>(points, corners, surface_.facets()[other]);
+    });
+  });
 }
 
 // The facets, and the facets moved inward by the clearance.

@@ -60,6 +60,7 @@ class CollapseCheck {
   const Enclosure<Dim>& enclosure_;
   double clearance_;
   CageLimits limits_;
+  mutable PointList<Dim> moved_;    // of the surface, where meets_surface() needs them
   PointList<Dim> representatives_;  // of the parts of the model, on the side of the plane
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <iterator>
 #include <set>
+#include <utility>
 
 #include "caging/surface_tools.h"
 
@@ -44,6 +45,20 @@ EditableSurface<Dim>::EditableSurface(const Cage<Dim>& surface, const MirrorPlan
     update_boxes(v);
     num_control_points_ += plane_.is_there() && !is_in_plane(v) ? 2 : 1;
   }
+  update_tree();
+}
+
+template <int Dim>
+void EditableSurface<Dim>::update_tree() {
+  std::vector<Box> boxes;
+  in_tree_.clear();
+  changed_.clear();
+  for (Index f = 0; f < static_cast<Index>(facets_.size()); ++f) {
+    if (boxes_[f].isEmpty()) continue;
+    in_tree_.push_back(f);
+    boxes.push_back(boxes_[f]);
+  }
+  tree_ = BoxTree<Dim>(boxes);
 }
 
 template <int Dim>
@@ -132,8 +147,12 @@ void EditableSurface<Dim>::collapse(const Collapse<Dim>& plan, const Vector<Dim>
 
 template <int Dim>
 void EditableSurface<Dim>::move(Index vertex, const Vector<Dim>& position) {
+  constexpr std::size_t kFewChanges = 100, kPart = 16;
   points_.col(vertex) = position;
   update_boxes(vertex);
+  const auto& facets = facets_at_[vertex];
+  changed_.insert(changed_.end(), facets.begin(), facets.end());
+  if (changed_.size() > kFewChanges + in_tree_.size() / kPart) update_tree();
 }
 
 template <int Dim>

@@ -2,11 +2,13 @@
 // A surface (2D: closed lines) whose edges can be collapsed.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include "cage/box_tree.h"
 #include "caging/mirror_plane.h"
 #include "flbc/cage.h"
 #include "meshing/cgal/exact_predicates.h"
@@ -55,9 +57,19 @@ class EditableSurface {
   Simplex<Dim> facet(Index number) const;
   const Box& box(Index facet) const { return boxes_[facet]; }  //!< empty: the facet is gone
 
+  //! Calls `visit` with the facets whose boxes intersect this one, until it returns true. May visit
+  //! one twice. \return whether it did
+  template <class Visit>
+  bool any_near(const Box& query, const Visit& visit) const {
+    const auto is_hit = [&](Index f) { return boxes_[f].intersects(query) && visit(f); };
+    return std::any_of(changed_.begin(), changed_.end(), is_hit) ||
+           tree_.any_of(query, [&](Index k) { return is_hit(in_tree_[k]); });
+  }
+
   Cage<Dim> surface() const;
 
  private:
+  void update_tree();
   bool keeps_border(const Collapse<Dim>& plan) const;
   void update_boxes(Index vertex);
 
@@ -65,6 +77,8 @@ class EditableSurface {
   std::vector<FacetCorners<Dim>> facets_;
   std::vector<std::vector<Index>> facets_at_;
   std::vector<Box> boxes_;
+  std::vector<Index> in_tree_, changed_{};  // facets, those that have changed since
+  BoxTree<Dim> tree_{std::vector<Box>{}};
   MirrorPlane plane_;
   Index num_control_points_ = 0;
 };

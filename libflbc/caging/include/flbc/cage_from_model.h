@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "flbc/cage.h"
 #include "flbc/errors.h"
@@ -63,6 +64,13 @@ constexpr double kMaxCageDistance =
     0.12;                             //!< of a control point from the model, relative to its size
 constexpr double kMaxCageVolume = 3;  //!< relative to that of the model; for the default number
 
+//! A gap between parts of a model that the cage does not keep open, so that they move together.
+template <int Dim>
+struct BridgedGap {
+  Vector<Dim> place;  //!< inside it
+  double width;       //!< in model units
+};
+
 //! A cage and its properties.
 template <int Dim>
 struct ModelCage {
@@ -75,11 +83,20 @@ struct ModelCage {
   Index max_valence = 0;      //!< edges at a control point
   double volume_ratio =
       0;  //!< 3D: volume of the cage over that of the model; 0: the model is open or has none
+  //! Largest first. Only of 3D models, with a length of at least 20% of model size, wider
+  //! than 0.4% of it, and narrower than the parts next to them.
+  std::vector<BridgedGap<Dim>> bridged_gaps{};
+  bool may_part = false;  //!< whether more control points may keep such gaps open
 };
+
+//! "the cage bridges a gap of width 0.1 near (1, 2, 3), and ..."; empty if there is none.
+template <int Dim>
+std::string describe_bridged_gaps(const ModelCage<Dim>& made);
 
 //! Makes a closed, manifold cage without self-intersections. Every vertex, edge, and facet of the
 //! model is strictly inside, which is verified exactly. The function wraps the model (3D: alpha
 //! wrapping; 2D: a fine grid) and collapses edges of the wrap while it still encloses the model.
+//! If the wrap bridges narrow gaps of a 3D model, a finer one is tried.
 //! Parts that are far apart may get separate closed surfaces. The result is reproducible.
 //! \param points  Dim x P, finite
 //! \param facets  Dim x F, edges or triangles; they may be open, non-manifold, intersecting, or
