@@ -11,7 +11,7 @@ declare -A groups=(
   [program]="g++ cmake ninja-build pkg-config
     libeigen3-dev libsuitesparse-dev libopenblas0-serial libpugixml-dev
     libopenmesh-dev libcgal-dev libtet1.5-dev
-    libcli11-dev nlohmann-json3-dev libpng-dev libcairo2-dev libgtest-dev
+    libcli11-dev nlohmann-json3-dev libpng-dev libjpeg-dev libcairo2-dev libgtest-dev
     pybind11-dev python3-dev python3-numpy"
   [netgen]="libnglib-dev"
   [tests]="make poppler-utils librsvg2-bin clang-format codespell mkdocs mkdocs-material

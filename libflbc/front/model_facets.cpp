@@ -108,8 +108,13 @@ Index drop_unused(io::PolygonSoup& soup) {
 
 }  // namespace
 
+bool is_picture_file(const std::string& path) {
+  const auto extension = io::extension_of(path);
+  return extension == "png" || extension == "jpg" || extension == "jpeg";
+}
+
 AnyModelFacets load_model_facets(const std::string& path) {
-  if (io::extension_of(path) == "png") return load_silhouette(path);
+  if (is_picture_file(path)) return load_silhouette(path);
   if (io::is_splat_file(path)) {
     const auto corners = voxel_corners(io::SplatFile(path).points());
     if (corners.cols() == 0) throw InputError(path + ": the model has no vertices");

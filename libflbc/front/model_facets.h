@@ -24,12 +24,15 @@ struct ModelFacets {
 
 using AnyModelFacets = std::variant<ModelFacets<2>, ModelFacets<3>>;
 
-//! Of a model's file, 2D if all points have the same z; or the silhouette of a .png. Of Gaussian
+//! Of a model's file, 2D if all points have the same z; or the silhouette of a picture. Of Gaussian
 //! splats, points that enclose their centers. Vertices of no face or polyline are left out if there
 //! are others. \throws IoError, InputError, OptionError
 AnyModelFacets load_model_facets(const std::string& path);
 
-//! The outline of the pixels of a .png file that are not transparent: their alpha is at least 1/32
+//! Whether the name is that of a picture that can be read: .png, .jpg, or .jpeg.
+bool is_picture_file(const std::string& path);
+
+//! The outline of the pixels of a picture that are not transparent: their alpha is at least 1/32
 //! of the highest.
 //! \throws IoError; InputError if the file is no such picture, or has no pixel that is transparent
 //! or none that is not

@@ -44,7 +44,10 @@ class SvgDocument {
 };
 
 //! A drawing with points in the coordinates of the model that the program takes from it.
-//! \throws IoError, InputError
+//! \param text  of the file \param name  of the file, for messages \throws InputError
+SvgDocument drawing_of(const std::string& text, const std::string& name);
+
+//! The same of a file. \throws IoError, InputError
 SvgDocument read_drawing(const std::string& path);
 
 }  // namespace flbc::io

@@ -426,13 +426,16 @@ void read_svg(const std::string& path, Extent, ModelScan& scan) {
   }
 }
 
-SvgDocument read_drawing(const std::string& path) {
-  const auto text = read_file(path);
-  const Drawing drawing(path, text);
+SvgDocument drawing_of(const std::string& text, const std::string& name) {
+  const Drawing drawing(name, text);
   double bottom = drawing.box().max().y();
-  if (drawing.is_endless()) close_picture(without_background(path, text), path, "", bottom);
+  if (drawing.is_endless()) close_picture(without_background(name, text), name, "", bottom);
   const Eigen::Affine2d upwards(Eigen::Translation2d(0, bottom) * Eigen::Scaling(1.0, -1.0));
-  return {text, path, drawing.box().sizes(), upwards};
+  return {text, name, drawing.box().sizes(), upwards};
+}
+
+SvgDocument read_drawing(const std::string& path) {
+  return drawing_of(read_file(path), path);
 }
 
 }  // namespace flbc::io
