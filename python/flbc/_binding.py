@@ -23,7 +23,7 @@ from ._weights import as_matrix, as_weights, cage_after, from_core
 if TYPE_CHECKING:
     import os
 
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
     from scipy.sparse import csr_matrix
     from typing_extensions import Unpack
 
@@ -176,6 +176,50 @@ class Binding:
             return self._any.deform(self._pose(control_points))
         moved = [self.deform(pose) for pose in as_array(control_points, "control_points")]
         return np.array(moved).reshape(len(moved), *self.points.shape)
+
+    def deform_drawing(self, svg: str, control_points: CageLike) -> str:
+        """The document of a drawing, the text of an .svg file, for moved control points.
+
+        Only geometry changes, and elements outside the cage stay. Units are those of the drawing,
+        with the y axis up from its lower edge, as `read_model` reads it. A warning names what does
+        not bend. The binding must be in 2D and have a domain mesh."""
+        moved, notes = self._any.deform_drawing(svg, self._pose(control_points))
+        if notes:
+            warnings.warn(f"not bent: {'; '.join(notes)}", stacklevel=2)
+        return moved
+
+    def deform_picture(
+        self,
+        picture: ArrayLike,
+        control_points: CageLike,
+        *,
+        scale: float = 1,
+        size: Optional[Tuple[float, float]] = None,
+    ) -> Tuple[NDArray[Any], Tuple[int, int]]:
+        """A picture for moved control points, as an array of the same type, and its offset.
+
+        `picture` has shape (height, width) or (height, width, channels), uint8 or uint16, with 1 to
+        4 channels: gray or red, green, blue, then alpha if there is one. The result has alpha, and
+        `scale` pixels per pixel. It is larger where pixels move beyond the edge; the offset is that
+        of its upper left corner, (right, down) in pixels of the result.
+
+        `size` is the width and height of the picture in units of the cage, by default a unit per
+        pixel. Its lower left corner is at the origin. Pixels outside the cage stay. The binding must
+        be in 2D and have a domain mesh."""
+        check_scalars(scale=(scale, "a number"))
+        array = as_array(picture, "picture")
+        samples = array[..., None] if array.ndim == 2 else array
+        if array.dtype not in (np.uint8, np.uint16) or samples.ndim != 3 or not (
+            samples.size > 0 and samples.shape[2] <= 4
+        ):
+            raise InputError(f"picture has shape {array.shape} and type {array.dtype}, but needs "
+                             "(height, width, 1 to 4 channels) and uint8 or uint16")
+        largest = int(np.iinfo(array.dtype).max)
+        if samples.shape[2] % 2:
+            samples = np.concatenate([samples, np.full_like(samples[..., :1], largest)], axis=2)
+        moved, offset = self._any.deform_picture(
+            samples.astype(np.uint16), largest, self._pose(control_points), scale, size or (0, 0))
+        return moved.astype(array.dtype), offset
 
     def jacobians(self, control_points: CageLike) -> Floats:
         """The Jacobians of a deformation at the vertices, shape (P, d, d), from smooth gradients on

@@ -2,12 +2,16 @@
 // Bindings: the methods of flbc::Binding for arrays, and their files.
 #include "flbc/binding.h"
 
+#include <array>
 #include <optional>
 #include <string>
 
 #include "arrays.h"
+#include "flbc/errors.h"
 #include "flbc/io/binding_file.h"
 #include "front/model_facets.h"
+#include "model/bitmap.h"
+#include "model/svg_document.h"
 #include "options.h"
 
 namespace flbc::python {
@@ -135,6 +139,44 @@ py::tuple fit(const AnyBinding& self, const Doubles& targets, std::vector<Index>
   });
 }
 
+const Binding<2>& in_plane(const AnyBinding& self) {
+  if (const auto* binding = std::get_if<Binding<2>>(&self.value)) return *binding;
+  throw InputError("drawings and pictures need a binding in 2D, but this one is in 3D");
+}
+
+// The moved drawing, and what does not bend.
+py::tuple deform_drawing(const AnyBinding& self, const std::string& svg, const Doubles& pose) {
+  const auto& binding = in_plane(self);
+  const auto points = points_of<2>(pose);
+  std::vector<std::string> notes;
+  const auto moved = without_gil([&] {
+    const auto drawing = io::drawing_of(svg, "svg");
+    notes = drawing.notes();
+    return drawing.moved(
+        binding.transferred(drawing.points(), {}, OutsidePoints::kKeep).deform(points));
+  });
+  return py::make_tuple(moved, notes);
+}
+
+using Samples = py::array_t<std::uint16_t, py::array::c_style>;
+
+// The moved picture, and its place. \param size  in units of the model
+py::tuple deform_picture(const AnyBinding& self, const Samples& picture, int largest,
+                         const Doubles& pose, double scale, const std::array<double, 2>& size) {
+  const auto& binding = in_plane(self);
+  const auto extent = [&](int axis) { return static_cast<Index>(picture.shape(axis)); };
+  const io::Bitmap bitmap{
+      extent(1), extent(0), extent(2), largest, {picture.data(), picture.data() + picture.size()}};
+  io::Bitmap moved;
+  without_gil([&, points = points_of<2>(pose)] {
+    return io::warp(bitmap, binding, {points}, scale, {size[0], size[1]},
+                    [&](std::size_t, io::Bitmap result) { moved = std::move(result); });
+  });
+  const std::vector<py::ssize_t> shape{moved.height, moved.width, moved.channels};
+  return py::make_tuple(Samples(shape, moved.samples.data()),
+                        py::make_tuple(moved.left, moved.top));
+}
+
 void save(const AnyBinding& self, const std::string& path) {
   without_gil([&] { self.visit([&](const auto& binding) { io::write_binding(path, binding); }); });
 }
@@ -166,6 +208,8 @@ void bind_bindings(py::module_& module) {
       .def("joined", &joined)
       .def("adjoint", &adjoint)
       .def("fit", &fit)
+      .def("deform_drawing", &deform_drawing)
+      .def("deform_picture", &deform_picture)
       .def("save", &save)
       .def("content", &content);
   module.def("load_binding", &load);
