@@ -13,7 +13,9 @@
 #include "flbc/io/weights_io.h"
 #include "front/bound_model.h"
 #include "front/load.h"
+#include "front/model_facets.h"
 #include "front/movable_model.h"
+#include "front/picture_file.h"
 #include "front/poses.h"
 #include "front/system/held_signals.h"
 #include "poses/outside.h"
@@ -35,6 +37,8 @@ struct DeformArguments {
   std::string normals = kPolygons;
   std::string joint;
   std::string displacement;
+  double scale = 1;       // of a picture
+  bool is_sheet = false;  // one picture of all poses
   bool quiet = false;
 };
 
@@ -42,10 +46,14 @@ bool moves_points(const DeformArguments& arguments) {
   return is_point_file(arguments.file.model);
 }
 
+bool moves_picture(const DeformArguments& arguments) {
+  return is_picture_file(arguments.file.model);
+}
+
 // Whether points that the binding does not have are evaluated on its domain mesh.
 bool evaluates(const DeformArguments& arguments) {
-  const bool is_free =
-      moves_points(arguments) || moves_splats(arguments.file) || moves_drawing(arguments.file);
+  const bool is_free = moves_points(arguments) || moves_picture(arguments) ||
+                       moves_splats(arguments.file) || moves_drawing(arguments.file);
   return !arguments.files.domain.empty() || (is_free && arguments.files.is_one());
 }
 
@@ -86,10 +94,23 @@ void check_arguments(const DeformArguments& arguments) {
   if (!arguments.joint.empty() && needs_jacobians(arguments)) {
     throw OptionError("--joint moves vertices, but neither splats nor normals by the Jacobian");
   }
-  if (moves_drawing(arguments.file) && !evaluates(arguments)) {
+  if ((moves_drawing(arguments.file) || moves_picture(arguments)) && !evaluates(arguments)) {
     throw OptionError(arguments.file.model +
-                      ": a drawing needs a binding (.npz) of flbc run, or --domain and --rest, by "
-                      "which its curves are evaluated");
+                      ": drawings and pictures need a binding (.npz) of flbc run, or --domain and "
+                      "--rest, with which they move");
+  }
+  if (moves_picture(arguments)) {
+    if (arguments.is_relative || needs_jacobians(arguments) || !arguments.displacement.empty() ||
+        arguments.file.shows_displacement || arguments.outside != OutsidePoints::kFail ||
+        !arguments.joint.empty()) {
+      throw OptionError(arguments.file.model +
+                        ": pixels have no vertices; remove --relative, --normals, --displacement, "
+                        "--show-displacement, --joint, and --outside");
+    }
+    return require_writable(arguments.file.output, "png");
+  }
+  if (arguments.is_sheet || arguments.scale != 1) {
+    throw OptionError("--sheet and --scale need a picture (.png or .jpg)");
   }
   if (moves_points(arguments)) {
     if (arguments.is_relative) {
@@ -286,6 +307,54 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
     warn_border(binding, arguments.file.model, poses);
 }
 
+void deform_picture(const DeformArguments& arguments, const CageFiles& cages) {
+  const auto& output = arguments.file.output;
+  const auto poses = load_poses(arguments.poses, cages, load_rest<2>(arguments, cages));
+  const auto stem = output.substr(0, output.size() - 4);
+  std::vector<std::string> outputs{output, stem + ".json"};
+  if (!arguments.is_sheet) outputs = name_outputs(poses, output);
+  check_outputs(arguments, cages, outputs);
+  const auto picture = read_picture(arguments.file.model);
+  const auto binding = load_domain_binding<2>(arguments.files);
+  std::vector<PointList<2>> points;
+  std::vector<std::string> names;  // of the cells of a sheet
+  for (const auto& pose : poses) {
+    points.push_back(pose.points);
+    if (!arguments.is_sheet) continue;
+    const auto name = std::filesystem::path(stem).filename().string() + "_%04d.png";
+    names.push_back(with_number(name, pose.number));
+  }
+  NewFiles files;
+  std::vector<io::Bitmap> cells;
+  std::string facts;
+  const auto write = [&](const std::string& path, const io::Bitmap& moved) {
+    facts = describe(moved);
+    files.expect(path);
+    const HeldSignals held;
+    write_picture(path, moved);
+  };
+  const auto staying = naming(arguments.file.model, [&] {
+    return io::warp(picture, binding, points, arguments.scale, {0, 0}, [&](auto k, auto moved) {
+      if (!arguments.is_sheet) return write(outputs[k], moved);
+      cells.push_back(std::move(moved));
+    });
+  });
+  if (arguments.is_sheet) {
+    std::string json;
+    const double seconds = poses.size() > 1 ? poses[1].time - poses[0].time : 1;
+    const auto file = std::filesystem::path(output).filename().string();
+    write(output, io::sprite_sheet(cells, names, file, seconds, json));
+    files.expect(outputs[1]);
+    write_text(outputs[1], json);
+    facts += ", cells of " + describe(cells.front());
+  }
+  files.keep();
+  if (arguments.quiet) return;
+  std::cerr << output << ": " << facts << "; " << poses.size()
+            << (poses.size() == 1 ? " pose\n" : " poses\n");
+  warn_staying(staying, arguments.file.model);
+}
+
 }  // namespace
 
 void add_deform_command(CLI::App& app, int&) {
@@ -295,7 +364,8 @@ void add_deform_command(CLI::App& app, int&) {
   command->footer(
       "If MODEL and the result have the same format, only coordinates and normals change. In\n"
       "2D, z does not change. Gaussian splats (.ply) also rotate and stretch. Curves of a drawing\n"
-      "stay curves; everything else in its document stays.\n"
+      "stay curves; everything else in its document stays. A picture (.png .jpg) becomes a\n"
+      ".png of its resolution; the canvas grows where pixels move beyond it.\n"
       "Another format receives the polygons, colors, normals, and texture coordinates that it\n"
       "supports. The program reports those that are lost.\n"
       "The results of a sequence have the numbers of --pose pose_%d.obj, or count from 0.\n"
@@ -305,8 +375,8 @@ void add_deform_command(CLI::App& app, int&) {
       "  flbc deform model.obj --method green --rest cage.obj --pose pose.obj -o green.obj");
   command
       ->add_option("MODEL", a.file.model,
-                   "model (.obj .off .ply .stl .glb), drawing (.svg), domain mesh (3D: .mesh "
-                   ".msh), or points (.npy .csv)")
+                   "model (.obj .off .ply .stl .glb), drawing (.svg), picture (.png .jpg), domain "
+                   "mesh (3D: .mesh .msh), or points (.npy .csv)")
       ->required();
   auto* weights = command->add_option("--weights", a.files.weights, describe_weight_file());
   auto* method =
@@ -317,7 +387,7 @@ void add_deform_command(CLI::App& app, int&) {
           ->check(CLI::IsMember({"green"}))
           ->type_name("green")
           ->excludes(weights);
-  add_pose_option(*command, a.poses);
+  auto* poses = add_pose_option(*command, a.poses);
   command->add_option(
       "--rest", a.files.cage,
       "rest cage of weights that have none (all but .npz), to check that they belong to MODEL; "
@@ -344,12 +414,18 @@ void add_deform_command(CLI::App& app, int&) {
                       "write displacement lengths, one column per pose: .npy, .mtx, .csv");
   command->add_flag("--show-displacement", a.file.shows_displacement,
                     "write displacement lengths as vertex colors, or as a field in .vtu");
+  command->add_option("--scale", a.scale,
+                      "pixels of the result per pixel of a picture (default: 1)");
+  auto* sheet = command->add_flag("--sheet", a.is_sheet,
+                                  "write a sprite sheet of all poses, and a .json of its cells");
+  add_rate_option(*command, a.poses, poses)->needs(sheet);
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);
     const auto cages = find_cages(arguments->poses.cages);
     const auto& files = arguments->files;
     const int dim = files.has_cage() ? dimension_of(files) : dimension_of_cage(cages.paths.front());
+    if (moves_picture(*arguments)) return deform_picture(*arguments, cages);
     dim == 2 ? deform_model<2>(*arguments, cages) : deform_model<3>(*arguments, cages);
   });
 }

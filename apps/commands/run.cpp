@@ -18,6 +18,7 @@
 #include "flbc/version.h"
 #include "front/facts.h"
 #include "front/load.h"
+#include "front/model_facets.h"
 #include "front/wording.h"
 #include "run/steps.h"
 #include "solve/make_cage.h"
@@ -124,10 +125,11 @@ void print_summary(const Run<Dim>& run) {
   std::cerr << run.arguments.output << ": " << facts.text() << "\nNext: open "
             << run.folder.path_of(kPage) << " in a browser and drag the cage;\n      "
             << "save a pose there, and apply it with flbc deform.\n";
-  if (!run.inputs.follower) return;
+  const auto& follower = run.arguments.follower;
+  if (follower.empty()) return;
   const auto file = [&](const std::string& name) { return run.folder.path_of(name); };
-  std::cerr << "      flbc deform " << run.arguments.follower << " --weights " << file(kBinding)
-            << " --pose POSE -o moved." << io::extension_of(run.arguments.follower) << '\n';
+  std::cerr << "      flbc deform " << follower << " --weights " << file(kBinding)
+            << " --pose POSE -o " << name_of_follower(0, 1, run.arguments) << '\n';
 }
 
 // \return the exit status
@@ -206,17 +208,19 @@ void mirror_weights(RunArguments& arguments) {
   }
 }
 
-// Splats and drawings move with the mesh, so they have no weights of their own.
+bool is_art(const std::string& path) {
+  return moves_drawing({path, path}) || is_picture_file(path);
+}
+
+// Splats, drawings, and pictures move with the mesh, so they have no weights of their own.
 void take_follower(RunArguments& arguments) {
   auto& settings = arguments.settings;
-  const auto is_drawing = [](const std::string& path) { return moves_drawing({path, path}); };
-  if (is_drawing(arguments.picture)) arguments.follower = arguments.picture;
-  if (!is_drawing(settings.model) && !io::is_splat_file(settings.model)) return;
+  if (!is_art(settings.model) && !io::is_splat_file(settings.model)) return;
   arguments.follower = std::exchange(settings.model, "");
   if (!settings.locality.empty()) {
     throw OptionError("--locality: " + arguments.follower +
-                      " has splats or curves, which have no weights of their own; leave out this "
-                      "option");
+                      " has splats, curves, or pixels, which have no weights of their own; leave "
+                      "out this option");
   }
 }
 
@@ -232,8 +236,7 @@ void prepare_model(const CLI::App& command, RunArguments& arguments) {
   require_model_to_embed(arguments.settings);
 }
 
-// The first file of the command line is the model around which a cage is made. A picture cannot
-// move; in its place the mesh of the interior does.
+// The first file of the command line is the model around which a cage is made.
 int run_model(const CLI::App& command, RunArguments& arguments) {
   auto& settings = arguments.settings;
   if (!settings.model.empty()) {
@@ -241,10 +244,8 @@ int run_model(const CLI::App& command, RunArguments& arguments) {
         "--auto-cage makes the cage; give MODEL only, and the number of control points by "
         "--control-points");
   }
-  const auto extension = io::extension_of(settings.cage);
-  const bool is_picture = extension == "png" || extension == "svg";
   const std::string file = std::exchange(settings.cage, kCage);
-  (is_picture ? arguments.picture : settings.model) = file;
+  (is_art(file) ? arguments.follower : settings.model) = file;
   prepare_model(command, arguments);
   const auto run_in_cage = [&](const auto& model) {
     const auto start = std::chrono::steady_clock::now();
@@ -280,8 +281,8 @@ void add_shapes(CLI::App& command, RunArguments& a) {
       ->required();
   command.add_option(
       "MODEL", a.settings.model,
-      "model inside the cage: .obj .off .ply .stl .glb .gltf, or points: .npy .csv (default: "
-      "the mesh of the cage interior)");
+      "model inside the cage: .obj .off .ply .stl .glb .gltf, drawing or picture: .svg .png .jpg, "
+      "or points: .npy .csv (default: the mesh of the cage interior)");
   command.option_defaults()->group("Cage and poses");
   auto* makes_cage =
       command.add_flag("--auto-cage", a.makes_cage, "make a cage around the first file");

@@ -5,6 +5,7 @@
 
 #include "flbc/errors.h"
 #include "front/load.h"
+#include "front/model_facets.h"
 #include "front/poses.h"
 
 namespace flbc::app {
@@ -58,14 +59,16 @@ RunInputs<Dim> load_inputs(const Cage<Dim>& cage, const RunArguments& arguments)
   const auto& settings = arguments.settings;
   RunInputs<Dim> inputs;
   if (!arguments.makes_cage) inputs.files.push_back(settings.cage);
-  if (!arguments.picture.empty() && arguments.follower.empty()) {
-    inputs.files.push_back(arguments.picture);
-  }
   load_motion(cage, arguments, inputs);
   if (!settings.locality.empty()) inputs.files.push_back(settings.locality);
   inputs.shape.extension = domain_extension<Dim>();
   if (const auto& follower = arguments.follower; !follower.empty()) {
     inputs.files.push_back(follower);
+    if (is_picture_file(follower)) {
+      if (Dim == 3) throw InputError(follower + ": a picture needs a cage in 2D");
+      inputs.picture = read_picture(follower);
+      return inputs;
+    }
     inputs.follower = std::make_unique<MovableModel<Dim>>(MovedFile{follower, follower});
   }
   if (settings.model.empty()) return inputs;
@@ -82,7 +85,7 @@ std::vector<std::string> names_of_results(const RunInputs<Dim>& inputs,
   if (inputs.shape.file) names.emplace_back(kDomainWeights);
   for (const auto& pose : inputs.poses) {
     names.push_back(name_of_deformed(pose.number, inputs.poses.size(), inputs.shape.extension));
-    if (inputs.follower) {
+    if (!arguments.follower.empty()) {
       names.push_back(name_of_follower(pose.number, inputs.poses.size(), arguments));
     }
   }
@@ -103,7 +106,9 @@ std::string name_of_deformed(std::int64_t number, std::size_t num_poses,
 
 std::string name_of_follower(std::int64_t number, std::size_t num_poses,
                              const RunArguments& arguments) {
-  return name_of_deformed(number, num_poses, "." + io::extension_of(arguments.follower));
+  const auto& file = arguments.follower;
+  const auto extension = is_picture_file(file) ? "png" : io::extension_of(file);
+  return name_of_deformed(number, num_poses, "." + extension);
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                 \

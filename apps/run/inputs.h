@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "flbc/domain_mesh.h"
 #include "flbc/types.h"
 #include "front/movable_model.h"
+#include "front/picture_file.h"
 #include "front/poses.h"
 #include "front/up_axis.h"
 #include "gltf/skin.h"
@@ -40,8 +42,7 @@ constexpr const char* kReport = "report.json";
 struct RunArguments {
   SolveSettings settings;     //!< cage and model among them, but no domain
   bool makes_cage = false;    //!< whether to make a cage around the model
-  std::string follower;       //!< splats or a drawing, which move with the mesh; empty for none
-  std::string picture;        //!< or round this picture's silhouette; empty for none
+  std::string follower;       //!< splats, drawing, or picture that moves with the mesh, or empty
   CagingOptions caging;       //!< of that cage
   UpAxis up = UpAxis::kAuto;  //!< in pictures, page, and skins
   PoseArguments poses;
@@ -90,6 +91,7 @@ struct RunInputs {
   gltf::Animation<Dim> animation{};  //!< through them
   Shape<Dim> shape{};                //!< the model's; empty without one
   std::unique_ptr<MovableModel<Dim>> follower{};  //!< of that name, or null
+  std::optional<io::Bitmap> picture{};            //!< or this
 };
 
 //! \throws IoError, InputError, OptionError; also if a pose does not fit the cage

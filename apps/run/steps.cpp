@@ -128,6 +128,22 @@ void deform_follower(Run<Dim>& run) {
   if (!run.arguments.quiet) follower.print_losses();
 }
 
+void deform_picture(Run<2>& run) {
+  const auto& picture = *run.inputs.picture;
+  std::vector<PointList<2>> poses;
+  for (const auto& pose : run.poses()) poses.push_back(pose.points);
+  const auto take = [&](std::size_t k, const io::Bitmap& moved) {
+    const auto& pose = run.poses()[k];
+    const auto name = name_of_follower(pose.number, poses.size(), run.arguments);
+    run.folder.add(name, describe(moved),
+                   [&](const std::string& path) { write_picture(path, moved); });
+    run.report["deform"].push_back(
+        {{"pose", pose.name}, {"file", name}, {"offset", {moved.left, moved.top}}});
+  };
+  const auto staying = io::warp(picture, run.solver.binding(), poses, 1, {0, 0}, take);
+  if (!run.arguments.quiet) warn_staying(staying, run.arguments.follower);
+}
+
 // Where vertices stay that are outside of the cage.
 template <int Dim>
 void tell_border(Run<Dim>& run) {
@@ -167,6 +183,9 @@ void deform_shape(Run<Dim>& run) {
   tell_border(run);
   if (run.poses().empty()) return;
   if (run.inputs.follower) deform_follower(run);
+  if constexpr (Dim == 2) {
+    if (run.inputs.picture) deform_picture(run);
+  }
   const auto& pose = run.poses()[run.displacement.pose];
   Facts facts;
   if (run.poses().size() > 1) facts << run.poses().size() << " poses; ";
