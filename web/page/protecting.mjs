@@ -300,7 +300,7 @@ export class Protector {
 // Connects the part of the panel for regions.
 export function bindProtecting(protector) {
   const { viewer } = protector;
-  const { onPivot, onState } = viewer;
+  const { onDrawn, onState } = viewer;
   const onClick = (id, action) => element(id).addEventListener("click", action);
   protector.tell = tell;
   const reach = element("reach");
@@ -309,7 +309,7 @@ export function bindProtecting(protector) {
   const showFalloff = () => { element("falloffWidth").textContent = falloff.value; };
   let shown = null;
   element("outline").insertAdjacentHTML("afterend", '<svg id="marks"></svg>');
-  viewer.onPivot = (spot) => { onPivot(spot); protector.drawOver(); };
+  viewer.onDrawn = () => { onDrawn(); protector.drawOver(); };
   viewer.onState = () => {
     onState();
     element("paint").setAttribute("aria-pressed", String(protector.isOn));

@@ -1,47 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The actions of dragging selected control points with a tool.
-import { centroid, dot, length, pointAt, subtract, times } from "./vectors.mjs";
+import { shortNumber } from "./colors.mjs";
+import { add, centroid, cross, dot, length, pointAt, times } from "./vectors.mjs";
 import { kAxes, rotate, scale, translate } from "./transforms.mjs";
 
-// By how far along the axis a thing at `place` moves if it follows the pointer on the screen.
-function alongAxis(camera, place, axis, dx, dy) {
+export const kUnits = { move: "", rotate: "°", scale: " times" };
+const kSnaps = { rotate: Math.PI / 12, scale: 0.1 };
+const kLever = 64;  // pixels, of a ring that is seen from its side
+
+// By how far along one or two axes a thing at `place` moves if it follows the pointer on the screen.
+function alongAxes(camera, place, axes, dx, dy) {
   const unit = camera.halfHeight / camera.height;
-  const a = camera.project(place);
-  const b = camera.project(place.map((value, k) => value + unit * axis[k]));
-  const x = b.x - a.x, y = b.y - a.y;
-  const squared = x * x + y * y;
-  return squared > 1e-6 ? unit * (dx * x + dy * y) / squared : 0;
+  const from = camera.project(place);
+  const [a, b] = axes.map((axis) => {
+    const to = camera.project(add(place, times(unit, axis)));
+    return { x: to.x - from.x, y: to.y - from.y };
+  });
+  const squared = a.x * a.x + a.y * a.y;
+  if (!b) return [squared > 1e-6 ? unit * (dx * a.x + dy * a.y) / squared : 0];
+  const area = a.x * b.y - a.y * b.x;
+  return Math.abs(area) > 1e-6 ? [unit * (dx * b.y - dy * b.x) / area, unit * (dy * a.x - dx * a.y) / area] : [0, 0];
 }
 
 // A drag from where it began. Turning and scaling need two control points; one alone moves.
 export class ToolDrag {
-  // \param grabbed  the control point under the pointer
-  constructor(editor, camera, tool, axisName, grabbed, from) {
+  // \param axisNames  "x", "xy", and so on; nothing: all
+  // \param grabbed  the control point under the pointer, null: the center of the selection
+  constructor(editor, camera, tool, axisNames, grabbed, from) {
     this.editor = editor;
     this.camera = camera;
     this.shares = editor.shares();
     this.shareOf = (i) => this.shares.get(i);
     this.tool = this.shares.size > 1 || editor.pivot ? tool : "move";
-    this.axis = axisName ? kAxes[axisName] : null;
+    this.axes = [...axisNames ?? ""].map((name) => kAxes[name]);
+    this.axis = this.axes[0];
+    this.label = axisNames ? `${this.tool} ${axisNames}` : this.tool;
     this.from = from;
-    this.grabbed = grabbed;
     editor.begin();
-    this.anchor = pointAt(editor.start, grabbed);
     this.center = editor.pivot ?? centroid(editor.start, [...editor.selection]);
+    this.anchor = grabbed === null ? this.center : pointAt(editor.start, grabbed);
+    this.amounts = [0];
   }
 
-  // To where the pointer is.
-  to(spot) {
-    if (this.tool === "rotate") return this.rotate(this.angleTo(spot));
-    if (this.tool === "scale") return this.scale(this.factorTo(spot));
-    return this.translate(this.stepTo(spot));
+  // To where the pointer is. \param snaps  in round steps
+  to(spot, snaps = false) {
+    const amounts = this.tool === "rotate" ? [this.angleTo(spot)] : this.tool === "scale" ? [this.factorTo(spot)] : this.stepsTo(spot);
+    const step = kSnaps[this.tool] ?? 10 ** Math.round(Math.log10(this.editor.sphere.radius / 20));
+    this.apply(snaps ? amounts.map((amount) => step * Math.round(amount / step)) : amounts);
+  }
+
+  apply(amounts) {
+    this.amounts = amounts;
+    if (this.tool === "rotate") return this.rotate(amounts[0]);
+    if (this.tool === "scale") return this.scale(amounts[0]);
+    const axes = this.movingAxes();
+    return this.translate(amounts.reduce((sum, amount, k) => add(sum, times(amount, axes[k])), [0, 0, 0]));
   }
 
   // By a number of degrees, times, or units of length along the axis (x if none is chosen).
   by(number) {
-    if (this.tool === "rotate") return this.rotate(number * Math.PI / 180);
-    if (this.tool === "scale") return this.scale(number);
-    return this.translate(times(number, this.axis ?? kAxes.x));
+    if (this.tool === "move" && !this.axis) return this.translate(times(number, kAxes.x));
+    return this.apply([this.tool === "rotate" ? number * Math.PI / 180 : number]);
+  }
+
+  // What has been done, with its number.
+  get text() {
+    const numbers = this.tool === "rotate" ? [this.amounts[0] * 180 / Math.PI]
+                  : this.tool === "move" && !this.axis ? [Math.hypot(...this.amounts)] : this.amounts;
+    return `${this.label} ${numbers.map(shortNumber).join(", ")}${kUnits[this.tool]}`;
   }
 
   change(move) {
@@ -60,30 +86,42 @@ export class ToolDrag {
 
   scale(factor) {
     this.change((start, listed, result) =>
-      scale(start, listed, this.center, factor, this.axis, result, this.shareOf));
+      scale(start, listed, this.center, factor, this.axis ?? null, result, this.shareOf));
   }
 
-  stepTo(spot) {
-    const dx = spot.x - this.from.x, dy = spot.y - this.from.y;
-    return this.axis ? times(alongAxis(this.camera, this.anchor, this.axis, dx, dy), this.axis)
-                     : this.camera.step(this.anchor, dx, dy);
+  // Freely is in the plane of the picture.
+  movingAxes() {
+    const { right, up } = this.camera.axes();
+    return this.axis ? this.axes : [right, up];
+  }
+
+  stepsTo(spot) {
+    return alongAxes(this.camera, this.anchor, this.movingAxes(), spot.x - this.from.x, spot.y - this.from.y);
   }
 
   angleTo(spot) {
-    const middle = this.camera.project(this.center);
-    const angleOf = (place) => Math.atan2(middle.y - place.y, place.x - middle.x);
-    const sense = this.axis && dot(this.axis, this.camera.axes().toward) < 0 ? -1 : 1;
-    return sense * (angleOf(spot) - angleOf(this.from));
+    const { camera, center, from } = this;
+    const { right, toward } = camera.axes();
+    const axis = this.axis ?? toward;
+    if (Math.abs(dot(axis, toward)) < 0.25) {
+      const across = cross(axis, toward);
+      const [far] = alongAxes(camera, center, [times(1 / length(across), across)], spot.x - from.x, spot.y - from.y);
+      return far / length(camera.step(center, kLever, 0));
+    }
+    const side = cross(axis, cross(right, axis));
+    const first = times(1 / length(side), side), second = cross(axis, first);
+    const middle = camera.project(center);
+    const angleOf = (place) => {
+      const [x, y] = alongAxes(camera, center, [first, second], place.x - middle.x, place.y - middle.y);
+      return Math.atan2(y, x);
+    };
+    const angle = angleOf(spot) - angleOf(from);
+    return angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
   }
 
   factorTo(spot) {
     const middle = this.camera.project(this.center);
     const distance = (place) => Math.hypot(place.x - middle.x, place.y - middle.y);
     return distance(spot) / Math.max(4, distance(this.from));
-  }
-
-  // How far the grabbed control point is from where it began.
-  moved() {
-    return length(subtract(pointAt(this.editor.points, this.grabbed), this.anchor));
   }
 }

@@ -53,6 +53,11 @@ export class Editor {
     this.onChange();
   }
 
+  click(i, adds) {
+    if (adds) this.toggle(i);
+    else this.select([i]);
+  }
+
   // The rings around the limbs at the control points selected.
   selectRings(indices = this.selection) {
     this.select([...indices].flatMap((i) => this.graph.ring(this.rest, i)));

@@ -6,15 +6,16 @@ import { pointAt } from "./vectors.mjs";
 
 const kReach = { mouse: 12, pen: 16, touch: 26 };  // pixels
 const kClick = { mouse: 2, pen: 4, touch: 8 };     // moves up to here are none
+const kHandle = { mouse: 6, pen: 8, touch: 18 };   // pixels around a handle of the gizmo
 
 export class Interaction {
-  // \param view  what is shown: canvas, camera, editor, tool, axis, area, typed, and functions
-  // redraw, hover, onOutline, onState
+  // \param view  what is shown: canvas, camera, editor, gizmo, tool, axis, area, typed, drag, and
+  // functions redraw, hover, onOutline, onState
   constructor(view) {
     this.view = view;
     this.pointers = new Map();
     this.mode = null;
-    this.drag = null;
+    this.behind = -1;  // the control point behind the handle that is held
     const { canvas } = view;
     canvas.addEventListener("pointerdown", (event) => this.down(event));
     canvas.addEventListener("pointermove", (event) => this.move(event));
@@ -52,21 +53,36 @@ export class Interaction {
       return;
     }
     const hit = event.button === 0 ? this.pickAt(spot, event) : -1;
+    const handle = this.handleAt(spot, event);
+    if (handle) return this.hold(handle, hit);
     if (hit >= 0 && event.altKey) return view.editor.setPivot(pointAt(view.editor.points, hit));
     this.mode = hit >= 0 ? this.grab(hit) : this.modeOfEmptySpot(event);
   }
 
+  // With Shift, dragging is for selecting, and with Alt for the pivot.
+  handleAt(spot, event) {
+    if (event.shiftKey || event.altKey || event.button > 0) return null;
+    return this.view.gizmo.pick(spot, kHandle[event.pointerType] ?? 6);
+  }
+
+  // A handle of the gizmo is dragged; a click is for the control point behind it.
+  hold(handle, hit) {
+    this.mode = "edit";
+    this.behind = hit;
+    this.beginDrag = () => { this.view.drag = this.view.gizmo.begin(handle, this.from); };
+  }
+
   // A control point under the pointer is selected, and moves with all that are. The first drag of
-  // all takes the ring around the limb, because one control point alone makes a dent.
+  // all takes the limb beyond it with its ring, because one control point alone makes a dent.
   grab(hit) {
     const { editor } = this.view;
     const isFirst = editor.selection.size === 0 && !editor.canUndo && !editor.canRedo && !this.adds;
-    if (this.adds) editor.toggle(hit);
-    else if (!editor.selection.has(hit)) editor.select([hit]);
+    if (this.adds || !editor.selection.has(hit)) editor.click(hit, this.adds);
     if (!editor.selection.has(hit)) return "none";
     this.beginDrag = () => {
       if (isFirst) editor.selectRings();
-      this.drag = this.newDrag(hit);
+      if (isFirst) editor.select(editor.graph.beyond(editor.selection));
+      this.view.drag = this.newDrag(hit);
     };
     return "edit";
   }
@@ -98,9 +114,9 @@ export class Interaction {
     if (/^[-.\d]$/.test(key)) view.typed += key;
     else if (key === "Backspace" && view.typed !== "") view.typed = view.typed.slice(0, -1);
     else return false;
-    this.drag ??= this.newDrag(selection.values().next().value);
+    view.drag ??= this.newDrag(selection.values().next().value);
     const number = Number(view.typed || NaN);
-    if (Number.isFinite(number)) this.drag.by(number);
+    if (Number.isFinite(number)) view.drag.by(number);
     view.redraw();
     view.onState();
     return true;
@@ -133,7 +149,9 @@ export class Interaction {
     const { view } = this;
     const spot = this.spotOf(event);
     if (!this.pointers.has(event.pointerId)) {
-      if (event.pointerType === "mouse") view.hover(this.pickAt(spot, event), spot);
+      if (event.pointerType !== "mouse") return;
+      const handle = this.handleAt(spot, event);
+      view.hover(handle ? -1 : this.pickAt(spot, event), spot, handle);
       return;
     }
     this.pointers.set(event.pointerId, spot);
@@ -141,18 +159,19 @@ export class Interaction {
     const far = Math.hypot(spot.x - this.from.x, spot.y - this.from.y);
     if (!this.hasMoved && far <= (kClick[event.pointerType] ?? 2)) return;
     this.hasMoved = true;
-    this.moveTo(spot);
+    this.moveTo(spot, event.ctrlKey || event.metaKey);
     this.last = spot;
   }
 
-  moveTo(spot) {
+  // \param snaps  drags go in round steps
+  moveTo(spot, snaps) {
     const { view } = this;
     const { camera } = view;
     const dx = spot.x - this.last.x, dy = spot.y - this.last.y;
     if (this.mode === "edit") {
-      if (!this.drag) this.beginDrag();
+      if (!view.drag) this.beginDrag();
       view.typed ??= "";
-      if (view.typed === "") this.drag.to(spot);
+      if (view.typed === "") view.drag.to(spot, snaps);
     } else if (this.mode === "area") {
       if (this.area === "lasso") this.outline.push(spot);
       else this.outline = rectangle(this.from, spot);
@@ -190,6 +209,7 @@ export class Interaction {
     if (this.mode === "area") this.selectArea();
     const isClick = !this.hasMoved && event.button === 0;
     if (isClick && (this.mode === "orbit" || this.mode === "pan")) view.editor.select([]);
+    if (isClick && this.behind >= 0) view.editor.click(this.behind, this.adds);
     this.finish();
   }
 
@@ -201,14 +221,15 @@ export class Interaction {
 
   // Escape, or a second finger: the drag never was.
   cancel() {
-    if (this.drag) this.view.editor.cancel();
+    if (this.view.drag) this.view.editor.cancel();
     this.view.brush?.cancel();
     this.finish();
   }
 
   finish() {
     this.mode = null;
-    this.drag = null;
+    this.behind = -1;
+    this.view.drag = null;
     this.view.typed = null;
     this.view.onOutline(null);
     this.view.onState();

@@ -7,7 +7,8 @@ const kNudge = 8;  // pixels
 const kArrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 export const kHelp = [
-  ["Drag a control point", "moves it, and all that are selected; the first drag takes the ring around the limb"],
+  ["Drag a control point", "moves it, and all that are selected; the first drag takes the limb with the ring around it"],
+  ["Drag an arrow, a ring, …", "the handles at the selection: move it along an axis or in a plane, rotate it; with Ctrl in round steps"],
   ["Click, Shift+click", "select one, one more or one less"],
   ["Double click, E", "select the ring around the limb; Shift+double click: one more ring"],
   ["L", "select the limb beyond the ring; it rotates around the ring"],
@@ -48,7 +49,7 @@ function nudge(viewer, [dx, dy], isLarge) {
 // \param commands  functions by name, as the panel has them \param interaction  may be cancelled
 export function bindKeys(viewer, commands, interaction, signal) {
   const plain = {
-    g: "move", r: "rotate", s: "scale", x: "axisX", y: "axisY", z: "axisZ", m: "nextMirror",
+    g: "move", r: "rotate", s: "scale", x: "x", y: "y", z: "z", m: "nextMirror",
     a: "selectAll", b: "box", q: "lasso", e: "ring", l: "limb", "+": "grow", "=": "grow", "-": "shrink",
     p: "pivotHere", o: "toggleSoft", k: "addKey", f: "frame", t: "turn", 1: "front", 2: "side", 3: "top", c: "cage", w: "edges",
     " ": "play", d: "theme", "?": "help", delete: "resetSelection", backspace: "resetSelection",
@@ -69,7 +70,7 @@ export function bindKeys(viewer, commands, interaction, signal) {
     } else if (kArrows[event.key] && !isControl) {
       nudge(viewer, kArrows[event.key], event.shiftKey);
     } else if (name) {
-      if (!name.startsWith("axis")) viewer.typed = null;
+      if (!/^[xyz]$/.test(name)) viewer.typed = null;
       commands[name]();
     } else {
       return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Starts the page, and lets scripts do what the mouse does.
 import { decodeContent } from "./data.mjs";
+import { Gizmo } from "./gizmo.mjs";
 import { Interaction } from "./interaction.mjs";
 import { keepPose } from "./keeping.mjs";
 import { bindKeys } from "./keyboard.mjs";
@@ -51,6 +52,7 @@ export function show(content, signal) {
   } catch (error) {
     return apologize(error);
   }
+  viewer.gizmo = new Gizmo(viewer, document.getElementById("gizmo"));
   const commands = bindPanel(viewer);
   const interaction = new Interaction(viewer);
   bindKeys(viewer, commands, interaction, signal);

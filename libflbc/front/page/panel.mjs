@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The buttons beside the picture: what they do, and how they show what is on.
+import { kUnits } from "./actions.mjs";
 import { kColorings, portion } from "./colors.mjs";
 import { inSpace } from "./data.mjs";
 import { kHelp } from "./keyboard.mjs";
@@ -97,7 +98,7 @@ export function makeCommands(viewer) {
     undo: () => { viewer.stopPlaying(); (viewer.brush ?? editor).undo(); },
     redo: () => { viewer.stopPlaying(); (viewer.brush ?? editor).redo(); },
     move: tool("move"), rotate: tool("rotate"), scale: tool("scale"),
-    axisX: axis("x"), axisY: axis("y"), axisZ: content.dim === 3 ? axis("z") : () => {},
+    x: axis("x"), y: axis("y"), z: content.dim === 3 ? axis("z") : () => {},
     resetSelection: () => editor.reset(selected()),
     resetAll: () => { viewer.stopPlaying(); viewer.time = 0; editor.reset(everything()); },
     selectAll: () => editor.select(editor.selection.size === editor.size ? [] : everything()),
@@ -205,16 +206,10 @@ function showOutline(outline) {
   element("outline").firstElementChild.setAttribute("points", corners);
 }
 
-function showPivot(spot) {
-  element("pivot").hidden = !spot;
-  if (spot) Object.assign(element("pivot").style, { left: `${spot.x}px`, top: `${spot.y}px` });
-}
-
-const kUnits = { move: "", rotate: "°", scale: " times" };
-
 function describeSelection(viewer) {
-  const { editor: { selection }, deformer } = viewer;
-  if (viewer.typed) return `${viewer.tool} ${viewer.typed}${kUnits[viewer.tool]}; press Enter, or Esc to cancel`;
+  const { editor: { selection }, deformer, drag, typed } = viewer;
+  if (drag && typed) return `${drag.label} ${typed}${kUnits[drag.tool]}; press Enter, or Esc to cancel`;
+  if (drag) return drag.text;
   const chosen = viewer.hovered >= 0 ? [viewer.hovered] : [...selection];
   if (chosen.length === 0) return "drag a control point, or double-click it for the ring around the limb";
   const moved = deformer.weights.values.length > 0 ? portion(deformer.countMovedBy(chosen), deformer.base.length / 3) : "nothing yet";
@@ -226,7 +221,6 @@ function showState(viewer) {
   const { editor, content } = viewer;
   const isPressed = {
     move: viewer.tool === "move", rotate: viewer.tool === "rotate", scale: viewer.tool === "scale",
-    axisX: viewer.axis === "x", axisY: viewer.axis === "y", axisZ: viewer.axis === "z",
     box: viewer.area === "box", lasso: viewer.area === "lasso", cage: viewer.showsCage, edges: viewer.showsEdges };
   for (const [id, pressed] of Object.entries(isPressed)) {
     element(id).setAttribute("aria-pressed", String(pressed));
@@ -253,7 +247,7 @@ export function bindPanel(viewer) {
   for (const button of document.querySelectorAll("button[id]")) {
     button.addEventListener("click", commands[button.id]);
   }
-  for (const id of ["axisZ", "side", "top", "turn"]) element(id).hidden = content.dim === 2;
+  for (const id of ["side", "top", "turn"]) element(id).hidden = content.dim === 2;
   for (let axis = 0; axis < content.dim; ++axis) {
     element("mirror").add(new Option(kAxisNames[axis], String(axis)));
   }
@@ -261,7 +255,7 @@ export function bindPanel(viewer) {
   viewer.onState = () => showState(viewer);
   viewer.onLegend = showLegend;
   viewer.onOutline = showOutline;
-  viewer.onPivot = showPivot;
+  viewer.onDrawn = () => viewer.gizmo.draw();
   showFacts(content);
   fillColorings(viewer);
   fillHelp();

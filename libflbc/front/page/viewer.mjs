@@ -36,6 +36,8 @@ export class Viewer {
     this.brush = null;   // paints on the model: begin, to, end, cancel, colors; and undo, as the editor
     this.area = null;    // what drags elsewhere select: "box", "lasso" or null
     this.typed = null;   // digits of a number for the tool, null: digits are other keys
+    this.drag = null;    // what the tool or a handle of the gizmo does just now
+    this.gizmo = null;
     this.showsCage = true;
     this.showsEdges = false;
     this.theme = "light";
@@ -46,7 +48,7 @@ export class Viewer {
     this.isStale = true;  // the cage or colours have changed since the model was moved
     this.isAwaited = false;
     this.milliseconds = -1;  // of the last step, which may be too short for the clock; none yet
-    this.onState = this.onLegend = this.onOutline = this.onPivot = () => {};
+    this.onState = this.onLegend = this.onOutline = this.onDrawn = () => {};
     this.editor.onChange = () => this.changed();
     this.camera.sphere = this.editor.sphere;
   }
@@ -98,10 +100,10 @@ export class Viewer {
     camera.height = canvas.clientHeight || 1;
     if (!this.isFramed) this.frame();
     this.update();
-    this.onPivot(this.editor.pivot ? camera.project(this.editor.pivot) : null);
     const coloring = this.brush ? "region" : this.coloring;
     renderer.draw(camera, { ...kThemes[this.theme], coloring, dotSize: this.dotSize(), pointer: this.pointer,
                             showsCage: this.showsCage, showsEdges: this.showsEdges });
+    this.onDrawn();
   }
 
   // Dots shrink where control points are dense, and grow near the pointer.
@@ -132,14 +134,15 @@ export class Viewer {
     this.frame();
   }
 
-  // \param spot  of the pointer, null: elsewhere
-  hover(i, spot = null) {
+  // \param spot  of the pointer, null: elsewhere \param handle  of the gizmo there, or null
+  hover(i, spot = null, handle = null) {
     const { width, height } = this.camera;
     this.pointer = spot ? [2 * spot.x / width - 1, 1 - 2 * spot.y / height] : kNowhere;
+    this.gizmo.hot = handle?.id ?? null;
+    this.canvas.style.cursor = handle ? "grab" : i >= 0 ? "pointer" : "";
     this.redraw();
     if (i === this.hovered) return;
     this.hovered = i;
-    this.canvas.style.cursor = i >= 0 ? "pointer" : "";
     this.renderer.setCage(this.editor.points, this.editor.shares(), i);
     this.onState();
   }
