@@ -3,7 +3,7 @@
 import { portion } from "../../libflbc/front/page/colors.mjs";
 import { decodeContent } from "../../libflbc/front/page/data.mjs";
 import { Deformer } from "../../libflbc/front/page/deformer.mjs";
-import { show } from "../../libflbc/front/page/main.mjs";
+import { kNoWebGl, show } from "../../libflbc/front/page/main.mjs";
 import { element, setTheme, tell } from "../../libflbc/front/page/panel.mjs";
 import { download } from "../../libflbc/front/page/saving.mjs";
 import { Flbc } from "../js/flbc.mjs";
@@ -16,11 +16,17 @@ import { readPicture, Sketch } from "./shapes.mjs";
 
 const kVertices = 6000;   // of the mesh of the interior
 const kMoves = 1e-4;      // of the cage size: less is no movement
-const kPicture = /\.(png|jpe?g)$/i;
+const kPicture = /\.(png|jpe?g|webp|gif)$/i;
 const kDrawing = /\.svg$/i;
 const kScreens = ["start", "busy", "drawing"];
 const kParts = ["stage", "timeline", "panel", "keyHelp"];
 const sentence = (text = "") => text.slice(0, 1).toUpperCase() + text.slice(1);
+const kForPrograms = /\bk[A-Z]\w+|--[a-z]|\bflbc [a-z]/;  // names and options that this page does not have
+
+// What a message says to people who draw.
+function plain(message) {
+  return message.split("; ").filter((part, k) => k === 0 || !kForPrograms.test(part)).join("; ");
+}
 
 class App {
   constructor() {
@@ -33,6 +39,10 @@ class App {
     this.started = this.start();
     this.started.catch((error) => this.fail(`This browser cannot run WebAssembly as this page needs it: ${error.message}`));
     this.bind();
+    if (!document.createElement("canvas").getContext("webgl2")) {
+      for (const id of ["drop", "samples"]) element(id).hidden = true;
+      return this.fail(kNoWebGl);
+    }
     const early = [...globalThis.flbcDropped ?? element("model").files];
     this.goTo("start");
     if (early.length > 0) this.open(early);
@@ -48,6 +58,8 @@ class App {
   goTo(screen) {
     element("app").hidden = !screen;
     for (const id of kScreens) element(id).hidden = id !== screen;
+    for (const id of kParts) element(id).inert = Boolean(screen);
+    if (!screen) element("canvas").focus();
     element("license").hidden = screen === "busy";
     element("back").hidden = !this.view;
     if (screen === "start") element("model").value = "";
@@ -101,6 +113,7 @@ class App {
 
   // \param options  of readPicture()
   async open(files, options = {}) {
+    if (element("drop").hidden) return;
     element("problem").hidden = true;
     await this.keepReshaped();
     const before = this.state;
@@ -140,7 +153,7 @@ class App {
   async modelOf(files, options) {
     const first = (kind) => files.find(({ name }) => kind.test(name));
     const main = first(/\.(obj|ply|stl|off|glb|gltf|vrm)$/i) ?? first(kDrawing) ?? first(kPicture);
-    if (!main) throw new Error(`${files[0].name}: unknown file format; drop a .glb, .gltf, .vrm, .obj, .ply, .stl, .off, .svg, .png, or .jpg`);
+    if (!main) throw new Error(`${files[0].name}: unknown file format; drop a .glb, .gltf, .vrm, .obj, .ply, .stl, .off, .svg, .png, .jpg, .webp, or .gif`);
     if (kDrawing.test(main.name) || kPicture.test(main.name)) {
       const filling = files.find((file) => file !== main && kPicture.test(file.name));
       const { obj, ...looks } = await readPicture(main, { filling, ...options });
@@ -208,7 +221,7 @@ class App {
       await this.goBack(before);
     }
     element("cageSection").open = true;
-    Object.assign(element("cageProblem"), { textContent: error.message, hidden: false });
+    Object.assign(element("cageProblem"), { textContent: plain(error.message), hidden: false });
   }
 
   // The cage and the solution of the view, if it has been reshaped.
@@ -236,7 +249,7 @@ class App {
   }
 
   fail(message) {
-    Object.assign(element("problem"), { textContent: message, hidden: false });
+    Object.assign(element("problem"), { textContent: plain(message), hidden: false });
     this.goTo("start");
   }
 
@@ -291,7 +304,7 @@ class App {
       }
     };
     const reshaper = new Reshaper(this.view, move);
-    reshaper.onRefusal = tell;
+    reshaper.onRefusal = (message) => tell(plain(message));
     reshaper.onWeights = () => {
       this.showsHarmonic = false;
       this.weights = { local: reshaper.viewer.deformer.weights };

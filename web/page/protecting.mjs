@@ -289,11 +289,13 @@ export class Protector {
     const vertices = (count) => `${count.toLocaleString("en")} ${count === 1 ? "vertex" : "vertices"}`;
     if (conflict) {
       return `${vertices(conflict.vertices.length)} (red) cannot stay: too few control points are left to carry them. `
-        + `Release the ringed control points (${conflict.controlPoints.join(", ")}), or erase a part of the region.`;
+        + `Release the ringed control points (${conflict.controlPoints.join(", ")}), or erase a part of the region. Until then, weights and reach stay as they were.`;
     }
     const state = isBusy ? "; solving…" : onFacets > 0 ? `; ${onFacets} on the cage still move` : "";
     if (editor.selection.size === 0) return `${vertices(masked.size)} protected; select control points to paint${state}`;
-    return `The selection does not move ${vertices([...masked.values()].filter(isChosen).length)}${state}`;
+    const count = [...masked.values()].filter(isChosen).length;
+    if (count === 0) return `Drag on the model to paint what the selection must not move${state}`;
+    return `The selection does not move ${vertices(count)}${state}`;
   }
 }
 

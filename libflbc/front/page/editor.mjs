@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cage as the user edits it: where its control points are, which of them are selected, and
-// what can be undone. Between begin() and end() lies a stroke, which is undone at once.
+// The cage as the user edits it: where its control points are, which of them are selected, the keys
+// of its animation, and what can be undone. Between begin() and end() lies a stroke, which is undone
+// at once.
 import { mirrorMoves, mirrorPairs } from "./mirror.mjs";
 import { CageGraph } from "./rings.mjs";
 import { boundingSphere, centroid, pointAt, setPoint } from "./vectors.mjs";
@@ -12,8 +13,9 @@ function areEqual(a, b) {
 }
 
 export class Editor {
-  // \param facets  of the cage, dim control points each
-  constructor(rest, dim, facets = []) {
+  // \param facets  of the cage, dim control points each \param content  whose poses are the keys
+  constructor(rest, dim, facets = [], content = { poses: [] }) {
+    this.content = content;
     this.graph = new CageGraph(facets, dim, rest.length / 3);
     this.softness = 0;  // radius of the soft selection, 0: none
     this.pivot = null;  // around which the selection is rotated and scaled, null: its center
@@ -23,7 +25,7 @@ export class Editor {
     this.selection = new Set();
     this.done = [];
     this.undone = [];
-    this.start = null;  // where the points were when the stroke began
+    this.start = this.startPoses = null;  // points and keys as they were when the stroke began
     this.mirrorAxis = -1;
     this.pairs = null;
     this.sphere = boundingSphere(rest);
@@ -99,7 +101,9 @@ export class Editor {
   }
 
   begin() {
-    if (!this.start) this.start = this.points.slice();
+    if (this.start) return;
+    this.start = this.points.slice();
+    this.startPoses = this.content.poses;
   }
 
   // Moves control points from where the stroke began: move(start, indices, result).
@@ -117,11 +121,18 @@ export class Editor {
     this.onChange();
   }
 
+  // Takes other keys, of which there are none or two at least, within a stroke.
+  setPoses(poses) {
+    this.begin();
+    this.content.poses = poses.length > 1 ? poses : [];
+    this.onChange();
+  }
+
   end() {
-    const before = this.start;
+    const points = this.start, poses = this.startPoses;
     this.start = null;
-    if (!before || areEqual(before, this.points)) return;
-    this.done.push(before);
+    if (!points || (poses === this.content.poses && areEqual(points, this.points))) return;
+    this.done.push({ points, poses });
     if (this.done.length > kMostStrokes) this.done.shift();
     this.undone = [];
     this.onChange();
@@ -131,6 +142,7 @@ export class Editor {
     if (!this.start) return;
     const before = this.start;
     this.start = null;
+    this.content.poses = this.startPoses;
     this.setPoints(before);
   }
 
@@ -145,8 +157,10 @@ export class Editor {
   swap(from, to) {
     this.end();
     if (from.length === 0) return;
-    to.push(this.points);
-    this.setPoints(from.pop());
+    to.push({ points: this.points, poses: this.content.poses });
+    const { points, poses } = from.pop();
+    this.content.poses = poses;
+    this.setPoints(points);
   }
 
   // Back to rest, as a stroke.

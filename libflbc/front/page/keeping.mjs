@@ -29,14 +29,15 @@ export function keepPose(viewer) {
   } else {
     kept = null;
   }
-  let stored = null, storedKeys = -1;
+  let stored = null, storedKeys = null;
+  const kNone = [];
   viewer.onState = () => {
     onState();
     if (editor.start || viewer.holdsModel) return;
-    const poses = given === 0 ? content.poses : [];
-    if (stored === editor.points && storedKeys === poses.length) return;
+    const poses = given === 0 ? content.poses : kNone;
+    if (stored === editor.points && storedKeys === poses) return;
     stored = editor.points;
-    storedKeys = poses.length;
+    storedKeys = poses;
     const isAtRest = editor.points.every((place, k) => place === editor.rest[k]);
     try {
       if (isAtRest && poses.length === 0) return localStorage.removeItem(name);

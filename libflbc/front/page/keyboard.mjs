@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Keys, and what the help says about them.
 import { translate } from "./transforms.mjs";
-import { centroid } from "./vectors.mjs";
+import { pick } from "./picking.mjs";
+import { centroid, pointAt } from "./vectors.mjs";
 
 const kNudge = 8;  // pixels
 const kArrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
@@ -21,7 +22,8 @@ export const kHelp = [
   ["X  Y  Z", "along or around one axis only; again: freely"],
   ["Alt+click, P", "pivot of R and S: a control point, the center of the selection; P again: none"],
   ["O", "soft selection: neighbors follow; the slider is its radius"],
-  ["Arrows", "move the selection a little; Shift: more"],
+  ["Arrows, Space", "walk from control point to control point along the cage; Space selects, one more or one less"],
+  ["Shift+Arrows", "move the selection a little"],
   ["M", "mirror: off, x, y, z"],
   ["A  B  Q", "select all or none; drags select in a box; in a lasso"],
   ["Ctrl+Z  Ctrl+Y", "undo, redo"],
@@ -34,13 +36,27 @@ export const kHelp = [
   ["Esc", "cancel the drag, close this"],
 ];
 
+// To the control point next to the last one, or to a selected one, that lies in the direction of an arrow.
+function walk(viewer, [dx, dy]) {
+  const { editor: { points, selection, graph }, camera, cursor } = viewer;
+  const from = cursor >= 0 ? cursor : [...selection].at(-1);
+  if (from === undefined) return viewer.hover(pick(points, camera, camera.width / 2, camera.height / 2, Infinity));
+  const here = camera.project(pointAt(points, from));
+  let next = from, most = 0.3;
+  for (const i of graph.neighbors[from]) {
+    const { x, y } = camera.project(pointAt(points, i));
+    const cosine = (dx * (x - here.x) + dy * (y - here.y)) / Math.hypot(x - here.x, y - here.y);
+    if (cosine > most) [next, most] = [i, cosine];
+  }
+  viewer.hover(next);
+}
+
 // In the picture's plane.
-function nudge(viewer, [dx, dy], isLarge) {
+function nudge(viewer, [dx, dy]) {
   const { editor, camera } = viewer;
   const shares = editor.shares();
   if (shares.size === 0) return;
-  const far = isLarge ? 4 * kNudge : kNudge;
-  const step = camera.step(centroid(editor.points, [...editor.selection]), far * dx, far * dy);
+  const step = camera.step(centroid(editor.points, [...editor.selection]), kNudge * dx, kNudge * dy);
   editor.change([...shares.keys()], (start, listed, result) =>
     translate(start, listed, step, result, (i) => shares.get(i)));
   editor.end();
@@ -68,7 +84,9 @@ export function bindKeys(viewer, commands, interaction, signal) {
       interaction.cancel();
       commands.closeHelp();
     } else if (kArrows[event.key] && !isControl) {
-      nudge(viewer, kArrows[event.key], event.shiftKey);
+      (event.shiftKey ? nudge : walk)(viewer, kArrows[event.key]);
+    } else if (key === " " && viewer.cursor >= 0) {
+      viewer.editor.toggle(viewer.cursor);
     } else if (name) {
       if (!/^[xyz]$/.test(name)) viewer.typed = null;
       commands[name]();

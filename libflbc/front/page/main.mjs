@@ -10,10 +10,13 @@ import { pointsOf, poseOf } from "./saving.mjs";
 import { pointAt } from "./vectors.mjs";
 import { Viewer } from "./viewer.mjs";
 
+export const kNoWebGl = "This page draws with WebGL2, which this browser does not offer. A recent Firefox, Chrome, Edge, "
+  + "or Safari with hardware acceleration switched on shows it.";
+
 function apologize(error) {
-  const textContent = `This page draws with WebGL2, which this browser does not offer (${error.message}). `
-    + "A recent Firefox, Chrome, Edge or Safari with hardware acceleration switched on shows it.";
+  const textContent = `${kNoWebGl} (${error.message})`;
   Object.assign(document.getElementById("message"), { hidden: false, textContent });
+  for (const id of ["panel", "timeline", "fold"]) document.getElementById(id).hidden = true;
 }
 
 // The interface for scripts and tests. Points have as many coordinates as the cage.
@@ -65,6 +68,7 @@ export function show(content, signal) {
   window.flbc = hookOf(viewer);
   if (keepPose(viewer)) tell("The pose of your last visit. Ctrl+Z: the cage at rest");
   viewer.changed();
+  canvas.focus();
   return viewer;
 }
 

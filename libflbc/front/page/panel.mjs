@@ -5,7 +5,6 @@ import { kColorings, portion } from "./colors.mjs";
 import { inSpace } from "./data.mjs";
 import { kHelp } from "./keyboard.mjs";
 import { readPose } from "./obj.mjs";
-import { nearestPose } from "./poses.mjs";
 import { commandOf, saveAnimation, saveModel, savePicture, savePose } from "./saving.mjs";
 import { centroid } from "./vectors.mjs";
 
@@ -44,7 +43,7 @@ function mirror(viewer, axis) {
   const total = viewer.editor.size;
   if (axis < 0) return;
   const name = kAxisNames[axis];
-  const cure = count < total ? `; the others move alone. Make the cage with the symmetry ${name} (flbc cage --symmetric ${name})` : "";
+  const cure = count < total ? `; the others move alone. Make the cage with the symmetry ${name}` : "";
   tell(`Mirror ${name}: ${count} of ${total} control points have an image${cure}`);
 }
 
@@ -100,7 +99,7 @@ export function makeCommands(viewer) {
     move: tool("move"), rotate: tool("rotate"), scale: tool("scale"),
     x: axis("x"), y: axis("y"), z: content.dim === 3 ? axis("z") : () => {},
     resetSelection: () => editor.reset(selected()),
-    resetAll: () => { viewer.stopPlaying(); viewer.time = 0; editor.reset(everything()); },
+    resetAll: () => { viewer.stopPlaying(); editor.reset(everything()); },
     selectAll: () => editor.select(editor.selection.size === editor.size ? [] : everything()),
     box: area("box"), lasso: area("lasso"),
     ring: () => editor.selectRings(),
@@ -178,13 +177,59 @@ function fillHelp() {
   }
 }
 
+const kKeyFields = { keyName: ({ name }) => name, keyTime: ({ time }) => String(Number(time.toFixed(2))) };
+
 function fillTimeline(viewer) {
-  const slider = element("time");
+  const { editor, content } = viewer;
+  const slider = element("time"), marks = element("keyMarks");
   slider.addEventListener("input", () => {
     viewer.playing = null;
     viewer.seek(Number(slider.value));
   });
   slider.addEventListener("change", () => viewer.stopPlaying());
+  const change = (id, changesOf) => element(id).addEventListener("change", ({ target }) => {
+    viewer.stopPlaying();
+    viewer.changeKey(viewer.key, changesOf(target.value));
+    editor.end();
+    target.value = kKeyFields[id](content.poses[viewer.key]);
+  });
+  change("keyName", (name) => ({ name }));
+  change("keyTime", (time) => ({ time: Number(time) }));
+  // A key follows the pointer on the scale that it had when it was grabbed.
+  let held = null;
+  marks.addEventListener("pointerdown", (event) => {
+    const k = [...marks.children].indexOf(event.target);
+    if (k < 0) return;
+    const { time } = content.poses[k];
+    viewer.playing = null;
+    viewer.seek(time);
+    held = { k, time, from: event.clientX, scale: (viewer.duration - content.poses[0].time) / marks.clientWidth };
+    marks.setPointerCapture(event.pointerId);
+  });
+  marks.addEventListener("pointermove", ({ clientX }) => {
+    if (!held || (clientX === held.from && content.poses[held.k].time === held.time)) return;
+    viewer.changeKey(held.k, { time: Math.round(20 * (held.time + held.scale * (clientX - held.from))) / 20 });
+  });
+  for (const name of ["pointerup", "pointercancel"]) {
+    marks.addEventListener(name, () => {
+      held = null;
+      viewer.stopPlaying();
+    });
+  }
+}
+
+function showTimeline(viewer) {
+  const { content: { poses }, duration, time, key } = viewer;
+  element("timeline").hidden = poses.length < 2 || viewer.holdsModel;
+  if (poses.length < 2) return;
+  const begin = poses[0].time;
+  Object.assign(element("time"), { min: begin, max: duration, value: time });
+  const marks = poses.map((pose, k) => `<span class="${k === key ? "chosen" : ""}" title="${kKeyFields.keyTime(pose)} s" style="left: ${
+    100 * (pose.time - begin) / (duration - begin)}%"></span>`).join("");
+  if (element("keyMarks").innerHTML !== marks) element("keyMarks").innerHTML = marks;
+  for (const [id, valueOf] of Object.entries(kKeyFields)) {
+    if (document.activeElement !== element(id)) element(id).value = valueOf(poses[key]);
+  }
 }
 
 function fillPalette(palette) {
@@ -210,10 +255,12 @@ function describeSelection(viewer) {
   const { editor: { selection }, deformer, drag, typed } = viewer;
   if (drag && typed) return `${drag.label} ${typed}${kUnits[drag.tool]}; press Enter, or Esc to cancel`;
   if (drag) return drag.text;
-  const chosen = viewer.hovered >= 0 ? [viewer.hovered] : [...selection];
+  const { hovered, cursor } = viewer;
+  const chosen = hovered >= 0 && (cursor >= 0 || !selection.has(hovered)) ? [hovered] : [...selection];
   if (chosen.length === 0) return "drag a control point, or double-click it for the ring around the limb";
   const moved = deformer.weights.values.length > 0 ? portion(deformer.countMovedBy(chosen), deformer.base.length / 3) : "nothing yet";
-  return chosen.length === 1 ? `control point ${chosen[0]} moves ${moved}`
+  const keys = cursor < 0 ? "" : selection.has(cursor) ? "; Space deselects it" : "; Space selects it";
+  return chosen.length === 1 ? `control point ${chosen[0]} moves ${moved}${keys}`
                              : `${chosen.length} control points are selected and move ${moved}`;
 }
 
@@ -234,10 +281,7 @@ function showState(viewer) {
   element("state").textContent = describeSelection(viewer);
   element("play").textContent = viewer.playing ? "Pause" : "Play";
   element("addKey").disabled = viewer.holdsModel;
-  element("timeline").hidden = content.poses.length < 2 || viewer.holdsModel;
-  if (content.poses.length < 2) return;
-  Object.assign(element("time"), { min: content.poses[0].time, max: viewer.duration, value: viewer.time });
-  element("pose").textContent = nearestPose(content.poses, viewer.time).name;
+  showTimeline(viewer);
 }
 
 // Fills the panel and connects it. \return the commands

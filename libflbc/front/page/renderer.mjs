@@ -331,7 +331,7 @@ export class Renderer {
       gl.depthFunc(test);
       this.drawWire(matrix, look, opacity);
     }
-    for (const [test, opacity] of passes) {
+    for (const [test, opacity] of look.showsDots ? passes : []) {
       gl.depthFunc(test);
       this.drawDots(matrix, camera, look, opacity);
     }
@@ -362,6 +362,7 @@ export class Renderer {
     gl.uniform4f(places.ink, ...look.ink, Math.min(1, 1.4 * opacity));
     gl.uniform4f(places.highlight, ...look.highlight, Math.min(1, 2.2 * opacity));
     gl.uniform3fv(places.rim, look.background);
+    gl.uniform2f(places.depth, camera.depthFactor(camera.sphere.center), camera.shrinking() * camera.sphere.radius);
     gl.bindVertexArray(this.dotArray);
     gl.drawArrays(gl.POINTS, 0, this.states.length);
     gl.bindVertexArray(null);

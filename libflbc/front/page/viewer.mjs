@@ -4,7 +4,7 @@ import { Camera } from "./camera.mjs";
 import { colorValues } from "./colors.mjs";
 import { Deformer } from "./deformer.mjs";
 import { Editor } from "./editor.mjs";
-import { interpolatePoses, playedTime } from "./poses.mjs";
+import { interpolatePoses, nearestPose, playedTime } from "./poses.mjs";
 import { Renderer } from "./renderer.mjs";
 import { pointAt } from "./vectors.mjs";
 
@@ -16,6 +16,7 @@ const kThemes = {
 };
 // Larger models move on the card, which shades their triangles flat.
 const kManyVertices = 100000;
+const kGap = 0.05;  // seconds between keys
 const kNowhere = [9, 9];  // in clip coordinates
 const kViews = { front: [0, 0], side: [Math.PI / 2, 0], top: [0, Math.PI / 2 - 0.03] };
 
@@ -29,7 +30,7 @@ export class Viewer {
     const weights = movesOnCard ? this.deformer.weightsForCard() : null;
     this.renderer = new Renderer(canvas, content, weights);
     this.camera = new Camera(content.dim, content.up, content.front);
-    this.editor = new Editor(content.rest, content.dim, content.facets);
+    this.editor = new Editor(content.rest, content.dim, content.facets, content);
     this.coloring = "shaded";
     this.tool = "move";
     this.axis = null;
@@ -42,8 +43,10 @@ export class Viewer {
     this.showsEdges = false;
     this.theme = "light";
     this.hovered = -1;
+    this.cursor = -1;    // the control point to which arrow keys have walked, which is hovered then
     this.pointer = kNowhere;
     this.time = 0;       // of the poses
+    this.isSought = false;  // whether the visitor has chosen a time
     this.playing = null;
     this.isStale = true;  // the cage or colours have changed since the model was moved
     this.isAwaited = false;
@@ -102,16 +105,17 @@ export class Viewer {
     this.update();
     const coloring = this.brush ? "region" : this.coloring;
     renderer.draw(camera, { ...kThemes[this.theme], coloring, dotSize: this.dotSize(), pointer: this.pointer,
-                            showsCage: this.showsCage, showsEdges: this.showsEdges });
+                            showsCage: this.showsCage, showsDots: !this.playing, showsEdges: this.showsEdges });
     this.onDrawn();
   }
 
-  // Dots shrink where control points are dense, and grow near the pointer.
+  // Dots shrink where control points are dense and on small screens, and grow near the pointer.
   dotSize() {
     const { camera, content } = this;
     const extent = camera.sphere.radius * camera.height / camera.halfHeight;
     const spacing = extent / Math.sqrt(content.rest.length / 3);
-    return Math.max(4, Math.min(12, 0.3 * spacing));
+    const isSmall = Math.min(camera.width, camera.height) < 480;
+    return Math.max(4, Math.min(isSmall ? 7 : 12, (isSmall ? 0.2 : 0.3) * spacing));
   }
 
   // Shows the selection, or the cage as it is and in all of its poses.
@@ -139,6 +143,7 @@ export class Viewer {
     const { width, height } = this.camera;
     this.pointer = spot ? [2 * spot.x / width - 1, 1 - 2 * spot.y / height] : kNowhere;
     this.gizmo.hot = handle?.id ?? null;
+    this.cursor = spot ? -1 : i;
     this.canvas.style.cursor = handle ? "grab" : i >= 0 ? "pointer" : "";
     this.redraw();
     if (i === this.hovered) return;
@@ -162,28 +167,53 @@ export class Viewer {
     const { poses } = this.content;
     if (this.holdsModel) return;
     this.time = time;
+    this.isSought = true;
     this.editor.begin();
     this.editor.setPoints(interpolatePoses(poses, time));
   }
 
-  // The pose as it is becomes the last one of the animation, a second after the one before.
+  // The pose as it is becomes the key at the time that was chosen, or the last one of the animation, a
+  // second after the one before.
   addKey() {
-    const { poses, rest } = this.content;
+    const { content: { poses, rest }, editor, time, duration } = this;
     if (this.holdsModel) return;
     this.stopPlaying();
-    if (poses.length === 0) poses.push({ name: "rest", time: 0, points: rest });
-    poses.push({ name: `key ${poses.length}`, time: this.duration + 1, points: this.editor.points.slice() });
-    this.time = this.duration;
-    this.changed();
+    const old = poses.length > 0 ? poses : [{ name: "rest", time: 0, points: rest }];
+    const isInside = this.isSought && time < duration;
+    const key = { name: `key ${old.length}`, time: isInside ? time : duration + 1, points: editor.points.slice() };
+    const replaced = old.find((pose) => Math.abs(pose.time - key.time) < kGap);
+    if (replaced) Object.assign(key, { name: replaced.name, time: replaced.time });
+    this.time = key.time;
+    this.setKeys([...old.filter((pose) => pose !== replaced), key]);
+    editor.end();
+  }
+
+  // The key at the time that was chosen, or the last one.
+  get key() {
+    const { poses } = this.content;
+    return poses.indexOf(this.isSought ? nearestPose(poses, this.time) : poses.at(-1));
   }
 
   removeKey() {
-    const { poses } = this.content;
+    const { key } = this;
     this.stopPlaying();
-    poses.pop();
-    if (poses.length < 2) poses.length = 0;
-    this.time = this.duration;
-    this.changed();
+    this.setKeys(this.content.poses.filter((_, k) => k !== key));
+    this.time = Math.min(this.time, this.duration);
+    this.editor.end();
+  }
+
+  // Another name of a key, or another time between those of the keys next to it, in a stroke.
+  changeKey(k, changes) {
+    const keys = this.content.poses.slice();
+    const least = k > 0 ? keys[k - 1].time + kGap : 0, most = keys[k + 1]?.time - kGap || Infinity;
+    keys[k] = { ...keys[k], ...changes };
+    keys[k].time = this.time = Math.max(least, Math.min(most, keys[k].time));
+    this.isSought = true;
+    this.setKeys(keys);
+  }
+
+  setKeys(keys) {
+    this.editor.setPoses(keys.sort((a, b) => a.time - b.time));
   }
 
   play() {
