@@ -104,9 +104,9 @@ async function testSelection(name, dim, cage) {
   assert.deepEqual(chosen, expected);
   assert.ok(chosen.length > 1 && chosen.length < n);
 
-  for (const [tool, axis] of [["rotate", null], ["scale", "axisX"], ["move", "axisY"]]) {
+  for (const [tool, axis] of [["rotate", null], ["scale", "x"], ["move", "y"]]) {
     await page.press(tool);
-    if (axis) await page.press(axis);
+    if (axis) await page.type(axis);
     let grabbed = null;
     for (const i of chosen) {
       const spot = await page.ask("spot", i);
@@ -125,7 +125,7 @@ async function testSelection(name, dim, cage) {
     }
     assert.deepEqual(await page.ask("selection"), chosen);
     await page.press("undo");
-    if (axis) await page.press(axis);
+    if (axis) await page.type(axis);
   }
 
   const i = chosen[0];
@@ -151,7 +151,8 @@ async function cageOf(page) {
   return points;
 }
 
-// What a person does who has never seen the page: the first drag looks right, because it takes a ring.
+// What a person does who has never seen the page: the first drag looks right, because it takes a ring
+// and what lies beyond it.
 async function testFirstDrag(name, weights) {
   const page = await open(name);
   const i = await page.touchable((k) => page.tab.evaluate((v) => {
@@ -241,8 +242,7 @@ async function testBend(name, dim) {
   assert.deepEqual(await cageOf(page), before, "Escape cancels");
 
   // A number during a drag, of which only one coordinate changes.
-  await page.press("axisX");
-  await page.type("g");
+  await page.type("xg");
   const spot = await page.ask("spot", i);
   await tab.mouse.move(spot.x, spot.y);
   await tab.mouse.down();
@@ -460,7 +460,7 @@ async function testButtons(name, theme) {
   }
   await tab.select("#mirror", "0");
   assert.match(await tab.$eval("#note", (note) => note.textContent),
-               /have an image$|have an image; the others move alone. .* --symmetric x\)$/);
+               /have an image$|have an image; the others move alone. Make the cage with the symmetry x$/);
   await page.press("fold");
   await page.press("fold");
   for (const key of ["?", "Escape", "f", "1", "2", "3", "g", "r", "s", "x", "x", "b", "b", "m", "a",
