@@ -276,6 +276,30 @@ test("editor: resetting is a stroke, strokes without a change are none", () => {
   assert.equal(editor.canUndo, false);
 });
 
+test("editor: points and keys are undone together, through 200 random strokes", () => {
+  const content = { poses: [] }, editor = new Editor(kCube, 3, [], content);
+  let seed = 1;
+  const random = () => { seed = (48271 * seed) % 2147483647; return seed / 2147483647; };
+  const states = [];
+  const state = () => ({ points: editor.points, poses: content.poses });
+  for (let k = 0; k < 200; ++k) {
+    states.push(state());
+    const keys = content.poses, kind = random();
+    if (kind < 0.4) editor.place(Math.floor(8 * random()), [random(), random(), random()]);
+    else if (kind < 0.7) editor.setPoses([...keys, { name: "", time: random(), points: editor.points }]);
+    else editor.setPoses(keys.slice(0, Math.floor((keys.length + 1) * random())));
+    if (kind > 0.95) editor.cancel();
+    editor.end();
+    if (editor.done.length < states.length) assert.deepEqual(state(), states.pop(), "cancelled");
+  }
+  assert.ok(content.poses.length !== 1 && states.length > 100);
+  for (const { points, poses } of states.reverse()) {
+    editor.undo();
+    assert.deepEqual(state(), { points, poses });
+  }
+  assert.equal(editor.canUndo, false);
+});
+
 test("picking: the nearest within reach, and what an outline holds", () => {
   const camera = cameraOf(3);
   camera.look(0, 0);

@@ -218,10 +218,16 @@ async function testErrors() {
 
   // A cage with a hole is shown with its defects, and repaired.
   const cage = readFileSync(join(meshes, "3d/limb_cage.obj"), "utf8").split("\n");
+  const small = join(work, "small_cage.obj");
+  writeFileSync(small, cage.map((line) => (line.startsWith("v ") ? `v ${line.split(" ").slice(1, 4).map((x) => 0.5 * x).join(" ")}` : line)).join("\n"));
+  await app.drop([small]);
+  await app.tab.waitForSelector("#cageProblem:not([hidden])", { timeout: 60000 });
+  assert.match(await app.text("cageProblem"), /outside the cage/);
+  assert.doesNotMatch(await app.text("cageProblem"), /kNearest|\(\)|--/);
   const hole = join(work, "my_cage.obj");
   writeFileSync(hole, cage.filter((line, k) => k !== cage.findIndex((other) => other.startsWith("f "))).join("\n"));
   await app.drop([hole]);
-  await app.tab.waitForSelector("#cageProblem:not([hidden])");
+  await app.tab.waitForFunction(() => document.getElementById("cageProblem").textContent.includes("my_cage"), { timeout: 60000 });
   assert.match(await app.text("cageProblem"), /my_cage.obj: /);
   assert.ok((await app.ask("selection")).length > 0);
   await app.shot("dark_defect");
@@ -327,7 +333,7 @@ async function testElbow() {
   await act(tab.keyboard.press("l"));
   await drawn(tab);
   const ring = await cornersOf(tab, ".ring.z polyline");
-  const [from, to] = [ring[6], ring[30]].sort((a, b) => b.y - a.y);
+  const [from, to] = [ring[8], ring[24]].sort((a, b) => b.y - a.y);
   await act(app.drag(from, to.x - from.x, to.y - from.y));
   const [upper, lower] = armOf(await app.points());
   const cosine = upper.reduce((sum, value, c) => sum + value * lower[c], 0) / Math.hypot(...upper) / Math.hypot(...lower);
@@ -630,6 +636,22 @@ async function testGltf() {
   await app.close();
 }
 
+// Pictures that browsers do not read are named.
+async function testKtx() {
+  const bytes = execFileSync(program, ["convert", join(meshes, "3d/limb_model.obj"), "-q", "-o", join(work, "limb_ktx.glb")])
+    && readFileSync(join(work, "limb_ktx.glb"));
+  const document = documentIn(join(work, "limb_ktx.glb"));
+  const text = JSON.stringify({ ...document, extensionsUsed: ["KHR_texture_basisu"] }), rest = bytes.subarray(20 + bytes.readUInt32LE(12));
+  const json = Buffer.from(text.padEnd(4 * Math.ceil(text.length / 4)));
+  const header = Buffer.from(Uint32Array.of(0x46546C67, 2, 20 + json.length + rest.length, json.length, 0x4E4F534A).buffer);
+  writeFileSync(join(work, "limb_ktx.glb"), Buffer.concat([header, json, rest]));
+  const app = await new App().open(browser, url);
+  await app.drop([join(work, "limb_ktx.glb")]);
+  await app.shown();
+  await app.tab.waitForFunction(() => /KTX2.* does not show/.test(document.getElementById("note").textContent));
+  await app.close();
+}
+
 // Files that decoding_test.mjs has compressed open as the others, and are saved without compression.
 async function testCompressed() {
   const app = await new App().open(browser, url);
@@ -927,6 +949,33 @@ async function testKeyboard() {
   await app.close();
 }
 
+// Points without triangles are drawn at once, and dragged as other models.
+async function testCloud() {
+  const app = await new App().open(browser, url);
+  const { tab } = app;
+  const points = Array.from({ length: 3000 }, (_, k) => {
+    const z = 1 - (k + 0.5) / 1500, radius = Math.sqrt(1 - z * z);
+    return `${radius * Math.cos(2.4 * k)} ${radius * Math.sin(2.4 * k)} ${2 * z}`;
+  });
+  const file = join(work, "cloud.ply");
+  writeFileSync(file, ["ply", "format ascii 1.0", `element vertex ${points.length}`, "property float x", "property float y",
+                       "property float z", "end_header", ...points, ""].join("\n"));
+  await app.drop([file]);
+  await tab.waitForFunction(() => !document.getElementById("preview").hidden, { timeout: 60000 });
+  const { isBusy, numPixels } = await tab.$eval("#preview", (canvas) => ({
+    isBusy: !document.getElementById("busy").hidden,
+    numPixels: canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.filter((x, k) => k % 4 === 3 && x > 0).length }));
+  assert.ok(isBusy && numPixels > 3000, `${numPixels} pixels`);
+  await app.shot("cloud_busy");
+  await app.shown();
+  await app.moveOne(30, -20);
+  await app.shot("cloud");
+  await app.type("c");
+  const picture = await app.picture();
+  assert.ok(picture.filter((pixel) => pixel !== picture[0]).length > 3000, "the points are not drawn");
+  await app.close();
+}
+
 async function testWithoutWebGl() {
   const tab = await browser.newPage();
   await tab.evaluateOnNewDocument(() => { HTMLCanvasElement.prototype.getContext = () => null; });
@@ -983,6 +1032,7 @@ await testGizmo();
 await testTimeline();
 await testFirstDrag();
 await testKeyboard();
+await testCloud();
 await testWithoutWebGl();
 await testDots();
 await testProtecting();
@@ -990,5 +1040,6 @@ await testErrors();
 await testShapes();
 await testIcons();
 await testGltf();
+await testKtx();
 await testCompressed();
 await browser.close();

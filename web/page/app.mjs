@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page: from a dropped file to a model that is dragged by its cage.
+import { Camera } from "../../libflbc/front/page/camera.mjs";
 import { portion } from "../../libflbc/front/page/colors.mjs";
-import { decodeContent } from "../../libflbc/front/page/data.mjs";
+import { decodeContent, inSpace } from "../../libflbc/front/page/data.mjs";
 import { Deformer } from "../../libflbc/front/page/deformer.mjs";
 import { kNoWebGl, show } from "../../libflbc/front/page/main.mjs";
 import { element, setTheme, tell } from "../../libflbc/front/page/panel.mjs";
 import { download } from "../../libflbc/front/page/saving.mjs";
+import { pointAt } from "../../libflbc/front/page/vectors.mjs";
 import { Flbc } from "../js/flbc.mjs";
 import { unpacked } from "../js/unpacked.mjs";
 import { cageToObj, mergePoints, splitEdge } from "./cage_edits.mjs";
@@ -15,6 +17,7 @@ import { bindReshaping, Reshaper } from "./reshaping.mjs";
 import { readPicture, Sketch } from "./shapes.mjs";
 
 const kVertices = 6000;   // of the mesh of the interior
+const kPreview = 20000;   // points that are drawn while a model is computed
 const kMoves = 1e-4;      // of the cage size: less is no movement
 const kPicture = /\.(png|jpe?g|webp|gif)$/i;
 const kDrawing = /\.svg$/i;
@@ -73,6 +76,7 @@ class App {
     element("busyTitle").textContent = title;
     element("stages").replaceChildren();
     element("remaining").textContent = "";
+    element("preview").hidden = true;
     this.goTo("busy");
     this.isCancelled = false;
     let stage = "";
@@ -122,7 +126,8 @@ class App {
       const isDone = await this.work(model.name, async (onProgress) => {
         onProgress("reading the model", 0);
         await this.flbc.cancel();  // what is prepared
-        const { vertices, isFilled } = await this.flbc.readModel(model.name, model.bytes, model.files);
+        const { dim, vertices, isFilled } = await this.flbc.readModel(model.name, model.bytes, model.files);
+        this.preview(inSpace(await this.flbc.points(), dim), dim);
         model.isFilled = isFilled;
         if (vertices > 20000) element("remaining").textContent = `This model takes about ${Math.round(vertices / 7000)} s`;
         const { note } = await this.flbc.makeCage({}, onProgress);
@@ -137,6 +142,19 @@ class App {
       if (this.model) this.prepare();
       this.fail(error.message);
     }
+  }
+
+  // The points of a model, before it has a cage.
+  preview(points, dim) {
+    const canvas = element("preview"), context = canvas.getContext("2d");
+    const stride = Math.ceil(points.length / 3 / kPreview);
+    const shown = Array.from({ length: Math.ceil(points.length / 3 / stride) }, (_, k) => pointAt(points, k * stride));
+    const camera = Object.assign(new Camera(dim), { width: canvas.width, height: canvas.height });
+    camera.frame(shown.flat());
+    canvas.hidden = false;
+    context.clearRect(0, 0, canvas.width, canvas.height);
+    context.fillStyle = getComputedStyle(canvas).color;
+    for (const { x, y } of shown.map((place) => camera.project(place))) context.fillRect(x, y, 2, 2);
   }
 
   // What a step that fails or is cancelled leaves as it was.

@@ -4,6 +4,7 @@ import { extremes, GlbBuffer, kSizes } from "../../libflbc/front/page/glb.mjs";
 import { unpacked } from "../js/unpacked.mjs";
 
 const kDraco = "KHR_draco_mesh_compression", kMeshopt = "EXT_meshopt_compression";
+const kKtx = "Its pictures are KTX2, which this page does not show; saved files keep them";
 const kJson = 0x4e4f534a, kBinary = 0x4e4942;  // chunks of .glb
 
 const align = (size) => 4 * Math.ceil(size / 4);
@@ -101,6 +102,7 @@ export async function decoded(model, assets) {
   } catch {
     return model;
   }
+  if (document.json?.extensionsUsed?.includes?.("KHR_texture_basisu")) model.note = kKtx;
   if (!document.json?.extensionsRequired?.some?.((name) => name === kDraco || name === kMeshopt)) return model;
   try {
     return await decodedDocument(model, document, assets);

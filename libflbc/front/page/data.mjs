@@ -48,7 +48,7 @@ function decodeWeights(packed) {
 // \param picture  in place of all materials
 function decodeSurface(packed, numPoints, picture, dim) {
   const surface = { triangles: decodeIndices(packed.triangles), parts: packed.parts, pictures: packed.pictures, sources: null, groups: null };
-  if (packed.sources) {
+  if (packed.sources?.data) {  // points without triangles have no corners
     surface.sources = decodeIndices(packed.sources);
     surface.groups = decodeIndices(packed.groups);
   }

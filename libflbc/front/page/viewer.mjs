@@ -115,7 +115,7 @@ export class Viewer {
     const extent = camera.sphere.radius * camera.height / camera.halfHeight;
     const spacing = extent / Math.sqrt(content.rest.length / 3);
     const isSmall = Math.min(camera.width, camera.height) < 480;
-    return Math.max(4, Math.min(isSmall ? 7 : 12, (isSmall ? 0.2 : 0.3) * spacing));
+    return Math.max(4, Math.min(isSmall ? 8 : 12, (isSmall ? 0.24 : 0.3) * spacing));
   }
 
   // Shows the selection, or the cage as it is and in all of its poses.
