@@ -233,6 +233,13 @@ test("a limb rotates around the ring where it begins", () => {
   near(editor.pivot, [0, 0, 2]);
   new ToolDrag(editor, cameraOf(3), "rotate", "x", 0, { x: 0, y: 0 }).by(90);
   near(editor.points.slice(0, 3), [-0.5, 2, -0.5 + 2]);
+  // The pivot moves with its ring, and back with undo.
+  editor.end();
+  new ToolDrag(editor, cameraOf(3), "move", "z", 0, { x: 0, y: 0 }).by(2);
+  editor.end();
+  near(editor.pivot, [0, 0, 4]);
+  editor.undo();
+  near(editor.pivot, [0, 0, 2]);
   editor.select([1]);
   assert.equal(editor.pivot, null);
 });

@@ -1006,7 +1006,7 @@ async function testDots() {
   const area = model.reduce((sum, _, k) => sum + isModel(k), 0);
   const covered = withDots.reduce((sum, pixel, k) => sum + (isModel(k) && pixel !== without[k]), 0) / area;
   console.log(`dots cover ${(100 * covered).toFixed(0)}% of the model on a phone`);
-  assert.ok(covered > 0.01 && covered <= 0.4, `${covered}`);
+  assert.ok(covered > 0.01 && covered <= 0.06, `${covered}`);
   await tab.evaluate(() => window.flbc.viewer.set("showsCage", true));
   await app.type("kk");
   const numDots = await tab.evaluate(async () => {

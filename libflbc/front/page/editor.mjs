@@ -18,7 +18,7 @@ export class Editor {
     this.content = content;
     this.graph = new CageGraph(facets, dim, rest.length / 3);
     this.softness = 0;  // radius of the soft selection, 0: none
-    this.pivot = null;  // around which the selection is rotated and scaled, null: its center
+    this.pivotPoints = null;  // around whose center the selection is rotated and scaled, null: its own
     this.rest = rest;
     this.dim = dim;
     this.points = rest.slice();
@@ -33,6 +33,7 @@ export class Editor {
   }
 
   get size() { return this.rest.length / 3; }
+  get pivot() { return this.pivotPoints && centroid(this.points, this.pivotPoints); }
   get canUndo() { return this.done.length > 0; }
   get canRedo() { return this.undone.length > 0; }
 
@@ -45,7 +46,7 @@ export class Editor {
   }
 
   select(indices) {
-    this.pivot = null;
+    this.pivotPoints = null;
     this.selection = new Set([...indices].filter((i) => i >= 0 && i < this.size));
     this.onChange();
   }
@@ -67,13 +68,13 @@ export class Editor {
 
   // The limb beyond the selection, which rotates around the center of what was selected.
   selectLimb() {
-    const pivot = centroid(this.points, [...this.selection]);
+    const ring = [...this.selection];
     this.select(this.graph.beyond(this.selection));
-    this.setPivot(pivot);
+    this.setPivot(ring);
   }
 
-  setPivot(place) {
-    this.pivot = place;
+  setPivot(indices) {
+    this.pivotPoints = indices;
     this.onChange();
   }
 

@@ -94,9 +94,10 @@ export class Gizmo {
     const handles = this.handles().filter(({ id }) => !this.held || id === this.held);
     const pivot = editor.pivot && camera.project(editor.pivot);
     const text = drag && !typed ? drag.text : "";
+    const isRight = handles[0]?.line[0].x > camera.width / 2;
     this.board.innerHTML = handles.map((handle) => this.shapeOf(handle)).join("")
       + (pivot ? `<circle id="pivot" cx="${pivot.x}" cy="${pivot.y}" r="6.5"/>` : "")
-      + (text && handles.length > 0 ? `<text x="${handles[0].line[0].x + 16}" y="${handles[0].line[0].y - 16}">${text}</text>` : "");
+      + (text && handles.length > 0 ? `<text text-anchor="${isRight ? "end" : "start"}" x="${handles[0].line[0].x + (isRight ? -16 : 16)}" y="${handles[0].line[0].y - 16}">${text}</text>` : "");
   }
 
   shapeOf({ kind, names, line, id }) {

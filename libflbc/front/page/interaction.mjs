@@ -2,7 +2,6 @@
 // Mouse, pen and fingers on the picture.
 import { pick, pointsInside, rectangle } from "./picking.mjs";
 import { ToolDrag } from "./actions.mjs";
-import { pointAt } from "./vectors.mjs";
 
 const kReach = { mouse: 12, pen: 16, touch: 26 };  // pixels
 const kClick = { mouse: 2, pen: 4, touch: 8 };     // moves up to here are none
@@ -55,7 +54,7 @@ export class Interaction {
     const hit = event.button === 0 ? this.pickAt(spot, event) : -1;
     const handle = this.handleAt(spot, event);
     if (handle) return this.hold(handle, hit);
-    if (hit >= 0 && event.altKey) return view.editor.setPivot(pointAt(view.editor.points, hit));
+    if (hit >= 0 && event.altKey) return view.editor.setPivot([hit]);
     this.mode = hit >= 0 ? this.grab(hit) : this.modeOfEmptySpot(event);
   }
 
@@ -81,7 +80,7 @@ export class Interaction {
     if (!editor.selection.has(hit)) return "none";
     this.beginDrag = () => {
       if (isFirst) editor.selectRings();
-      if (isFirst) editor.select(editor.graph.beyond(editor.selection));
+      if (isFirst) editor.selectLimb();
       this.view.drag = this.newDrag(hit);
     };
     return "edit";

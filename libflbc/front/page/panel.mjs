@@ -6,7 +6,6 @@ import { inSpace } from "./data.mjs";
 import { kHelp } from "./keyboard.mjs";
 import { readPose } from "./obj.mjs";
 import { commandOf, saveAnimation, saveModel, savePicture, savePose } from "./saving.mjs";
-import { centroid } from "./vectors.mjs";
 
 const kAxisNames = ["x", "y", "z"];
 
@@ -106,7 +105,7 @@ export function makeCommands(viewer) {
     limb: () => { if (editor.selection.size > 0) editor.selectLimb(); },
     grow: () => editor.select(editor.graph.grow(editor.selection)),
     shrink: () => editor.select(editor.graph.shrink(editor.selection)),
-    pivotHere: () => editor.setPivot(editor.pivot || editor.selection.size === 0 ? null : centroid(editor.points, selected())),
+    pivotHere: () => editor.setPivot(editor.pivot || editor.selection.size === 0 ? null : selected()),
     toggleSoft: () => toggleSoft(viewer),
     loadPose: () => element("poseFile").click(),
     addKey: () => viewer.addKey(),
