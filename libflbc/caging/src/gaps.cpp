@@ -9,6 +9,8 @@
 #include <set>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
+
 #include "base/union_find.h"
 #include "caging/grid_lines.h"
 #include "flbc/bounding_box.h"
@@ -20,7 +22,7 @@ namespace {
 constexpr int kLines = 128;
 
 // Relative to model size: closer parts touch; shorter gaps are details.
-constexpr double kLeastWidth = 4e-3, kLeastLength = 0.2;
+constexpr double kLeastWidth = 4e-3, kLeastLength = 0.2, kLeastDepth = 0.02;
 
 // The lower quartile of the widths of a gap over the upper one: 1/3 in a crease, more in a slot.
 constexpr double kLeastEvenness = 0.5;
@@ -55,6 +57,16 @@ std::vector<Index> connect(const std::vector<Vector<3>>& places, double block) {
   std::vector<Index> numbers;
   for (Index s = 0; s < static_cast<Index>(places.size()); ++s) numbers.push_back(gaps.find(s));
   return numbers;
+}
+
+// The second largest extent of places that are spread evenly.
+double depth_of(const std::vector<Vector<3>>& places) {
+  Eigen::Map<const PointList<3>> all(places.front().data(), 3,
+                                     static_cast<Eigen::Index>(places.size()));
+  const PointList<3> centered = all.colwise() - all.rowwise().mean();
+  const Eigen::Matrix3d covariance = centered * centered.transpose() / double(places.size());
+  return std::sqrt(12 *
+                   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues()(1));
 }
 
 // The number of eight directions along a gap that lead out of it.
@@ -113,10 +125,12 @@ Gaps::Gaps(const Cage<3>& model, const Enclosure<3>& enclosure) : box_(3, 2) {
   const auto numbers = connect(places, size / kBlocks);
   std::map<Index, Eigen::AlignedBox3d> extents;
   std::map<Index, std::vector<double>> widths;
+  std::map<Index, std::vector<Vector<3>>> places_of;
   for (std::size_t s = 0; s < samples_.size(); ++s) {
     samples_[s].gap = numbers[s];
     samples_[s].width = 2 * enclosure.distance(places[s]);
     extents[numbers[s]].extend(places[s]);
+    places_of[numbers[s]].push_back(places[s]);
     widths[numbers[s]].push_back(samples_[s].width);
   }
   std::set<Index> slots;
@@ -124,7 +138,9 @@ Gaps::Gaps(const Cage<3>& model, const Enclosure<3>& enclosure) : box_(3, 2) {
     std::sort(all.begin(), all.end());
     const double low = all[all.size() / 4], high = all[3 * all.size() / 4];
     const bool is_long = extents[gap].diagonal().norm() >= kLeastLength * size;
-    if (is_long && low >= kLeastEvenness * high) slots.insert(gap);
+    // A groove is long, but not deep.
+    const bool is_deep = depth_of(places_of[gap]) >= kLeastDepth * size;
+    if (is_long && is_deep && low >= kLeastEvenness * high) slots.insert(gap);
   }
   for (auto slot = slots.begin(); slot != slots.end();) {
     // Of some of its samples, because this takes long.
