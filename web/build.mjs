@@ -59,7 +59,7 @@ function decoders() {
 function page(assets) {
   const names = /set\(page_modules\s+([^)]*)\)/.exec(read("../libflbc/front/CMakeLists.txt"))[1].trim().split(/\s+/);
   const program = packed(joined([...names.map((name) => `${view}${name}.mjs`), "js/unpacked.mjs", "js/flbc.mjs",
-                                 "page/reshaping.mjs", "page/protecting.mjs", "page/shapes.mjs", "page/cage_edits.mjs", "page/decoding.mjs", "page/app.mjs"]));
+                                 "page/reshaping.mjs", "page/protecting.mjs", "page/shapes.mjs", "page/frames.mjs", "page/cage_edits.mjs", "page/decoding.mjs", "page/app.mjs"]));
   const kSamples = { Character: "3d/character", Limb: "3d/limb", Torus: "3d/torus", "Figure, in 2D": "2d/figure" };
   const samples = {};
   let buttons = "";

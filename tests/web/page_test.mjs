@@ -285,7 +285,24 @@ async function testShapes() {
   await app.drop([picture]);
   await app.tab.waitForFunction(() => document.title.startsWith("disc"), { timeout: 60000 });
   await app.shown();
+  // It is saved as a picture: the same at rest, and frames of an animation.
+  const isSame = await app.tab.evaluate(async (bytes, saved) => {
+    const [one, other] = await Promise.all([bytes, saved].map(async (text) => {
+      const image = new Image();
+      image.src = `data:image/png;base64,${text}`;
+      await image.decode();
+      const canvas = Object.assign(document.createElement("canvas"), { width: image.width, height: image.height });
+      canvas.getContext("2d").drawImage(image, 0, 0);
+      return String(canvas.getContext("2d").getImageData(0, 0, image.width, image.height).data);
+    }));
+    return one === other;
+  }, data, readFileSync(await app.saved("[data-save=photo]", "disc_posed.png")).toString("base64"));
+  assert.ok(isSame);
+  await app.type("k");
   await app.moveOne(30, 20);
+  await app.type("k");
+  const frames = String(execFileSync("python3", ["-m", "zipfile", "-l", await app.saved("[data-save=frames]", "disc_frames.zip")]));
+  for (const name of ["disc.png", "disc.json", "frame_0001.png", "frame_0013.png"]) assert.ok(frames.includes(name), frames);
   await app.shot("narrow_picture");
 
   // Other pictures that browsers read.

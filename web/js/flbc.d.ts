@@ -32,6 +32,10 @@ export interface Solution {
   options?: SolveOptions;
 }
 
+export interface Pixels { data: Uint8ClampedArray | Uint8Array; width: number; height: number }
+/** Pixels with the place of their upper left corner, in pixels of the result from that of the picture. */
+export interface PlacedPixels extends Pixels { data: Uint8Array<ArrayBuffer>; left: number; top: number }
+
 /** The content of a locality file: docs/how-to/locality.md. Control points must not move vertices of the region. */
 export type Locality = LocalityMask[] | {
   /** Required without `reach`. */
@@ -141,6 +145,14 @@ export class Flbc {
   meshFile(): Promise<Bytes>;
   /** The model where these control points take it. */
   modelFile(points: Numbers, extension?: string): Promise<Bytes>;
+  /** A picture where poses of the cage take it, on one canvas, which is larger where pixels move
+   *  beyond the edge. Pixels outside the cage stay. The mesh of the cage must be there.
+   *  @param options.pixels such as ImageData: RGBA, rows from the top
+   *  @param options.size width and height in the model (default: a unit per pixel), whose origin is the lower left corner
+   *  @param options.scale pixels of the result per pixel (default: 1)
+   *  @param options.sheet the name of a sprite sheet to make as well; `fps` (default: 12) is in its JSON */
+  picture(options: { pixels: Pixels; poses: Numbers[]; size?: Numbers; scale?: number; sheet?: string; fps?: number }):
+    Promise<{ frames: PlacedPixels[]; sheet?: PlacedPixels; json?: string }>;
   /** A document in SVG where these control points take it: only its geometry changes, and what is
    *  outside of the cage stays. The mesh of the cage must be there. @param placing the width and height
    *  of the page, and the matrix from there (y down) to the model, as in SVG. `notes` name what does

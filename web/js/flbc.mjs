@@ -122,7 +122,7 @@ const kOptions = {
   makeCage: "controlPoints offset symmetry", repairCage: "", makeMesh: "vertices", solve: "smoothness tolerance distances precision",
   solution: "", setSolution: "points cells starts controlPoints values options", reduce: "influences", move: "points refine seconds",
   points: "", cage: "", weights: "", harmonicWeights: "", content: "picture", page: "picture", glb: "influences times poses",
-  weightFile: "format of", cageFile: "", meshFile: "", memory: "", version: "",
+  picture: "pixels size poses scale sheet fps", weightFile: "format of", cageFile: "", meshFile: "", memory: "", version: "",
 };
 
 function checkOptions(name, options) {

@@ -6,6 +6,7 @@ import { decodeContent, inSpace } from "../../libflbc/front/page/data.mjs";
 import { Deformer } from "../../libflbc/front/page/deformer.mjs";
 import { kNoWebGl, show } from "../../libflbc/front/page/main.mjs";
 import { element, setTheme, tell } from "../../libflbc/front/page/panel.mjs";
+import { interpolatePoses } from "../../libflbc/front/page/poses.mjs";
 import { download } from "../../libflbc/front/page/saving.mjs";
 import { pointAt } from "../../libflbc/front/page/vectors.mjs";
 import { Flbc } from "../js/flbc.mjs";
@@ -14,13 +15,15 @@ import { cageToObj, mergePoints, splitEdge } from "./cage_edits.mjs";
 import { decoded } from "./decoding.mjs";
 import { bindProtecting, Protector } from "./protecting.mjs";
 import { bindReshaping, Reshaper } from "./reshaping.mjs";
-import { readPicture, Sketch } from "./shapes.mjs";
+import { pngOf, zipOf } from "./frames.mjs";
+import { readPicture, Sketch, wholePicture } from "./shapes.mjs";
 
 const kVertices = 6000;   // of the mesh of the interior
 const kPreview = 20000;   // points that are drawn while a model is computed
 const kMoves = 1e-4;      // of the cage size: less is no movement
 const kPicture = /\.(png|jpe?g|webp|gif)$/i;
 const kDrawing = /\.svg$/i;
+const kFrames = 12;       // per second of an animation
 const kScreens = ["start", "busy", "drawing"];
 const kParts = ["stage", "timeline", "panel", "keyHelp"];
 const sentence = (text = "") => text.slice(0, 1).toUpperCase() + text.slice(1);
@@ -308,6 +311,7 @@ class App {
     for (const section of document.querySelectorAll(".solved")) section.hidden = !isSolved;
     element("background").hidden = !this.model.isCut;
     document.querySelector("[data-save=drawing]").hidden = !this.model.drawing;
+    document.querySelector(".photo").hidden = !this.model.photo;
     element("cageFile").addEventListener("change", ({ target }) => {
       const [file] = target.files;
       target.value = "";  // or the same file, mended, would be no change
@@ -396,7 +400,9 @@ class App {
     const inFile = (places) => [...places].filter((_, k) => k % 3 < content.dim);
     const points = inFile(editor.points);
     const { title, poses } = content;
-    const { name: modelName, picture, drawing } = this.model;
+    const { name: modelName, picture, drawing, photo } = this.model;
+    const moved = async (places, options) => this.flbc.picture(
+      { pixels: await wholePicture(photo), size: photo.size, poses: places.map(inFile), ...options });
     const extension = /[^.]*$/.exec(modelName)[0].toLowerCase().replace("gltf", "glb");
     const kinds = {
       posed: async () => [`${title}_posed.${extension}`, await this.flbc.modelFile(points, extension)],
@@ -404,6 +410,17 @@ class App {
         const { text, notes } = await this.flbc.drawing(drawing.source, drawing.placing, points);
         this.note = notes.length > 0 ? `Not bent: ${notes.join("; ")}` : "";
         return [`${title}_posed.svg`, text];
+      },
+      photo: async () => [`${title}_posed.png`, await pngOf((await moved([editor.points])).frames[0])],
+      frames: async () => {
+        if (poses.length < 2) throw new Error("Add two keys to the timeline first");
+        const [{ time: begin }, { time: end }] = [poses[0], poses.at(-1)];
+        const times = Array.from({ length: Math.round((end - begin) * kFrames) + 1 }, (_, k) => begin + k / kFrames);
+        const sheet = `${title}.png`;
+        const { frames, sheet: cells, json } = await moved(times.map((time) => interpolatePoses(poses, time)), { sheet, fps: kFrames });
+        const files = { [sheet]: await pngOf(cells), [`${title}.json`]: new TextEncoder().encode(json) };
+        for (const [k, frame] of frames.entries()) files[`frame_${String(k + 1).padStart(4, "0")}.png`] = await pngOf(frame);
+        return [`${title}_frames.zip`, zipOf(files)];
       },
       cage: async () => [`${title}_cage.obj`, await this.flbc.cageFile()],
       npy: async () => [`${title}_weights.npy`, await this.flbc.weightFile({ format: "npy" })],

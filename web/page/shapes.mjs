@@ -20,9 +20,9 @@ async function imageOf(blob, name) {
   return image;
 }
 
-// \param filling  picture to fill it with, or null
-function painted(image, filling = null) {
-  const shrink = Math.min(1, kLargest / Math.max(image.width, image.height));
+// \param filling  picture to fill it with, or null \param largest  pixels along the longer side
+function painted(image, filling = null, largest = kLargest) {
+  const shrink = Math.min(1, largest / Math.max(image.width, image.height));
   const [width, height] = [image.width, image.height].map((size) => Math.max(1, Math.round(shrink * size)));
   const canvas = document.createElement("canvas");
   Object.assign(canvas, { width, height });
@@ -137,6 +137,13 @@ async function paintedPicture(file, keepsBackground) {
   return { canvas, pixels, isCut, note: isCut ? "The background is left out; the panel Cage can bring it back" : "" };
 }
 
+// The pixels of a picture at its own resolution. \param source  of readPicture()
+export async function wholePicture({ file, keepsBackground }) {
+  const { pixels } = painted(await imageOf(file, file.name), null, Infinity);
+  if (!keepsBackground) cutOut(pixels);
+  return pixels;
+}
+
 // Squares that cover what is to be seen of a picture, as OBJ with texture coordinates.
 function gridToObj({ data, width, height }) {
   const kSquares = 96;  // along the longer side
@@ -166,7 +173,8 @@ function gridToObj({ data, width, height }) {
 }
 
 // A drawing or a picture as a model, its picture as an address, the theme before which it is seen, if
-// there is one, whether a background was cut out, a note, and the document with its place in the model.
+// there is one, whether a background was cut out, a note, and what is saved again: the document with its place in
+// the model, or the file of a picture with its size there.
 // \param filling  file of another picture
 // for a drawing, or none
 export async function readPicture(file, { filling = null, keepsBackground = false } = {}) {
@@ -174,7 +182,8 @@ export async function readPicture(file, { filling = null, keepsBackground = fals
   const { canvas, pixels, isCut = false, note, drawing = null } = /\.svg$/i.test(file.name)
     ? await paintedDrawing(file, other) : await paintedPicture(file, keepsBackground);
   const { mean } = seenOf(pixels);
-  return { obj: gridToObj(pixels), picture: canvas.toDataURL("image/png"), isCut, note, drawing,
+  const photo = drawing || filling ? null : { file, keepsBackground, size: [pixels.width, pixels.height] };
+  return { obj: gridToObj(pixels), picture: canvas.toDataURL("image/png"), isCut, note, drawing, photo,
            theme: mean < 0.25 ? "light" : mean > 0.8 ? "dark" : null };
 }
 

@@ -34,6 +34,7 @@
 #include "front/movable_model.h"
 #include "front/up_axis.h"
 #include "gltf/skin.h"
+#include "model/bitmap.h"
 #ifdef FLBC_LINKS_CGAL
 #include "flbc/cage_from_model.h"
 #include "flbc/repair_cage.h"
@@ -256,6 +257,7 @@ class Work {
     if (name == "cageFile") return cage_file();
     if (name == "meshFile") return mesh_file();
     if (name == "modelFile") return model_file(pose(), text("extension", "obj"));
+    if (name == "picture") return picture(given);
     if (name == "drawing") return drawing(text("text"), given["placing"], pose());
     throw OptionError(name + ": there is no such step");
   }
@@ -602,6 +604,56 @@ class Work {
       auto result = val::object();
       result.set("text", document.moved(moving.deform(pose)));
       result.set("notes", from_json(Json(document.notes())));
+      return result;
+    }
+  }
+
+  // A picture where poses take it, and a sprite sheet of them if it has a name. Arguments as in
+  // flbc.d.ts.
+  val picture(const val& given) {
+    if constexpr (Dim == 3) {
+      throw InputError("a picture needs a model in 2D");
+    } else {
+      const auto pixels = given["pixels"];
+      const io::Bitmap source{
+          pixels["width"].template as<Index>(), pixels["height"].template as<Index>(), 4, 255,
+          emscripten::convertJSArrayToNumberVector<std::uint16_t>(pixels["data"])};
+      std::vector<PointList<2>> poses;
+      for (const auto& pose : emscripten::vecFromJSArray<val>(given["poses"])) {
+        poses.push_back(pose_in(pose));
+      }
+      const auto has = [&](const char* key) { return !given[key].isUndefined(); };
+      Vector<2> size(0, 0);
+      if (has("size")) size = matrix_in<PointList<2>>(given["size"]).col(0);
+      const auto number = [&](const char* key, double usual) {
+        return has(key) ? given[key].template as<double>() : usual;
+      };
+      const auto shown = [](const io::Bitmap& moved) {
+        auto result = from_json({{"width", moved.width},
+                                 {"height", moved.height},
+                                 {"left", moved.left},
+                                 {"top", moved.top}});
+        result.set("data",
+                   array_of(std::vector<std::uint8_t>(moved.samples.begin(), moved.samples.end())));
+        return result;
+      };
+      const auto sheet = has("sheet") ? given["sheet"].template as<std::string>() : "";
+      std::vector<io::Bitmap> cells;
+      std::vector<std::string> names;
+      auto frames = val::array();
+      io::warp(source, binding(), poses, number("scale", 1), size,
+               [&](std::size_t k, io::Bitmap moved) {
+                 frames.call<void>("push", shown(moved));
+                 names.push_back(app::with_number("frame_%04d.png", std::int64_t(k) + 1));
+                 if (!sheet.empty()) cells.push_back(std::move(moved));
+               });
+      auto result = val::object();
+      result.set("frames", frames);
+      if (sheet.empty()) return result;
+      std::string json;
+      const double seconds = 1 / number("fps", 12);
+      result.set("sheet", shown(io::sprite_sheet(cells, names, sheet, seconds, json)));
+      result.set("json", json);
       return result;
     }
   }
