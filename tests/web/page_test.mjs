@@ -708,7 +708,7 @@ async function testGizmo() {
   const { mouse, keyboard } = tab;
   for (const [name, dim] of [["3d/limb", 3], ["2d/figure", 2]]) {
     await app.drop([join(meshes, `${name}_model.obj`)]);
-    await tab.waitForFunction((title) => document.title.startsWith(title), { timeout: 60000 }, basename(name));
+    await tab.waitForFunction((title) => document.title.startsWith(title), { timeout: 120000 }, basename(name));
     await app.shown();
     assert.equal(await tab.$$eval("#gizmo g", (handles) => handles.length), 0);
     const canvas = await (await tab.$("#canvas")).boundingBox();

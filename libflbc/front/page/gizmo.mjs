@@ -46,7 +46,7 @@ export class Gizmo {
       return at(u, v, radius * Math.cos(turned), radius * Math.sin(turned));
     });
     const all = ["x", "y", "z"].slice(0, dim), handles = [];
-    const put = (kind, names, line, toolOf = tool) => handles.push({ kind, names, line, tool: toolOf, id: `${kind} ${names}` });
+    const put = (kind, names, line, does) => handles.push({ kind, names, line, tool: does, id: `${kind} ${names}` });
     const canTurn = editor.pivot || editor.softness > 0 || editor.selection.size > 1;
     const center = camera.project(middle);
     put("center", axis ?? "", [center], "move");
