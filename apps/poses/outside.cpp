@@ -165,8 +165,8 @@ void print_joint(const Binding<Dim>& before, const Binding<Dim>& joined, const J
   } else {
     facts << band << (band == 1 ? " cell" : " cells");
   }
-  facts << "; slope of the displacement at the border " << slopes[1] << " (without the joint: "
-        << slopes[0] << ")";
+  facts << "; slope of the displacement at the border " << slopes[1]
+        << " (without the joint: " << slopes[0] << ")";
   if (band >= 0 && band < 3) facts << "; fewer than 3 cells: take a larger mass, or a finer mesh";
   std::cerr << "flbc: " << facts.text() << '\n';
 }

@@ -82,8 +82,8 @@ TEST_F(CageCommand, BridgedGapsAreReported) {
   std::string vertices, faces;
   int count = 0;
   for (const auto& [low, high] : {std::pair(Vector<3>(-1, -1, -0.5), Vector<3>(1, 1, 0.1)),
-                                  std::pair(Vector<3>(-0.625, -0.3, 0), Vector<3>(-0.025, 0.3, 2)),
-                                  std::pair(Vector<3>(0.025, -0.3, 0), Vector<3>(0.625, 0.3, 2))}) {
+                                  std::pair(Vector<3>(-0.75, -0.3, 0), Vector<3>(-0.15, 0.3, 2)),
+                                  std::pair(Vector<3>(0.15, -0.3, 0), Vector<3>(0.75, 0.3, 2))}) {
     const auto box = box_cage<3>(low, high);
     for (const auto& p : box.points.colwise()) {
       vertices += 'v';
@@ -100,7 +100,7 @@ TEST_F(CageCommand, BridgedGapsAreReported) {
   const auto model = file("pillars.obj", vertices + faces);
   const auto result = expect("cage " + model + " --control-points 16 -o cage.obj");
   expect_piece(result.errors, "pillars.obj: the cage bridges 1 narrow gap of the model at (");
-  expect_piece(result.errors, "(0.05 wide), so parts on both sides move together");
+  expect_piece(result.errors, "(0.3 wide), so parts on both sides move together");
 }
 
 TEST_F(CageCommand, RefusesWithReason) {

@@ -67,7 +67,8 @@ class RunCommand : public CommandLineTest {
     expect_same("sparsify w.npy --cage " + cage + " --points " + model +
                     " -k 6 --reduction poisson --pose " + pose,
                 "s.mtx", "out/sparse_weights.mtx", " --report sparsify.json");
-    expect_same("deform " + model + " --weights s.mtx --pose " + pose, "m.obj", "out/deformed.obj");
+    expect_same("deform " + model + " --weights s.mtx --rest " + cage + " --pose " + pose, "m.obj",
+                "out/deformed.obj");
     expect_same("export " + model + " --weights s.mtx --cage " + cage + " --fps 1 --pose " + cage +
                     " " + pose,
                 "m.glb", "out/model_8.glb");
@@ -122,8 +123,8 @@ TEST_F(RunCommand, MovesTheMeshIfThereIsNoModel) {
               (Names{"domain" + extension, "weights.npy", "sparse_weights.mtx", "binding.npz",
                      "deformed" + extension, "model.glb", "model_8.glb", "function.png",
                      "deformation.png", "model.html", "report.json"}));
-    expect_same("deform " + domain + " --weights out/sparse_weights.mtx --pose " + pose,
-                "m" + extension, "out/deformed" + extension);
+    expect_same("deform " + domain + " --weights out/binding.npz --pose " + pose, "m" + extension,
+                "out/deformed" + extension);
     fs::remove_all("out");
   }
 }

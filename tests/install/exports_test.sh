@@ -10,6 +10,7 @@ fail() {
   status=1
 }
 version=$(sed -n 's/set(FLBC_VERSION \(.*\))/\1/p' "$source/cmake/version.cmake")
+version=${version%-dev}
 exported() { nm -D --defined-only "$1" | awk '{print $3}'; }
 for name in flbc flbc_io; do
   library=$(find "$work" -name "lib$name.so.$version")

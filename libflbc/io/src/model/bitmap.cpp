@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/parallel.h"
 #include "flbc/errors.h"
 #include "flbc/version.h"
 
@@ -219,8 +220,8 @@ Bitmap render(const Source& source, const std::vector<Triangle>& triangles, cons
   constexpr Index kRows = 32;  // that one thread paints
   auto result = blank(source.picture, canvas);
   const auto width = static_cast<std::size_t>(result.width);
-#pragma omp parallel for schedule(dynamic)
-  for (Index top = canvas.min().y(); top < canvas.max().y(); top += kRows) {
+  parallel_for((result.height + kRows - 1) / kRows, [&](Index block) {
+    const Index top = canvas.min().y() + kRows * block;
     std::vector<char> covered(width * kRows);
     Box part = canvas;
     part.min().y() = top;
@@ -234,7 +235,7 @@ Bitmap render(const Source& source, const std::vector<Triangle>& triangles, cons
               &covered[pixel]);
       });
     }
-  }
+  });
   return result;
 }
 
