@@ -345,7 +345,9 @@ class Caging {
                              : make_close(surface, size.offset, most_volume(), edge);
       if (!other) continue;
       other->bridged_gaps = gaps.bridged_by(other->cage);
-      if (other->bridged_gaps.size() >= count) continue;
+      // With few control points, a cage of a finer wrap can be larger and cut the gap only in part.
+      const bool is_smaller = measure_cage(other->cage).measure < measure_cage(made.cage).measure;
+      if (other->bridged_gaps.size() >= count || !is_smaller) continue;
       other->may_part = made.may_part;
       made = *other;
       return;
