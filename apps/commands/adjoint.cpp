@@ -12,6 +12,7 @@
 #include "flbc/io/weights_io.h"
 #include "front/bound_model.h"
 #include "front/load.h"
+#include "poses/outside.h"
 
 namespace flbc::app {
 namespace {
@@ -83,10 +84,7 @@ PointList<Dim> read_su2(const std::string& path, const std::string& content, Ind
 template <int Dim>
 void adjoint(const AdjointArguments& arguments) {
   auto binding = load_binding<Dim>(arguments.files);
-  if (!arguments.joint.empty()) {
-    binding = naming(arguments.files.weights,
-                     [&] { return binding.joined(parse_joint(arguments.joint)); });
-  }
+  join(binding, arguments.joint, arguments.files.weights);
   const auto& path = arguments.gradients;
   std::string content;
   if (io::extension_of(path) == "csv") content = io::read_file(path);

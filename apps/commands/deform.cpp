@@ -276,12 +276,7 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
   std::optional<PointJacobians<Dim>> jacobians;
   if (arguments.method.empty()) {
     binding = bind_model(model, poses.front(), arguments);
-    if (!arguments.joint.empty()) {
-      const auto joint = parse_joint(arguments.joint);
-      const auto joined = naming(arguments.file.model, [&] { return binding.joined(joint); });
-      if (!arguments.quiet) print_joint(binding, joined, joint, arguments.file.model, poses);
-      binding = joined;
-    }
+    join(binding, arguments.joint, arguments.file.model, arguments.quiet ? nullptr : &poses);
     if (needs_jacobians(arguments)) jacobians = binding.point_jacobians();
     if (!arguments.quiet && !arguments.is_relative && model.drawing() == nullptr) {
       warn_outside(binding, arguments.file.model);

@@ -8,6 +8,7 @@
 #include "front/bound_model.h"
 #include "front/load.h"
 #include "front/model_facets.h"
+#include "poses/outside.h"
 
 namespace flbc::app {
 namespace {
@@ -23,9 +24,7 @@ template <int Dim>
 void fit(const FitArguments& arguments) {
   auto binding =
       load_binding<Dim>(arguments.files, arguments.model, load_model<Dim>(arguments.model), {});
-  if (!arguments.joint.empty()) {
-    binding = naming(arguments.model, [&] { return binding.joined(parse_joint(arguments.joint)); });
-  }
+  join(binding, arguments.joint, arguments.model);
   const auto targets = load_model<Dim>(arguments.target);
   const auto found =
       naming(arguments.target, [&] { return binding.fit(targets, arguments.options); });

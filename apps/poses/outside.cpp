@@ -16,12 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<bool> are_still(const SparseWeights& weights) {
-  std::vector<bool> still(static_cast<std::size_t>(weights.num_points()));
-  for (Index p = 0; p < weights.num_points(); ++p) still[p] = !weights.has_weights(p);
-  return still;
-}
-
 // Twice the area.
 double area_of(const PointList<2>& points, const std::vector<Index>& polygon) {
   double area = 0;
@@ -82,6 +76,45 @@ Index cells_of_joint(const Binding<Dim>& before, const Binding<Dim>& joined, con
   return -1;
 }
 
+// Prints which control points a joint holds, how many cells it spans, and the largest slope of the
+// displacement at the border in the poses, before and after.
+// \param before  the binding without the joint
+template <int Dim>
+void print_joint(const Binding<Dim>& before, const Binding<Dim>& joined, const Joint& joint,
+                 const std::string& file, const std::vector<Pose<Dim>>& poses) {
+  const auto rest = before.rest();
+  const auto crossings = find_crossings(before.cage, rest, are_still(before.weights), before.edges);
+  double slopes[2] = {0, 0};
+  for (const auto& pose : poses) {
+    const PointList<Dim> moved[2] = {before.deform(pose.points), joined.deform(pose.points)};
+    for (const auto& crossing : crossings) {
+      Vector<Dim> place = Vector<Dim>::Zero();
+      for (int k = 0; k < Dim; ++k) {
+        place +=
+            crossing.coordinates[k] * before.cage.points.col(before.cage.facets(k, crossing.facet));
+      }
+      const Index inner = crossing.ends[0];
+      const double distance = (rest.col(inner) - place).norm();
+      if (distance <= kBoundaryTolerance * bounding_box_diagonal(before.cage.points)) continue;
+      for (int k = 0; k < 2; ++k) {
+        slopes[k] = std::max(slopes[k], (moved[k].col(inner) - rest.col(inner)).norm() / distance);
+      }
+    }
+  }
+  const Index band = cells_of_joint(before, joined, joint, crossings);
+  Facts facts;
+  facts << file << ": the joint holds control points " << app::joined(joined.held) << " and spans ";
+  if (band < 0) {
+    facts << "the whole mesh";
+  } else {
+    facts << band << (band == 1 ? " cell" : " cells");
+  }
+  facts << "; slope of the displacement at the border " << slopes[1]
+        << " (without the joint: " << slopes[0] << ")";
+  if (band >= 0 && band < 3) facts << "; fewer than 3 cells: take a larger mass, or a finer mesh";
+  std::cerr << "flbc: " << facts.text() << '\n';
+}
+
 }  // namespace
 
 template <int Dim>
@@ -136,39 +169,13 @@ void warn_border(const Binding<Dim>& binding, const std::string& file,
 }
 
 template <int Dim>
-void print_joint(const Binding<Dim>& before, const Binding<Dim>& joined, const Joint& joint,
-                 const std::string& file, const std::vector<Pose<Dim>>& poses) {
-  const auto rest = before.rest();
-  const auto crossings = find_crossings(before.cage, rest, are_still(before.weights), before.edges);
-  double slopes[2] = {0, 0};
-  for (const auto& pose : poses) {
-    const PointList<Dim> moved[2] = {before.deform(pose.points), joined.deform(pose.points)};
-    for (const auto& crossing : crossings) {
-      Vector<Dim> place = Vector<Dim>::Zero();
-      for (int k = 0; k < Dim; ++k) {
-        place +=
-            crossing.coordinates[k] * before.cage.points.col(before.cage.facets(k, crossing.facet));
-      }
-      const Index inner = crossing.ends[0];
-      const double distance = (rest.col(inner) - place).norm();
-      if (distance <= kBoundaryTolerance * bounding_box_diagonal(before.cage.points)) continue;
-      for (int k = 0; k < 2; ++k) {
-        slopes[k] = std::max(slopes[k], (moved[k].col(inner) - rest.col(inner)).norm() / distance);
-      }
-    }
-  }
-  const Index band = cells_of_joint(before, joined, joint, crossings);
-  Facts facts;
-  facts << file << ": the joint holds control points " << app::joined(joined.held) << " and spans ";
-  if (band < 0) {
-    facts << "the whole mesh";
-  } else {
-    facts << band << (band == 1 ? " cell" : " cells");
-  }
-  facts << "; slope of the displacement at the border " << slopes[1]
-        << " (without the joint: " << slopes[0] << ")";
-  if (band >= 0 && band < 3) facts << "; fewer than 3 cells: take a larger mass, or a finer mesh";
-  std::cerr << "flbc: " << facts.text() << '\n';
+void join(Binding<Dim>& binding, const std::string& text, const std::string& file,
+          const std::vector<Pose<Dim>>* poses) {
+  if (text.empty()) return;
+  const auto joint = parse_joint(text);
+  auto joined = naming(file, [&] { return binding.joined(joint); });
+  if (poses != nullptr) print_joint(binding, joined, joint, file, *poses);
+  binding = std::move(joined);
 }
 
 template <int Dim>
@@ -197,8 +204,8 @@ void warn_inverted(const MovableModel<Dim>& model, const PointList<Dim>& posed,
   template void warn_border(const Binding<Dim>&, const std::string&,                               \
                             const std::vector<Pose<Dim>>&);                                        \
   template Json border_json(const Binding<Dim>&, const std::vector<Pose<Dim>>&);                   \
-  template void print_joint(const Binding<Dim>&, const Binding<Dim>&, const Joint&,                \
-                            const std::string&, const std::vector<Pose<Dim>>&);                    \
+  template void join(Binding<Dim>&, const std::string&, const std::string&,                        \
+                     const std::vector<Pose<Dim>>*);                                               \
   template void warn_inverted(const MovableModel<Dim>&, const PointList<Dim>&, const std::string&, \
                               const std::string&);
 FLBC_INSTANTIATE(2)

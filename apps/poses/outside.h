@@ -28,12 +28,13 @@ template <int Dim>
 void warn_border(const Binding<Dim>& binding, const std::string& file,
                  const std::vector<Pose<Dim>>& poses);
 
-// Prints which control points a joint holds, how many cells it spans, and the largest slope of the
-// displacement at the border in the poses, before and after.
-// \param before  the binding without the joint \param file  of the model
+// Makes the joint of --joint, unless the text is empty. For poses, it prints which control points
+// the joint holds, how many cells it spans, and the slope of the displacement at the border before
+// and after.
+// \param file  of the model or the binding, for messages \param poses  null: nothing is printed
 template <int Dim>
-void print_joint(const Binding<Dim>& before, const Binding<Dim>& joined, const Joint& joint,
-                 const std::string& file, const std::vector<Pose<Dim>>& poses);
+void join(Binding<Dim>& binding, const std::string& joint, const std::string& file,
+          const std::vector<Pose<Dim>>* poses = nullptr);
 
 // Prints how many cells of a volume mesh, or polygons of a model in the plane, are inverted in a
 // pose, if there are any. Surfaces have none.

@@ -114,12 +114,7 @@ void reduce_influences(Run<Dim>& run) {
   const auto& before = run.weights();
   const auto& after = run.reduced.weights;
   const auto error = error_of_reduction(run, poses);
-  if (!run.arguments.joint.empty()) {
-    const auto joint = parse_joint(run.arguments.joint);
-    auto joined = naming(file, [&] { return run.reduced.joined(joint); });
-    if (!run.arguments.quiet) print_joint(run.reduced, joined, joint, file, run.poses());
-    run.reduced = std::move(joined);
-  }
+  join(run.reduced, run.arguments.joint, file, run.arguments.quiet ? nullptr : &run.poses());
   if (method != kPoisson) run.reduced.edges = {};  // later reductions are alike
   run.folder.add(kSparseWeights, facts_of(before, after, error, poses.size()),
                  [&](const std::string& path) { io::write_weights(path, after); });

@@ -181,15 +181,7 @@ TEST_IN_2D_AND_3D(FalloffTest, EveryWayToSolveAgrees) {
     const auto weights = solution.weights.dense();
     EXPECT_LT(mean_squared_difference(sample.mesh, weights, optimum), 4e-6) << what;
   };
-  const auto solution = solve(sample.cage, sample.mesh, options);
-  EXPECT_EQ(solution.report.coarse_levels.size(), 1u);
-  expect_optimal("from the coarse mesh", solution);
-  expect_optimal("cold", solve(sample.cage, in_other_order(sample.mesh), options));
-  const auto plain = smooth_problem(sample);
-  expect_optimal("a problem without", solve(plain, options));
-  auto given = plain;
-  given.phi = WeightFunctions(plain.phi.dense());
-  expect_optimal("given phi", solve(given, options));
+  solve_in_every_way(sample, options, expect_optimal);
 
   auto others = std::vector<SolverOptions>(4, options);
   others[0].masks.clear();

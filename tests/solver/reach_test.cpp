@@ -76,15 +76,7 @@ TEST_IN_2D_AND_3D(ReachTest, EveryWayToSolveAgrees) {
     const double own = objective(divided, solution.weights);
     EXPECT_NEAR(solution.report.objective * std::pow(divided.scale, Dim - 1), own, 1e-9 * own);
   };
-  const auto solution = solve(sample.cage, sample.mesh, options);
-  EXPECT_EQ(solution.report.coarse_levels.size(), 1u);
-  expect_optimal("from the coarse mesh", solution);
-  expect_optimal("cold", solve(sample.cage, in_other_order(sample.mesh), options));
-  const auto plain = smooth_problem(sample);
-  expect_optimal("a problem without", solve(plain, options));
-  auto given = plain;
-  given.phi = WeightFunctions(plain.phi.dense());
-  expect_optimal("given phi", solve(given, options));
+  solve_in_every_way(sample, options, expect_optimal);
 }
 
 TEST_IN_2D_AND_3D(ReachTest, ALargerFactorExtendsWeights) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "flbc/nested_mesh.h"
+#include "support/solver_options.h"
 #include "support/test.h"
 
 namespace flbc::testing {
@@ -32,6 +33,23 @@ template <int Dim>
 DomainMesh<Dim> in_other_order(DomainMesh<Dim> mesh) {
   mesh.cells.col(0).swap(mesh.cells.col(1));
   return mesh;
+}
+
+//! Solves from a coarse mesh, cold, and by problems that were made before, with their phi or with
+//! given functions.
+//! \param expect_optimal  gets the name of each way and its solution
+template <int Dim, class Expect>
+void solve_in_every_way(const Sample<Dim>& sample, const SolverOptions& options,
+                        const Expect& expect_optimal) {
+  const auto solution = solve(sample.cage, sample.mesh, options);
+  EXPECT_EQ(solution.report.coarse_levels.size(), 1u);
+  expect_optimal("from the coarse mesh", solution);
+  expect_optimal("cold", solve(sample.cage, in_other_order(sample.mesh), options));
+  const auto plain = smooth_problem(sample);
+  expect_optimal("a problem without", solve(plain, options));
+  auto given = plain;
+  given.phi = WeightFunctions(plain.phi.dense());
+  expect_optimal("given phi", solve(given, options));
 }
 
 }  // namespace flbc::testing

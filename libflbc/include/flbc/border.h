@@ -8,6 +8,7 @@
 
 #include "flbc/cage.h"
 #include "flbc/domain_mesh.h"
+#include "flbc/sparse_weights.h"
 #include "flbc/types.h"
 
 namespace flbc {
@@ -19,6 +20,9 @@ struct BorderCrossing {
   Index facet = -1;
   Vector<Dim> coordinates = Vector<Dim>::Zero();  //!< barycentric in the facet: >= 0, sum 1
 };
+
+//! Whether each point has no weights, so that it does not move.
+std::vector<bool> are_still(const SparseWeights& weights);
 
 //! Finds where edges between vertices that move and vertices that do not pass through the cage.
 //! Time is proportional to the number of such edges times the number of facets.

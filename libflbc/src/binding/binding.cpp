@@ -138,7 +138,13 @@ PointList<Dim> Binding<Dim>::deform(const PointList<Dim>& control_points) const 
                      format_number(moves.col(i).norm()) +
                      "; leave it at rest, because the mesh passes through the cage there");
   }
-  return rest() + flbc::deform<Dim>(weights, moves);
+  PointList<Dim> moved = flbc::deform<Dim>(weights, moves);
+  if (offsets.cols() == 0) {
+    moved += points;
+  } else {
+    moved += rest();
+  }
+  return moved;
 }
 
 template <int Dim>

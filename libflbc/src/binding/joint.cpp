@@ -49,9 +49,7 @@ Binding<Dim> Binding<Dim>::joined(const Joint& joint) const {
   if (cage.facets.cols() == 0) {
     throw InputError("joint: the binding does not know the facets of its cage; set Binding::cage");
   }
-  std::vector<bool> is_still(static_cast<std::size_t>(weights.num_points()));
-  for (Index p = 0; p < weights.num_points(); ++p) is_still[p] = !weights.has_weights(p);
-  const auto crossings = find_crossings(cage, rest(), is_still, edges);
+  const auto crossings = find_crossings(cage, rest(), are_still(weights), edges);
   if (crossings.empty()) {
     throw InputError(
         "joint: no edge of the model passes through the cage to a vertex that stays; bind the "

@@ -38,6 +38,12 @@ bool cross(const Cage<Dim>& cage, Eigen::Index facet, const Vector<Dim>& from,
 
 }  // namespace
 
+std::vector<bool> are_still(const SparseWeights& weights) {
+  std::vector<bool> still(static_cast<std::size_t>(weights.num_points()));
+  for (Index p = 0; p < weights.num_points(); ++p) still[p] = !weights.has_weights(p);
+  return still;
+}
+
 template <int Dim>
 std::vector<BorderCrossing<Dim>> find_crossings(const Cage<Dim>& cage, const PointList<Dim>& points,
                                                 const std::vector<bool>& is_still,
