@@ -85,7 +85,8 @@ for reader in "${readers[@]}"; do
     "$(find "$work/findings/$reader" -type f | wc -l)"
   if [ -e "$work/$reader.failed" ]; then
     failed=1
-    echo "$reader: a finding; see build/fuzz/$reader.log" >&2
+    echo "$reader: a finding; the end of build/fuzz/$reader.log:" >&2
+    tail -40 "$log" >&2
   fi
 done
 exit $failed

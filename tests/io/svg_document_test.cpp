@@ -200,6 +200,16 @@ TEST(SvgDocumentTest, CopiesAndClipsBendWhereTheyAre) {
   EXPECT_NE(text.find("<clipPath id=\"c-2\">"), std::string::npos) << text;
 }
 
+// Each copy of such a clip would need the next one.
+TEST(SvgDocumentTest, ClipsInsideThemselvesAreNotCopied) {
+  const auto document = document_of(
+      R"svg(<clipPath id="c"><path transform="translate(9)" clip-path="url(#d)" d="M0 0h9v9z"/></clipPath>
+      <clipPath id="d"><path transform="translate(9)" clip-path="url(#c)" d="M0 0h9v9z"/></clipPath>
+      <path clip-path="url(#c)" d="M0 0L90 90"/><path transform="translate(9)" clip-path="url(#d)" d="M0 0L90 90"/>)svg");
+  const auto text = document.moved(mapped(document.points(), bent));
+  EXPECT_LT(text.size(), 3000U) << text;
+}
+
 TEST(SvgDocumentTest, TextMovesByTheSimilarityOfItsPlace) {
   const auto document = document_of(R"svg(<text x="50" y="50" font-size="20">a</text>)svg");
   Eigen::Affine2d map = Eigen::Translation2d(5, 6) * Eigen::Rotation2D<double>(0.5);

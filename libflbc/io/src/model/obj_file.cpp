@@ -258,11 +258,11 @@ class ObjReader {
     if (reads_attributes_) add_sites(scan_, places, kind, static_cast<Index>(index));
   }
 
-  // Numbers outside [0, 1] are not colors.
+  // Numbers outside [0, 1], and NaN, are not colors.
   void finish_colors() {
     const bool are_colors = colors_.size() == model_.soup.points.size() &&
                             std::all_of(colors_.begin(), colors_.end(), [](const Vector<3>& color) {
-                              return color.minCoeff() >= 0 && color.maxCoeff() <= 1;
+                              return (color.array() >= 0 && color.array() <= 1).all();
                             });
     if (are_colors) {
       model_.attributes.colors = to_matrix<3>(colors_);

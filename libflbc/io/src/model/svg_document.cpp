@@ -257,6 +257,7 @@ struct SvgDocument::Content {
     xml_node node;
     Affine2 to_root;
     Size view;
+    std::vector<std::string> clips{};  // around the element, by id
   };
 
   std::string name;
@@ -268,7 +269,7 @@ struct SvgDocument::Content {
   double drawing_size = 0;
   std::map<std::string, std::string> clips{};  // that were visited: their transform
   std::set<std::string> used_gradients{};
-  int copies = 0;
+  int copies = 0, last_id = 1;
 
   void note(const std::string& text) {
     if (std::find(notes.begin(), notes.end(), text) == notes.end()) notes.push_back(text);
@@ -309,11 +310,12 @@ struct SvgDocument::Content {
     return copy;
   }
 
-  std::string free_id(const std::string& id) const {
-    for (int k = 2;; ++k) {
-      auto other = id + "-" + std::to_string(k);
-      if (by_id.count(other) == 0) return other;
-    }
+  std::string free_id(const std::string& id) {
+    std::string other;
+    do {
+      other = id + "-" + std::to_string(++last_id);
+    } while (by_id.count(other) > 0);
+    return other;
   }
 
   // Replaces <use> by a group with a copy of what it shows. \return the group, or null
@@ -338,12 +340,17 @@ struct SvgDocument::Content {
   }
 
   // Clips and masks bend with what they clip. One of elements in other places is copied.
-  void visit_clip(xml_node node, const char* property, const Affine2& to_root, const Size& view,
-                  std::vector<Visit>& open) {
+  // \param inside  the element with its own transform
+  void visit_clip(const Visit& inside, const char* property, std::vector<Visit>& open) {
+    const auto& [node, to_root, view, around] = inside;
     const auto reference = property_of(node, property);
     const auto id = id_in(reference);
     const auto found = by_id.find(id);
     if (found == by_id.end()) return;
+    // An element inside a clip may not be clipped by that clip: it would be copied forever.
+    if (std::find(around.begin(), around.end(), id) != around.end()) return;
+    auto clips_inside = around;
+    clips_inside.push_back(id);
     auto clip = found->second;
     const char* const units = local_name(clip) == "mask" ? "maskContentUnits" : "clipPathUnits";
     if (clip.attribute(units).value() == std::string("objectBoundingBox")) {
@@ -360,7 +367,7 @@ struct SvgDocument::Content {
     }
     for (const auto& child : clip.children()) {
       if (child.type() == pugi::node_element)
-        open.push_back({child, to_root * transform_of(clip), view});
+        open.push_back({child, to_root * transform_of(clip), view, clips_inside});
     }
   }
 
@@ -477,8 +484,8 @@ struct SvgDocument::Content {
       kind = "g";
     }
     const Affine2 inside = to_root * transform_of(node);
-    visit_clip(node, "clip-path", inside, view, open);
-    visit_clip(node, "mask", inside, view, open);
+    visit_clip({node, inside, view, visit.clips}, "clip-path", open);
+    visit_clip({node, inside, view, visit.clips}, "mask", open);
     if (is_one_of(kind, kPathShapes)) return add_shape(node, to_root, view);
     if (is_one_of(kind, " text image foreignObject ")) return add_moving(node, to_root, view);
     Affine2 own = inside;
@@ -489,7 +496,7 @@ struct SvgDocument::Content {
       own = inside * view_of(node, corner, view);
     }
     for (auto child = node.last_child(); child; child = child.previous_sibling()) {
-      if (child.type() == pugi::node_element) open.push_back({child, own, view});
+      if (child.type() == pugi::node_element) open.push_back({child, own, view, visit.clips});
     }
   }
 
