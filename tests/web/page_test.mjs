@@ -256,6 +256,32 @@ async function testShapes() {
   await app.moveOne(30, 20);
   const inPose = numbersOf(await app.saved("[data-save=drawing]", "shape_posed.svg"));
   assert.ok(inPose.some((value, k) => Math.abs(value - atRest[k]) > 1), String(inPose));
+
+  // Its animation plays as an image: after half a second it looks otherwise.
+  await app.type("k");
+  await app.moveOne(-30, 20);
+  await app.type("k");
+  const playing = readFileSync(await app.saved("[data-save=playing]", "shape_animated.svg"), "utf8");
+  assert.equal(playing.match(/<image /g).length, 13);
+  const looks = await app.tab.evaluate(async (source) => {
+    const image = new Image();
+    image.src = `data:image/svg+xml;utf8,${encodeURIComponent(source)}`;
+    document.body.append(image);
+    await image.decode();
+    const canvas = Object.assign(document.createElement("canvas"), { width: 90, height: 80 });
+    const context = canvas.getContext("2d", { willReadFrequently: true });
+    const seen = new Set();
+    for (let k = 0; k < 20; ++k) {
+      await new Promise((done) => { setTimeout(done, 50); });
+      context.clearRect(0, 0, 90, 80);
+      context.drawImage(image, 0, 0, 90, 80);
+      const { data } = context.getImageData(0, 0, 90, 80);
+      if (data.some((value) => value > 0)) seen.add(String(data));
+    }
+    image.remove();
+    return seen.size;
+  }, playing);
+  assert.ok(looks > 2, String(looks));
   await app.tab.$eval("[data-do=home]", (button) => button.click());
   await app.tab.$eval("[data-do=draw]", (button) => button.click());
   const board = await (await app.tab.$("#sketch")).boundingBox();

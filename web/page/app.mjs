@@ -15,7 +15,7 @@ import { cageToObj, mergePoints, splitEdge } from "./cage_edits.mjs";
 import { decoded } from "./decoding.mjs";
 import { bindProtecting, Protector } from "./protecting.mjs";
 import { bindReshaping, Reshaper } from "./reshaping.mjs";
-import { pngOf, zipOf } from "./frames.mjs";
+import { playingDrawing, pngOf, zipOf } from "./frames.mjs";
 import { readPicture, Sketch, wholePicture } from "./shapes.mjs";
 
 const kVertices = 6000;   // of the mesh of the interior
@@ -310,7 +310,7 @@ class App {
     element("copyCommand").closest(".row").remove();
     for (const section of document.querySelectorAll(".solved")) section.hidden = !isSolved;
     element("background").hidden = !this.model.isCut;
-    document.querySelector("[data-save=drawing]").hidden = !this.model.drawing;
+    for (const button of document.querySelectorAll("[data-save=drawing], [data-save=playing]")) button.hidden = !this.model.drawing;
     document.querySelector(".photo").hidden = !this.model.photo;
     element("cageFile").addEventListener("change", ({ target }) => {
       const [file] = target.files;
@@ -403,23 +403,33 @@ class App {
     const { name: modelName, picture, drawing, photo } = this.model;
     const moved = async (places, options) => this.flbc.picture(
       { pixels: await wholePicture(photo), size: photo.size, poses: places.map(inFile), ...options });
+    // The points of the frames of the animation.
+    const frames = () => {
+      if (poses.length < 2) throw new Error("Add two keys to the timeline first");
+      const [{ time: begin }, { time: end }] = [poses[0], poses.at(-1)];
+      const times = Array.from({ length: Math.round((end - begin) * kFrames) + 1 }, (_, k) => begin + k / kFrames);
+      return times.map((time) => interpolatePoses(poses, time));
+    };
+    const bent = (places) => this.flbc.drawing(drawing.source, drawing.placing, inFile(places));
     const extension = /[^.]*$/.exec(modelName)[0].toLowerCase().replace("gltf", "glb");
     const kinds = {
       posed: async () => [`${title}_posed.${extension}`, await this.flbc.modelFile(points, extension)],
       drawing: async () => {
-        const { text, notes } = await this.flbc.drawing(drawing.source, drawing.placing, points);
+        const { text, notes } = await bent(editor.points);
         this.note = notes.length > 0 ? `Not bent: ${notes.join("; ")}` : "";
         return [`${title}_posed.svg`, text];
       },
       photo: async () => [`${title}_posed.png`, await pngOf((await moved([editor.points])).frames[0])],
+      playing: async () => {
+        const texts = [];
+        for (const places of frames()) texts.push((await bent(places)).text);
+        return [`${title}_animated.svg`, playingDrawing(texts, kFrames)];
+      },
       frames: async () => {
-        if (poses.length < 2) throw new Error("Add two keys to the timeline first");
-        const [{ time: begin }, { time: end }] = [poses[0], poses.at(-1)];
-        const times = Array.from({ length: Math.round((end - begin) * kFrames) + 1 }, (_, k) => begin + k / kFrames);
         const sheet = `${title}.png`;
-        const { frames, sheet: cells, json } = await moved(times.map((time) => interpolatePoses(poses, time)), { sheet, fps: kFrames });
+        const { frames: pictures, sheet: cells, json } = await moved(frames(), { sheet, fps: kFrames });
         const files = { [sheet]: await pngOf(cells), [`${title}.json`]: new TextEncoder().encode(json) };
-        for (const [k, frame] of frames.entries()) files[`frame_${String(k + 1).padStart(4, "0")}.png`] = await pngOf(frame);
+        for (const [k, frame] of pictures.entries()) files[`frame_${String(k + 1).padStart(4, "0")}.png`] = await pngOf(frame);
         return [`${title}_frames.zip`, zipOf(files)];
       },
       cage: async () => [`${title}_cage.obj`, await this.flbc.cageFile()],

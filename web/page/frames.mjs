@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures as files, and several of them in one.
+// Pictures and drawings as files, and several of them in one.
 
 // \return the bytes of a .png file
 export async function pngOf({ data, width, height }) {
@@ -8,6 +8,24 @@ export async function pngOf({ data, width, height }) {
   const blob = await new Promise((done) => { canvas.toBlob(done, "image/png"); });
   if (!blob) throw new Error(`The browser cannot save a picture of ${width} x ${height} pixels`);
   return new Uint8Array(await blob.arrayBuffer());
+}
+
+// A drawing that shows drawings one after the other, without a script. Each one is an image, so their
+// ids do not clash. \param texts  of .svg files with the same view \param fps  drawings per second
+export function playingDrawing(texts, fps) {
+  const view = new DOMParser().parseFromString(texts[0], "image/svg+xml").documentElement;
+  const sizes = ["viewBox", "width", "height"].filter((name) => view.hasAttribute(name));
+  const attributes = sizes.map((name) => `${name}="${view.getAttribute(name)}"`).join(" ");
+  const [x, y, width, height] = view.getAttribute("viewBox")?.split(/[\s,]+/) ?? [0, 0, "100%", "100%"];
+  const count = texts.length;
+  const images = texts.map((text, k) => {
+    const bytes = Array.from(new TextEncoder().encode(text), (byte) => String.fromCharCode(byte)).join("");
+    const changes = [["hidden", 0], ["visible", k / count], ["hidden", (k + 1) / count]].slice(k === 0 ? 1 : 0, k + 1 === count ? 2 : 3);
+    const [values, times] = [0, 1].map((part) => changes.map((change) => change[part]).join(";"));
+    return `<image x="${x}" y="${y}" width="${width}" height="${height}" visibility="${k === 0 ? "visible" : "hidden"}" href="data:image/svg+xml;base64,${btoa(bytes)}">`
+      + `<animate attributeName="visibility" calcMode="discrete" values="${values}" keyTimes="${times}" dur="${count / fps}s" repeatCount="indefinite"/></image>\n`;
+  });
+  return `<svg xmlns="http://www.w3.org/2000/svg" ${attributes}>\n${images.join("")}</svg>\n`;
 }
 
 function checksumOf(bytes) {
