@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that pages are short and their sentences plain, by the rules of docs/contributing/style.md.
+"""Checks that pages are short and their sentences plain, by the rules of docs/contributing/index.md.
 
 check_prose.py [PAGE...]   default: every page of the repository
 check_prose.py FOLDER      only the "Next" links of its pages
@@ -108,7 +108,7 @@ def check(path, text):
     for sentence in sentences(re.sub(NUMBER, "measured", text)):
         match = re.search(HASH, sentence) or (path.name not in LONG and re.search(MEASUREMENT, sentence))
         if match and not re.search(LIMIT, sentence):
-            yield f"'{match[0]}' without a marker (style.md, Numbers): {sentence}"
+            yield f"'{match[0]}' without a marker (docs/contributing/index.md, Numbers): {sentence}"
     for sentence, count in zip(found, counts):
         if count > LONGEST:
             yield f"{count} words; at most {LONGEST}: {sentence}"

@@ -110,8 +110,8 @@ std::string picture_3d(const DrawArguments& arguments) {
 }
 
 void add_options(CLI::App& command, DrawArguments& a) {
-  auto* model =
-      command.add_option("MODEL", a.model, "model or domain mesh; in 3D its surface is drawn");
+  auto* model = command.add_option("MODEL", a.model,
+                                   "model or domain mesh (required); in 3D its surface is drawn");
   command.add_option("--model", a.model)->excludes(model)->group("");  // of earlier versions
   command.add_option("--weights", a.files.weights, describe_weight_file())->required();
   add_cage_option(command, a.files.cage);

@@ -143,7 +143,7 @@ void add_solve_command(CLI::App& app, int& exit_status) {
   auto& settings = a.settings;
   auto* command = app.add_subcommand("solve", "compute the coordinates of a cage");
   command->footer(
-      "Weights sum to 1 and reproduce the vertices, also if the solve does not converge.\n"
+      "Weights of vertices inside sum to 1 and, except for bbw, reproduce them, converged or not.\n"
       "\n"
       "Examples:\n"
       "  flbc solve cage.obj --model model.obj -o binding.npz\n"

@@ -61,7 +61,7 @@ SIZE = [("model", "model"), ("n", "control_points"), ("V", "vertices:,.0f")]
 IN_2D = ("logo", "woody", "cactus", "figure", "letter", "ring")
 HARMONIC = [("Model", lambda row: row["model"] + " (2D)" * (row["model"] in IN_2D)),
             ("Control points", "control_points"), ("Mesh vertices", "vertices:,.0f"),
-            ("Influences: local", lambda row: f"**{value(row, 'mean_influences'):.1f}**"),
+            ("Influences: local", "mean_influences:.1f"),
             ("Influences: harmonic", "harmonic_influences:.1f"),
             ("Time: local, s", "total_seconds:.2f"), ("Time: harmonic, s", "harmonic_seconds:.2f")]
 MODELS = [*SIZE, ("cells", "cells:,.0f"), ("mesh, s", "mesh_seconds:.2f"),
@@ -111,5 +111,17 @@ def race(rows):
     return [header for header, _ in SIZE] + [f"{results.LABELS[name]}, s" for name in names], body
 
 
-TABLES = {"models": lines(*MODELS), "harmonic": lines(*HARMONIC), "race": race, "speed": lines(*SPEED),
+INFLUENCES = [("Model", lambda row: row["model"] + " (2D)" * (row["model"] in IN_2D)), ("Control points", "control_points"),
+              ("Model vertices", "points:,.0f"), ("Local", "local:.1f"), ("largest", "local_max"),
+              ("Local, reduced to 8", "reduced:.1f"), ("Harmonic", "harmonic:.1f"), ("largest", "harmonic_max")]
+
+
+def gaps(rows):
+    """Percent proven at each tolerance; a line per model."""
+    tolerances = results.in_order(row["tolerance"] for row in rows)
+    body = [[mine[0]["model"], *(f"{value(row, 'gap'):.2g}%" for row in mine)] for mine in by(rows, "model")]
+    return ["model", *tolerances], body
+
+
+TABLES = {"influences": lines(*INFLUENCES), "gaps": gaps, "models": lines(*MODELS), "harmonic": lines(*HARMONIC), "race": race, "speed": lines(*SPEED),
           "samples": lines(*SAMPLES), "table1": lines(*TABLE1), "table2": table2}

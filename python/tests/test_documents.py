@@ -22,7 +22,7 @@ def run(*arguments, **options):
 @pytest.mark.parametrize(
     "page, files",
     [
-        ("README.md", ["function.png"]),
+        ("README.md", ["moved.ply"]),
         ("docs/tutorials/python.md",
          ["function.png", "moved.ply", "model.html", "model.glb"]),
     ],

@@ -51,8 +51,8 @@ constexpr Index most_factored(int dim) {
 
 // ---- when a run ends ----------------------------------------------------------------------------
 
-//! Default smoothness. Poses crease a model no more than with harmonic coordinates, for 6% to 42%
-//! more influences (docs/explanation/smooth_weights.md).
+//! Default smoothness. Poses crease a model little more than with harmonic coordinates, for 7% to
+//! 40% more influences (docs/explanation/what_are_lbc.md).
 constexpr double kSmoothness = 0.003;
 //! Default tolerance. A mesh of 10,000 vertices is itself off by 2.5e-6 to 5e-6.
 constexpr double kTolerance = 1e-6;
