@@ -24,7 +24,10 @@ TOLERANCES = ("1e-6", "1e-7", "1e-8", "1e-9")
 
 def main(flbc, models, out):
     models, out = pathlib.Path(models), pathlib.Path(out)
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=SAMPLES, capture_output=True, text=True).stdout
+    bench = pathlib.Path(flbc).resolve().parent / "benchmarks" / "flbc_bench_paper"
+    commit, behavior = (subprocess.run(command, cwd=SAMPLES, check=True, capture_output=True, text=True).stdout.strip()
+                        for command in (["git", "rev-parse", "--short", "HEAD"], [bench, "--behavior"]))
+    origin = f"# commit {commit}; {behavior}"
     work = pathlib.Path(tempfile.mkdtemp())
 
     def run(*arguments, report):
@@ -38,7 +41,7 @@ def main(flbc, models, out):
 
     with (out / "influences.csv").open("w") as file:
         print("# influences at model vertices: control points with a weight above 1e-4, mean and largest; local: all, "
-              "and after the reduction to 8; independent of the machine", f"# commit {commit.strip()}",
+              "and after the reduction to 8; independent of the machine", origin,
               "model,control_points,points,local,local_max,reduced,reduced_max,harmonic,harmonic_max", sep="\n", file=file)
         for name, cage, model, vertices in (*MODELS, LIMB):
             cage, model, row = models / cage, models / model, []
@@ -52,7 +55,7 @@ def main(flbc, models, out):
             print(name, facts["control_points"], few["points"], *row, sep=",", file=file, flush=True)
     with (out / "gaps.csv").open("w") as file:
         print("# flbc solve --certify with 10,000 mesh vertices: gap proven at the tolerance, in percent of the objective; "
-              "independent of the machine", f"# commit {commit.strip()}",
+              "independent of the machine", origin,
               "model,tolerance,iterations,gap", sep="\n", file=file)
         for name, cage, _, _ in (*MODELS, LIMB):
             for tolerance in TOLERANCES:
