@@ -444,8 +444,8 @@ async function testWalk() {
   assert.deepEqual(made.map(({ time }) => time), [0, 1, 2, 3, 4]);
   for (const k of [0, 2, 4]) assert.deepEqual(made[k].points, rest);
   for (const [k, leg] of [[1, legs[0]], [3, legs[1]]]) {
-    const moved = rest.flatMap((place, c) => (Math.abs(place - made[k].points[c]) > 0.01 ? [Math.floor(c / 3)] : []));
-    assert.ok(moved.length > 10 && moved.every((i) => rest[3 * i] * rest[3 * leg] > 0), `key ${k} moves ${moved}`);
+    const moved = rest.filter((x, c) => c % 3 === 0 && [c + 1, c + 2].some((d) => Math.abs(rest[d] - made[k].points[d]) > 0.01));
+    assert.ok(moved.length > 5 && moved.reduce((sum, x) => sum + x) * rest[3 * leg] > 0, `key ${k} moves another leg`);
   }
 
   // The first step becomes longer, and all steps faster.
