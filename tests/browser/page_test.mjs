@@ -385,6 +385,9 @@ async function testKeptPoses(name, dim, pose) {
   writeFileSync(join(work, "other_poses.json"), JSON.stringify({ poses: [{ name: "a", picture: "data:image/png;,", steps: [1, 2, 3] }] }));
   await load(join(work, "other_poses.json"));
   await tab.waitForFunction(() => document.getElementById("note").textContent.includes("of a cage of 1 control point"));
+  writeFileSync(join(work, "broken_poses.json"), '{ "poses": [null');
+  await load(join(work, "broken_poses.json"));
+  await tab.waitForFunction(() => document.getElementById("note").textContent.includes("not a file of saved poses"));
   assert.equal(await count(), 0);
   await load(file);
   await tab.waitForSelector("#library img");

@@ -21,6 +21,17 @@ function pictureOf(viewer) {
   return picture.toDataURL("image/webp");
 }
 
+// \return null if there are none in the text
+function posesIn(text) {
+  const isPose = ({ name, picture, steps }) => typeof name === "string" && /^data:image\//.test(picture) && steps.every(Number.isFinite);
+  try {
+    const { poses } = JSON.parse(text);
+    return poses.every(isPose) ? poses : null;
+  } catch {
+    return null;
+  }
+}
+
 export class Library {
   // \param board  for the pictures
   constructor(viewer, board) {
@@ -45,7 +56,8 @@ export class Library {
   }
 
   keep() {
-    const { editor } = this.viewer;
+    const { editor, holdsModel } = this.viewer;
+    if (holdsModel) return;
     const numbers = this.poses.map(({ name }) => Number(/\d+$/.exec(name)));
     this.set([...this.poses, { name: `pose ${Math.max(0, ...numbers) + 1}`, picture: pictureOf(this.viewer),
                                steps: Array.from(editor.points, (place, k) => place - editor.rest[k]) }]);
@@ -67,9 +79,8 @@ export class Library {
 
   // \throws Error
   load(text) {
-    const { poses } = JSON.parse(text), { length } = this.viewer.editor.points;
-    const isPose = ({ name, picture, steps }) => typeof name === "string" && /^data:image\//.test(picture) && steps.every(Number.isFinite);
-    if (!poses?.every(isPose)) throw new Error("this is no file of saved poses");
+    const poses = posesIn(text), { length } = this.viewer.editor.points;
+    if (!poses) throw new Error("this is not a file of saved poses");
     const other = poses.find(({ steps }) => steps.length !== length);
     if (other) throw new Error(`is of a cage of ${other.steps.length / 3} control points, but this one has ${length / 3}`);
     this.set([...this.poses, ...poses]);
