@@ -6,12 +6,14 @@
 
 #include "commands/commands.h"
 #include "flbc/cage_facts.h"
+#include "flbc/cage_from_model.h"
 #include "flbc/errors.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/io/model_file.h"
 #include "flbc/io/weights_io.h"
 #include "front/bound_model.h"
 #include "front/load.h"
+#include "front/model_facets.h"
 #include "report/check_report.h"
 #include "report/report_json.h"
 
@@ -45,6 +47,16 @@ void check_model(CheckReport<Dim>& report) {
   }
   auto reach = least_reach(report.cage, points);
   report.model = ModelCheck<Dim>{std::move(points), std::move(outside), farthest, reach};
+#ifdef FLBC_LINKS_CGAL
+  if (is_point_file(report.model_file)) return;  // there are no facets with gaps between them
+  const auto model = load_model_facets(report.model_file);
+  if (const auto* own = std::get_if<ModelFacets<Dim>>(&model)) {
+    const auto made = naming(report.model_file, [&] {
+      return with_bridged_gaps<Dim>(report.cage, own->points, own->facets);
+    });
+    report.model->bridged_gaps = describe_bridged_gaps(made);
+  }
+#endif
 }
 
 template <int Dim>

@@ -76,11 +76,12 @@ Json cage_json(const CheckReport<Dim>& report) {
 
 template <int Dim>
 Json model_json(const CheckReport<Dim>& report) {
-  const auto& [points, outside, farthest, reach] = *report.model;
+  const auto& [points, outside, farthest, reach, bridged] = *report.model;
   Json json{{"file", report.model_file},
             {"points", points.cols()},
             {"outside", outside.size()},
             {"least_reach", {{"maximum", to_json(reach.maximum)}, {"median", reach.median}}}};
+  if (!bridged.empty()) json["note"] = bridged;
   if (outside.empty()) return json;
   json["first_outside"] = {{"point", outside.front()},
                            {"place", list(points.col(outside.front()))}};

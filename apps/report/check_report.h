@@ -24,6 +24,7 @@ struct ModelCheck {
   std::vector<Index> outside;   //!< their indices
   NearestOnCage<Dim> farthest;  //!< of those outside
   LeastReach<Dim> least_reach;
+  std::string bridged_gaps{};  //!< describe_bridged_gaps(); needs CGAL
 };
 
 //! Everything found out. What was not asked for, or could not be looked at because the cage is

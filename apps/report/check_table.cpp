@@ -82,6 +82,7 @@ void print_model(std::ostream& out, const Json& model) {
                 " are outside the cage; use flbc solve --outside, or make a cage around it with "
                 "flbc cage";
   print(out, title, model, {"points", "outside", "first_outside"});
+  if (model.contains("note")) out << "  " << model["note"].get<std::string>() << '\n';
 }
 
 }  // namespace

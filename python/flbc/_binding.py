@@ -165,17 +165,31 @@ class Binding:
     def _poses(self, poses: Any) -> List[Floats]:
         return [self._pose(pose, f"poses[{k}]") for k, pose in enumerate(poses)]
 
-    def deform(self, control_points: CageLike, *, joint: Optional[str] = None) -> Floats:
+    def deform(
+        self,
+        control_points: CageLike,
+        *,
+        joint: Optional[str] = None,
+        out: Optional[Floats] = None,
+    ) -> Floats:
         """The vertices of the model, shape (P, d), for moved control points: a Cage, or an array of
         shape (n, d). For a stack of poses, shape (T, n, d), the result has shape (T, P, d).
         Vertices whose control points rest stay where they are, to the bit. `joint` is that of
-        `joined`."""
+        `joined`. `out` receives the result: a C-contiguous array of that shape, float64."""
         if joint is not None:
-            return self.joined(joint).deform(control_points)
-        if isinstance(control_points, Cage) or as_array(control_points, "control_points").ndim != 3:
-            return self._any.deform(self._pose(control_points))
-        moved = [self.deform(pose) for pose in as_array(control_points, "control_points")]
-        return np.array(moved).reshape(len(moved), *self.points.shape)
+            return self.joined(joint).deform(control_points, out=out)
+        given = control_points.points if isinstance(control_points, Cage) else control_points
+        array = as_array(given, "control_points")
+        is_pose = array.ndim != 3
+        poses = [self._pose(pose) for pose in (array[None] if is_pose else array)]
+        shape = self.points.shape if is_pose else (len(poses), *self.points.shape)
+        moved = np.empty(shape) if out is None else out
+        if not (isinstance(moved, np.ndarray) and moved.shape == shape and moved.dtype == np.float64
+                and moved.flags.c_contiguous and moved.flags.writeable):
+            raise InputError(f"out must be a C-contiguous, writable array of float64 and shape {shape}")
+        for pose, place in zip(poses, moved.reshape(len(poses), *self.points.shape)):
+            self._any.deform_into(pose, place)
+        return moved
 
     def deform_drawing(self, svg: str, control_points: CageLike) -> str:
         """The document of a drawing, the text of an .svg file, for moved control points.

@@ -60,10 +60,13 @@ py::dict arrays(const py::object& self) {
   });
 }
 
-py::array deform(const AnyBinding& self, const Doubles& control_points) {
-  return self.visit([&](const auto& binding) {
-    const auto pose = points_of<kDimOf<std::decay_t<decltype(binding)>>>(control_points);
-    return as_array(without_gil([&] { return binding.deform(pose); }));
+// \param moved  P x d, receives the points
+void deform_into(const AnyBinding& self, const Doubles& control_points, Doubles moved) {
+  self.visit([&](const auto& binding) {
+    constexpr int kDim = kDimOf<std::decay_t<decltype(binding)>>;
+    const auto pose = points_of<kDim>(control_points);
+    Eigen::Map<PointList<kDim>> points(moved.mutable_data(), kDim, moved.shape(0));
+    return without_gil([&] { return binding.deform_into(pose, points); });
   });
 }
 
@@ -200,7 +203,7 @@ void bind_bindings(py::module_& module) {
   py::class_<AnyBinding>(module, "Binding")
       .def(py::init(&bound_by))
       .def("arrays", &arrays)
-      .def("deform", &deform)
+      .def("deform_into", &deform_into, py::arg(), py::arg().noconvert())
       .def("jacobians", &jacobians)
       .def("reduced", &reduced)
       .def("transferred", &transferred)

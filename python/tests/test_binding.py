@@ -133,8 +133,12 @@ def test_vertices_outside_follow(outside, case, tmp_path):
     for found, most in [(full, 99), (full.reduced(4), 4), (saved(full, tmp_path), 99),
                         (pickle.loads(pickle.dumps(full)), 99)]:
         assert np.array_equal(found.outside, case.full.outside)
-        moved = found.deform(found.cage.points @ matrix + 3)
+        pose = found.cage.points @ matrix + 3
+        moved = found.deform(pose)
         assert abs(moved - (case.points @ matrix + 3)).max() < 1e-9
+        stack = np.full((2, *moved.shape), np.nan)
+        assert found.deform(np.array([found.cage.points, pose]), out=stack) is stack
+        assert np.array_equal(stack, [found.deform(found.cage), moved])
         inside = np.delete(found.weights.toarray(), found.outside, axis=0)
         assert inside.min() >= 0 and (inside > 0).sum(axis=1).max() <= most
         assert (found.weights[found.outside].min() < 0) == (outside == "extend")

@@ -100,7 +100,13 @@ TEST_F(CageCommand, BridgedGapsAreReported) {
   const auto model = file("pillars.obj", vertices + faces);
   const auto result = expect("cage " + model + " --control-points 16 -o cage.obj");
   expect_piece(result.errors, "pillars.obj: the cage bridges 1 narrow gap of the model at (");
-  expect_piece(result.errors, "(0.3 wide), so parts on both sides move together");
+  const std::string tied = "(0.3 wide), so parts on both sides move together";
+  expect_piece(result.errors, tied);
+  // A cage that has been made before is checked in the same way.
+  expect_piece(expect("check cage.obj --model " + model).output, tied);
+  const auto open = expect("cage " + model + " --control-points 60 -o open.obj");
+  EXPECT_EQ(open.errors.find("bridges"), std::string::npos);
+  EXPECT_EQ(expect("check open.obj --model " + model).output.find("bridges"), std::string::npos);
 }
 
 TEST_F(CageCommand, RefusesWithReason) {

@@ -55,7 +55,11 @@ TEST_IN_2D_AND_3D(BindTest, PointsOutsideFollowTheirPolicy) {
       EXPECT_EQ(binding.outside, std::vector<Index>{7});
       EXPECT_EQ(binding.report.outside, 1);
       EXPECT_LT((binding.deform(cage.points) - points).cwiseAbs().maxCoeff(), 1e-13);
-      const auto moved = binding.deform(cage.points.colwise() + shift);
+      const PointList<Dim> pose = cage.points.colwise() + shift;
+      PointList<Dim> moved(Dim, points.cols());
+      binding.deform_into(pose, moved);
+      EXPECT_EQ(moved, binding.deform(pose));
+      EXPECT_THROW(binding.deform_into(pose, moved.leftCols(3)), InputError);
       const Vector<Dim> expected = policy == OutsidePoints::kKeep ? Vector<Dim>::Zero() : shift;
       EXPECT_LT((moved.col(7) - points.col(7) - expected).cwiseAbs().maxCoeff(), 1e-13);
       EXPECT_EQ(binding.offsets.cols() > 0, policy != OutsidePoints::kExtend);

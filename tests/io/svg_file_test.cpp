@@ -188,6 +188,8 @@ TEST_F(SvgFile, ErrorsNameTheFile) {
   expect_error<InputError>([&] { read("v 0 0 0\n"); }, {path("drawing.svg"), "not a drawing"});
   expect_error<InputError>([&] { read(head + "<defs><path d='M0 0h9v9z'/></defs></svg>"); },
                            {path("drawing.svg"), "nothing is to be seen"});
+  expect_error<InputError>([&] { read(head + "<text y='9' font-size='0.01'>a</text></svg>"); },
+                           {"convert it to paths"});
   const std::string html = "<foreignObject width='9' height='9'/>";
   expect_error<InputError>([&] { read(head + html + "</svg>"); }, {"foreignObject", "left out"});
   EXPECT_EQ(

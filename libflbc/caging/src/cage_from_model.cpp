@@ -15,6 +15,7 @@
 
 #include "base/instantiate.h"
 #include "base/messages.h"
+#include "base/shape_checks.h"
 #include "cage/extent.h"
 #include "caging/cage_steps.h"
 #include "caging/coarsening.h"
@@ -31,6 +32,10 @@
 namespace flbc {
 
 namespace {
+
+// The alpha of a wrap that enters a gap, relative to the gap's width, and the smallest alpha,
+// relative to model size.
+constexpr double kAlphaOfGap = 0.33, kFinestWrap = 5e-3;
 
 // Maximum distance of a mirror image from the model, relative to model size.
 constexpr double kSymmetryTolerance = 0.01;
@@ -153,6 +158,15 @@ Index max_valence(const Cage<Dim>& cage) {
   std::vector<Index> valences(static_cast<std::size_t>(cage.size()), 0);
   for (const Index v : cage.facets.reshaped()) ++valences[v];
   return *std::max_element(valences.begin(), valences.end());
+}
+
+// Finds the gaps that a cage bridges. \return the width of the narrowest
+double note_bridged(ModelCage<3>& made, const Gaps& gaps, double size) {
+  made.bridged_gaps = gaps.bridged_by(made.cage);
+  double width = size;
+  for (const auto& gap : made.bridged_gaps) width = std::min(width, gap.width);
+  made.may_part = kAlphaOfGap * width > kFinestWrap * size;
+  return width;
 }
 
 // Makes a cage around a model of size about 1.
@@ -326,11 +340,8 @@ class Caging {
   // If a cage bridges narrow gaps, tries a wrap that is fine enough for them.
   void part_limbs(ModelCage<3>& made, Index given) {
     const Gaps gaps(whole_, *model_);
-    made.bridged_gaps = gaps.bridged_by(made.cage);
+    double width = note_bridged(made, gaps, size_);
     if (made.bridged_gaps.empty() || options_.offset > 0) return;
-    double width = size_;
-    for (const auto& gap : made.bridged_gaps) width = std::min(width, gap.width);
-    made.may_part = kAlphaOfGap * width > kFinestWrap * size_;
     const double finest = given == 0 || !is_closed_ ? kFinestByShape : kFinestWrap;
     width = std::max(width, finest / kAlphaOfGap * size_);
     const WrapSize size{kAlphaOfGap * width, kOffsetOfGap * width};
@@ -435,10 +446,9 @@ class Caging {
   static constexpr Index kMostByShape = 300, kLeastOfConvex = 8, kFewOfConvex = 16;
   // Edges no longer than the wrap is thick leave three rings at a limb.
   static constexpr double kShort = 1, kLong = 1.4;
-  // Of a wrap, relative to the width of a gap that it enters. Its smallest alpha, relative to model
-  // size.
-  static constexpr double kAlphaOfGap = 0.33, kOffsetOfGap = 0.1, kFinestWrap = 5e-3,
-                          kFinestByShape = 8e-3;
+  // Of a wrap, relative to the width of a gap that it enters, and the smallest alpha, relative to
+  // model size.
+  static constexpr double kOffsetOfGap = 0.1, kFinestByShape = 8e-3;
   static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
   CagingOptions options_;
@@ -453,19 +463,19 @@ class Caging {
 };
 
 template <int Dim>
-void check_input(const PointList<Dim>& points, const FacetList<Dim>& facets,
-                 const CagingOptions& options) {
+void check_indices_and_places(const PointList<Dim>& points, const FacetList<Dim>& facets) {
   for (Index v = 0; v < points.cols(); ++v) {
     if (points.col(v).allFinite()) continue;
     throw InputError("vertex " + std::to_string(v) + " at " + format_point(points.col(v)) +
                      " is not finite");
   }
-  for (Index s = 0; s < facets.cols(); ++s) {
-    if (facets.col(s).minCoeff() >= 0 && facets.col(s).maxCoeff() < points.cols()) continue;
-    throw InputError("facet " + std::to_string(s) +
-                     " of the model refers to a vertex that does not exist; there are " +
-                     std::to_string(points.cols()));
-  }
+  check_indices(facets, points.cols(), {"model", "facet", "vertex", "vertices"});
+}
+
+template <int Dim>
+void check_input(const PointList<Dim>& points, const FacetList<Dim>& facets,
+                 const CagingOptions& options) {
+  check_indices_and_places<Dim>(points, facets);
   const auto defect = extent_defect<Dim>(points, "model", "vertex 0");
   if (!defect.empty()) throw InputError(defect);
   const double size = bounding_box_diagonal<Dim>(points);
@@ -534,6 +544,20 @@ std::string describe_bridged_gaps(const ModelCage<Dim>& made) {
 }
 
 template <int Dim>
+ModelCage<Dim> with_bridged_gaps(const Cage<Dim>& cage, const PointList<Dim>& points,
+                                 const FacetList<Dim>& facets) {
+  check_indices_and_places<Dim>(points, facets);
+  ModelCage<Dim> made;
+  made.cage = cage;
+  if constexpr (Dim == 3) {
+    if (facets.cols() == 0) return made;
+    const Gaps gaps({points, facets}, Enclosure<3>(points, facets));
+    note_bridged(made, gaps, bounding_box_diagonal<Dim>(points));
+  }
+  return made;
+}
+
+template <int Dim>
 ModelCage<Dim> cage_from_model(const PointList<Dim>& points, const FacetList<Dim>& facets,
                                const CagingOptions& options) {
   check_input<Dim>(points, facets, options);
@@ -558,6 +582,7 @@ ModelCage<Dim> cage_from_model(const PointList<Dim>& points, const FacetList<Dim
 }
 
 FLBC_INSTANTIATE_FUNCTION(cage_from_model)
+FLBC_INSTANTIATE_FUNCTION(with_bridged_gaps)
 FLBC_INSTANTIATE_FUNCTION(describe_bridged_gaps)
 
 }  // namespace flbc

@@ -120,6 +120,8 @@ struct Binding {
 
   //! Dim x P: where the points of the model rest.
   PointList<Dim> rest() const;
+  //! The same for a point in [0, P).
+  Vector<Dim> rest_of(Index p) const;
 
   //! The points for moved control points: x + sum_i w_i (c'_i - c_i). Points whose control points
   //! rest stay where they are, to the bit.
@@ -127,6 +129,11 @@ struct Binding {
   //! \throws InputError if the number of control points differs, or naming one that is held and
   //! has moved
   PointList<Dim> deform(const PointList<Dim>& control_points) const;
+
+  //! The same, for every frame: no memory is allocated for points.
+  //! \param moved  Dim x P, receives the points
+  //! \throws InputError also if moved has another size
+  void deform_into(const PointList<Dim>& control_points, Eigen::Ref<PointList<Dim>> moved) const;
 
   //! The derivatives of a function of the points by the control points: the transpose of deform(),
   //! dJ/dc_i = sum over points of w_i dJ/dx. Those of held control points are 0.

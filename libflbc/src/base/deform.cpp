@@ -6,7 +6,6 @@
 
 #include "base/instantiate.h"
 #include "base/messages.h"
-#include "base/parallel.h"
 #include "base/shape_checks.h"
 #include "base/weighted_sums.h"
 #include "flbc/errors.h"
@@ -47,17 +46,9 @@ template <int Dim>
 PointList<Dim> deform(const SparseWeights& weights, const PointList<Dim>& control_points,
                       int threads) {
   check_pose<Dim>(weights, control_points);
-  const Eigen::Index count = weights.num_points();
-  PointList<Dim> points(Dim, count);
-  const PaddedPoints<Dim> cage(control_points);
-  const auto* starts = weights.starts().data();
-  const auto* of = weights.control_points().data();
-  const auto* values = weights.values().data();
-  const ThreadScope scope(deform_threads(weights.values().size(), threads));
-  parallel_for(count, [&](Eigen::Index p) {
-    const auto start = starts[p];
-    points.col(p) = cage.sum(values + start, of + start, starts[p + 1] - start);
-  });
+  PointList<Dim> points(Dim, weights.num_points());
+  for_sums<Dim>(weights, control_points, threads,
+                [&](Index p, const Vector<Dim>& sum) { points.col(p) = sum; });
   return points;
 }
 

@@ -7,7 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "flbc/types.h"
+#include "base/parallel.h"
+#include "flbc/sparse_weights.h"
 
 namespace flbc {
 
@@ -43,5 +44,20 @@ class PaddedPoints {
   using Padded = Eigen::Matrix<double, kRows, Eigen::Dynamic>;
   Padded points_;
 };
+
+//! Calls use(p, sum) with the weighted sum of each point, in parallel.
+template <int Dim, class Use>
+void for_sums(const SparseWeights& weights, const PointList<Dim>& control_points, int threads,
+              const Use& use) {
+  const PaddedPoints<Dim> padded(control_points);
+  const auto* starts = weights.starts().data();
+  const auto* of = weights.control_points().data();
+  const auto* values = weights.values().data();
+  const ThreadScope scope(deform_threads(weights.values().size(), threads));
+  parallel_for(weights.num_points(), [&](Index p) {
+    const auto start = starts[p];
+    use(p, padded.sum(values + start, of + start, starts[p + 1] - start));
+  });
+}
 
 }  // namespace flbc

@@ -8,6 +8,7 @@
 #include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/shape_checks.h"
+#include "base/weighted_sums.h"
 #include "flbc/bounding_box.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
@@ -111,26 +112,42 @@ std::vector<Mask> masks_near(const Binding<Dim>& binding, const ModelElements<Di
 }  // namespace
 
 template <int Dim>
+Vector<Dim> Binding<Dim>::rest_of(Index p) const {
+  if (offsets.cols() == 0) return points.col(p);
+  if (weights.has_weights(p)) return points.col(p) + offsets.col(p);
+  return offsets.col(p).isZero(0) ? points.col(p) : offsets.col(p);
+}
+
+template <int Dim>
 PointList<Dim> Binding<Dim>::rest() const {
-  PointList<Dim> all = points;
-  for (Index p = 0; offsets.cols() > 0 && p < weights.num_points(); ++p) {
-    if (weights.has_weights(p)) {
-      all.col(p) += offsets.col(p);
-    } else if (!offsets.col(p).isZero(0)) {
-      all.col(p) = offsets.col(p);
-    }
-  }
+  if (offsets.cols() == 0) return points;
+  PointList<Dim> all(Dim, points.cols());
+  for (Index p = 0; p < weights.num_points(); ++p) all.col(p) = rest_of(p);
   return all;
 }
 
 template <int Dim>
 PointList<Dim> Binding<Dim>::deform(const PointList<Dim>& control_points) const {
-  if (cage.size() == 0) {  // not known
-    PointList<Dim> moved = flbc::deform<Dim>(weights, control_points);
-    if (offsets.cols() > 0) moved += offsets;
-    return moved;
+  PointList<Dim> moved(Dim, weights.num_points());
+  deform_into(control_points, moved);
+  return moved;
+}
+
+template <int Dim>
+void Binding<Dim>::deform_into(const PointList<Dim>& control_points,
+                               Eigen::Ref<PointList<Dim>> moved) const {
+  if (moved.cols() != weights.num_points()) {
+    throw InputError("there is space for " + std::to_string(moved.cols()) + " points, but " +
+                     std::to_string(weights.num_points()) + " move");
   }
-  check_size(weights, control_points.cols(), points.cols());
+  check_size(weights, control_points.cols(), moved.cols());
+  check_finite<Dim>(control_points);
+  if (cage.size() == 0) {  // not known
+    return for_sums<Dim>(weights, control_points, 0, [&](Index p, const Vector<Dim>& sum) {
+      moved.col(p) = sum;
+      if (offsets.cols() > 0) moved.col(p) += offsets.col(p);
+    });
+  }
   const PointList<Dim> moves = control_points - cage.points;
   for (const Index i : held) {
     if (moves.col(i).isZero(0)) continue;
@@ -138,13 +155,8 @@ PointList<Dim> Binding<Dim>::deform(const PointList<Dim>& control_points) const 
                      format_number(moves.col(i).norm()) +
                      "; leave it at rest, because the mesh passes through the cage there");
   }
-  PointList<Dim> moved = flbc::deform<Dim>(weights, moves);
-  if (offsets.cols() == 0) {
-    moved += points;
-  } else {
-    moved += rest();
-  }
-  return moved;
+  for_sums<Dim>(weights, moves, 0,
+                [&](Index p, const Vector<Dim>& sum) { moved.col(p) = rest_of(p) + sum; });
 }
 
 template <int Dim>

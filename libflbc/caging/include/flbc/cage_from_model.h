@@ -89,6 +89,13 @@ struct ModelCage {
   bool may_part = false;  //!< whether more control points may keep such gaps open
 };
 
+//! A given cage, with the gaps of a model that it bridges; the other properties are not set.
+//! \param points, facets  see cage_from_model()
+//! \throws InputError if a point is not finite, or an index is out of range
+template <int Dim>
+ModelCage<Dim> with_bridged_gaps(const Cage<Dim>& cage, const PointList<Dim>& points,
+                                 const FacetList<Dim>& facets);
+
 //! "the cage bridges a gap of width 0.1 near (1, 2, 3), and ..."; empty if there is none.
 template <int Dim>
 std::string describe_bridged_gaps(const ModelCage<Dim>& made);

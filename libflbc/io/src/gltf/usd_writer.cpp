@@ -66,13 +66,17 @@ std::string joint_names(const GlbScene& scene) {
   });
 }
 
+// Metadata over several lines, as usdcat writes it: other readers, such as that of three.js, need
+// the line breaks.
+constexpr char kBinding[] = " (\n        prepend apiSchemas = [\"SkelBindingAPI\"]\n    )\n";
+
 void write_skeleton(std::ostream& text, const GlbScene& scene) {
   const auto joints = with_root(scene.joints);
   const auto binds = list(joints.cols(), [&](Eigen::Index j) {
     return "((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), " +
            tuple(Eigen::Vector4f(joints.col(j).homogeneous())) + ')';
   });
-  text << "    def Skeleton \"cage\" (prepend apiSchemas = [\"SkelBindingAPI\"])\n    {\n"
+  text << "    def Skeleton \"cage\"" << kBinding << "    {\n"
        << "        uniform token[] joints = " << joint_names(scene) << '\n'
        << "        uniform matrix4d[] bindTransforms = " << binds << '\n'
        << "        uniform matrix4d[] restTransforms = " << binds << '\n';
@@ -104,30 +108,30 @@ void write_surface(std::ostream& text, const GlbScene& scene) {
   const auto num_joints = static_cast<int>(scene.joints.cols());
   const Eigen::MatrixXi joints = scene.weights.joints.cast<int>().unaryExpr(
       [num_joints](int joint) { return joint == num_joints ? 0 : joint + kRoots; });
-  const std::string per_vertex =
-      " (elementSize = " + std::to_string(slots) + "\n            interpolation = \"vertex\")\n";
-  text << "    def Mesh \"surface\" (prepend apiSchemas = [\"SkelBindingAPI\"])\n    {\n"
+  const std::string per_vertex = " (\n            interpolation = \"vertex\"\n        )\n";
+  const std::string per_slot =
+      " (\n            elementSize = " + std::to_string(slots) + per_vertex.substr(2);
+  text << "    def Mesh \"surface\"" << kBinding << "    {\n"
        << "        uniform bool doubleSided = 1\n"
        << "        uniform token subdivisionScheme = \"none\"\n"
        << "        int[] faceVertexCounts = " << repeated(surface.triangles.cols(), "3") << '\n'
        << "        int[] faceVertexIndices = " << numbers(surface.triangles) << '\n'
        << "        point3f[] points = " << columns(scene.positions) << '\n'
        << "        normal3f[] normals = " << columns(surface.normals.cast<float>().eval())
-       << " (interpolation = \"vertex\")\n";
+       << per_vertex;
   if (surface.texture_coordinates.cols() > 0) {
     Eigen::Matrix2Xf upwards =
         surface.texture_coordinates.cast<float>();  // glTF counts from the top
     upwards.row(1) = 1 - upwards.row(1).array();
-    text << "        texCoord2f[] primvars:st = " << columns(upwards)
-         << " (interpolation = \"vertex\")\n";
+    text << "        texCoord2f[] primvars:st = " << columns(upwards) << per_vertex;
   }
   if (surface.colors.cols() > 0) {
     text << "        color3f[] primvars:displayColor = "
-         << columns(surface.colors.cast<float>().eval()) << " (interpolation = \"vertex\")\n";
+         << columns(surface.colors.cast<float>().eval()) << per_vertex;
   }
-  text << "        int[] primvars:skel:jointIndices = " << numbers(joints) << per_vertex
+  text << "        int[] primvars:skel:jointIndices = " << numbers(joints) << per_slot
        << "        float[] primvars:skel:jointWeights = " << numbers(scene.weights.numbers)
-       << per_vertex
+       << per_slot
        << "        matrix4d primvars:skel:geomBindTransform = ((1, 0, 0, 0), (0, 1, 0, 0), "
           "(0, 0, 1, 0), (0, 0, 0, 1))\n"
        << "        rel skel:skeleton = </model/cage>\n    }\n";

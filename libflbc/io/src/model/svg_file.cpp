@@ -191,10 +191,12 @@ class Drawing {
         rsvg_.owned(rsvg_.call<void*>("cairo_image_surface_create_for_data", picture.pixels.data(),
                                       kArgb, picture.width, picture.height, 4 * picture.width),
                     "cairo_surface_destroy");
-    // librsvg asks for fonts that are larger than FreeType can make them if it knows how close the
-    // picture is. Without text it must know, because it paints masks in pixels.
-    constexpr double kFar = 512;
-    const double closer = has_text_ ? std::max(1.0, scale * box_.sizes().maxCoeff() / kFar) : 1.0;
+    // librsvg asks for fonts of their size times the square of the scale that it sees, and FreeType
+    // makes none above 32,767. Without text it must see the true scale, because it paints masks in
+    // pixels.
+    constexpr double kFar = 100;
+    const double closer =
+        has_text_ ? std::max(1.0, scale * std::sqrt(box_.sizes().maxCoeff()) / kFar) : 1.0;
     rsvg_.call<void>("cairo_surface_set_device_scale", surface.get(), closer, closer);
     const auto context =
         rsvg_.owned(rsvg_.call<void*>("cairo_create", surface.get()), "cairo_destroy");
@@ -411,6 +413,9 @@ void read_svg(const std::string& path, Extent, ModelScan& scan) {
   if (scan.text.find("foreignObject") != std::string::npos) {
     without = "; the HTML in it (foreignObject) is left out";
     scan.model.notes.push_back(without.substr(2));
+  }
+  if (scan.text.find("<text") != std::string::npos) {
+    without += "; text whose font-size is below 1/64 unit is not painted, convert it to paths";
   }
   double bottom = 0;
   const auto picture = close_picture(without_background(path, scan.text), path, without, bottom);
