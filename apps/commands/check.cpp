@@ -48,6 +48,7 @@ void check_model(CheckReport<Dim>& report) {
   auto reach = least_reach(report.cage, points);
   report.model = ModelCheck<Dim>{std::move(points), std::move(outside), farthest, reach};
 #ifdef FLBC_LINKS_CGAL
+  if (is_point_file(report.model_file)) return;  // there are no facets with gaps between them
   const auto model = load_model_facets(report.model_file);
   if (const auto* own = std::get_if<ModelFacets<Dim>>(&model)) {
     const auto made = naming(report.model_file, [&] {

@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SAMPLES = ROOT / "meshes/2d"
+SAMPLES = ROOT / "meshes/drawings"
 WIDTH, HEIGHT, GAP = 400, 300, 20
 
 

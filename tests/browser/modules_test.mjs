@@ -12,9 +12,9 @@ const { Deformer } = await load("deformer");
 const { Editor } = await load("editor");
 const { decodeIndices } = await load("data");
 const { poseText, readPose } = await load("obj");
-const { interpolatePoses, playedTime } = await load("poses");
+const { interpolatePoses, playedTime, straightKeys } = await load("poses");
 const { edgesOf, sumNormals } = await load("surface_normals");
-const { rotate, scale, translate } = await load("transforms");
+const { principalAxes, rotate, scale, translate } = await load("transforms");
 const { pick, pointsInside, rectangle } = await load("picking");
 const { CageGraph } = await load("rings");
 const { ToolDrag } = await load("actions");
@@ -370,11 +370,56 @@ test("surface: normals of a cube's corner, edges once each, seams share normals"
   near(both.slice(12), [1, 1, 1], 0);
 });
 
-test("poses: on straight lines, to and fro", () => {
-  const poses = [0, 1, 3].map((time) => ({ time, points: Float64Array.of(time * time, 0, 0) }));
+test("poses: on straight lines, to and fro, or in a loop", () => {
+  const poses = [0, 1, 3].map((time) => ({ time, points: Float64Array.of(time * time, 0, 0), isStraight: true }));
   near(interpolatePoses(poses, 2), [5, 0, 0], 0);
   near(interpolatePoses(poses, 99), [9, 0, 0], 0);
   near([playedTime(poses, 2), playedTime(poses, 4), playedTime(poses, 6.5)], [2, 2, 0.5]);
+  poses[2].closes = true;
+  near([playedTime(poses, 2), playedTime(poses, 4), playedTime(poses, 6.5)], [2, 1, 0.5]);
+  assert.equal(straightKeys(poses), poses);
+});
+
+test("poses: smooth curves pass their keys without jumps of velocity, rest where keys rest, and do not overshoot", () => {
+  // A point on a curve, one that stays between two keys, one on a line, and one that turns back.
+  const places = [[[0, 0, 0], [1, 2, 0], [3, 1, 1], [2, -1, 4]], [[0, 0, 0], [1, 1, 1], [1, 1, 1], [0, 2, 0]],
+                  [[0, 0, 0], [1, 2, 3], [1.1, 2.2, 3.3], [5, 10, 15]], [[0, 0, 0], [1, 0, 0], [0, 0, 0], [1, 0, 0]]];
+  const times = [0, 1, 1.5, 3];
+  const keys = times.map((time, k) => ({ time, points: Float64Array.from(places.flatMap((list) => list[k])) }));
+  const at = (time, poses = keys) => interpolatePoses(poses, time);
+  const speed = (time, step, poses) => at(time + step, poses).map((value, c) => (value - at(time, poses)[c]) / step);
+  keys.forEach(({ time, points }) => near(at(time), points, 0));
+  for (const time of [1, 1.5]) near(speed(time, 1e-6), speed(time, -1e-6), 1e-3);
+  near(speed(1, 1e-6).slice(9), [0, 0, 0], 1e-3);
+  near([...speed(0, 1e-6), ...speed(3, -1e-6)], new Array(24).fill(0), 1e-3);
+  for (let k = 1; k < 300; ++k) {
+    const [now, before] = [at(k / 100), at((k - 1) / 100)];
+    if (k > 100 && k < 150) near(now.slice(3, 6), [1, 1, 1]);
+    assert.ok(now[6] >= before[6] && Math.abs(now[7] - 2 * now[6]) < 1e-9, "off the line, or back");
+    assert.ok(now[9] >= 0 && now[9] <= 1, "overshoots");
+  }
+  // A loop has no jump where it closes.
+  const loop = [...keys, { ...keys[0], time: 4, closes: true }];
+  near(speed(0, 1e-6, loop), speed(4, -1e-6, loop), 1e-3);
+  assert.ok(Math.hypot(...speed(0, 1e-6, loop).slice(0, 3)) > 0.1);
+  // More keys on straight lines are nearly the same.
+  const more = straightKeys(keys).map((key) => ({ ...key, isStraight: true }));
+  assert.equal(more.length, 37);
+  keys.forEach((key) => assert.ok(more.some(({ time, points }) => time === key.time && points === key.points)));
+  for (let k = 0; k < 300; ++k) near(at(k / 100), at(k / 100, more), 0.05);
+});
+
+test("axes of a selection are those along which it extends, with the nearest names", () => {
+  const box = kCube.map((place, k) => [3, 2, 1][k % 3] * place), all = [...Array(8).keys()];
+  for (const [degrees, x] of [[20, 20], [-40, -40], [60, -30], [170, -10]]) {
+    const angle = degrees * Math.PI / 180, turned = box.slice();
+    rotate(box, all, [0, 0, 0], [0, 0, 1], angle, turned);
+    const axes = principalAxes(turned, all), expected = x * Math.PI / 180;
+    near(axes.x, [Math.cos(expected), Math.sin(expected), 0]);
+    near(axes.y, [-Math.sin(expected), Math.cos(expected), 0]);
+    near(axes.z, [0, 0, 1]);
+  }
+  near(Object.values(principalAxes(kCube, all)).flat(), [1, 0, 0, 0, 1, 0, 0, 0, 1]);
 });
 
 test("poses are saved in the cage's own words", () => {

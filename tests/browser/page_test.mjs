@@ -348,6 +348,7 @@ async function testKeptPoses(name, dim, pose) {
   await tab.waitForFunction(() => window.flbc.viewer.editor.canUndo);
   const posed = await cageOf(page);
   assert.deepEqual(posed.flat(), vertices(pose, dim));
+  await page.press("keepPose");
   await tab.reload();
   await page.loaded();
   assert.deepEqual(await cageOf(page), posed);
@@ -359,6 +360,38 @@ async function testKeptPoses(name, dim, pose) {
   await page.loaded();
   assert.deepEqual(await cageOf(page), rest);
   assert.equal(await tab.$eval("#undo", (button) => button.disabled), true);
+
+  // A pose with its picture is there as well: for all control points, and for those that are selected.
+  const count = () => tab.$$eval("#library img", (pictures) => pictures.filter(({ naturalWidth }) => naturalWidth === 96).length);
+  assert.equal(await count(), 1);
+  const take = async () => { await tab.click("#library button"); return cageOf(page); };
+  assert.ok(largestDifference((await take()).flat(), posed.flat()) < 1e-12 * sizeOf(posed.flat(), dim));
+  await tab.screenshot({ path: join(work, `${name}_library.png`) });
+  await page.press("undo");
+  assert.deepEqual(await cageOf(page), rest);
+  const moved = posed.findIndex((place, i) => largestDifference(place, rest[i]) > 0);
+  await page.ask("select", [moved]);
+  await tab.keyboard.down("Shift");
+  const part = await take();
+  await tab.keyboard.up("Shift");
+  part.forEach((place, i) => assert.ok(largestDifference(place, (i === moved ? posed : rest)[i]) < 1e-9));
+  await page.press("undo");
+
+  // It goes to a file and comes back.
+  await page.press("savePoses");
+  const file = await downloaded(`${name}_model_poses.json`);
+  await tab.click("#library button + button");
+  assert.equal(await count(), 0);
+  writeFileSync(join(work, "other_poses.json"), JSON.stringify({ poses: [{ name: "a", picture: "data:image/png;,", steps: [1, 2, 3] }] }));
+  await load(join(work, "other_poses.json"));
+  await tab.waitForFunction(() => document.getElementById("note").textContent.includes("of a cage of 1 control point"));
+  writeFileSync(join(work, "broken_poses.json"), '{ "poses": [null');
+  await load(join(work, "broken_poses.json"));
+  await tab.waitForFunction(() => document.getElementById("note").textContent.includes("not a file of saved poses"));
+  assert.equal(await count(), 0);
+  await load(file);
+  await tab.waitForSelector("#library img");
+  assert.ok(largestDifference((await take()).flat(), posed.flat()) < 1e-12 * sizeOf(posed.flat(), dim));
   await page.close();
 }
 
@@ -397,7 +430,9 @@ async function testKeys(name, dim, pose) {
   const file = await downloaded(`${name}_model_animation.glb`);
   assert.match(String(execFileSync(program, ["info", file])), /animation of 2 s/);
   const points = await page.points(), size = sizeOf(points, dim);
-  keysIn(readFileSync(file), dim).forEach((key, k) => {
+  const keys = keysIn(readFileSync(file), dim);
+  assert.equal(keys.length, 25);
+  keys.filter(({ time }) => Number.isInteger(time)).forEach((key, k) => {
     assert.equal(key.time, k);
     assert.ok(largestDifference(key.points, k === 1 ? moved : points) < 1e-6 * size, `key ${k}`);
   });

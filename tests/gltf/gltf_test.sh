@@ -104,6 +104,8 @@ check_model limb "$model" "$cage" "$pose" 54
 
 export_skin limb "$model" "$cage" still.glb -k 4
 check still.glb --model "$model"
+export_skin limb "$model" "$cage" still.usda -k 4
+node "$here/usd.mjs" still.usda "$model" 55
 
 # ---- 3D: the boundary of a mesh, where most vertices have few influences -------------------------
 "$flbc" solve "$cage" --method harmonic --domain limb.mesh -q -o domain3.npy

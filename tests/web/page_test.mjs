@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { basename, join } from "node:path";
 import { setTimeout as sleep } from "node:timers/promises";
 import { fileURLToPath, pathToFileURL } from "node:url";
@@ -11,6 +12,7 @@ import { largestDifference, launch, Page, vertices } from "../browser/page.mjs";
 const [executablePath, pagePath, program, meshes, work] = process.argv.slice(2);
 const browser = await launch(executablePath);
 const url = pathToFileURL(pagePath).href;
+const axe = readFileSync(createRequire(new URL("../browser/page.mjs", import.meta.url)).resolve("axe-core/axe.min.js"), "utf8");
 const here = fileURLToPath(new URL(".", import.meta.url));
 const downloads = join(work, "downloads");
 rmSync(downloads, { recursive: true, force: true });
@@ -68,6 +70,14 @@ class App extends Page {
     await this.drag(await this.ask("spot", i), dx, dy);
     return i;
   }
+}
+
+// What axe finds that hinders people with screen readers, keys alone, or weak eyes.
+async function checkAccess(tab, place) {
+  await tab.evaluate(axe);
+  const found = await tab.evaluate(async () => (await globalThis.axe.run()).violations
+    .map(({ id, help, nodes }) => `${id}: ${help}: ${nodes.map(({ html, any }) => `${html.slice(0, 120)} ${any.map(({ message }) => message)}`).join("; ")}`));
+  assert.deepEqual(found, [], place);
 }
 
 // The start screen needs nothing of what is unpacked after its first frame, which is never reported here.
@@ -202,6 +212,7 @@ async function testErrors() {
   await app.tab.waitForSelector("#problem:not([hidden])");
   assert.match(await app.text("problem"), /bad.obj:1: expected a number, found "zero"/);
   await app.shot("dark_problem");
+  await checkAccess(app.tab, "start screen");
 
   // Cancelled, and what comes next works.
   await app.drop([join(meshes, "3d/limb_model.obj")]);
@@ -235,6 +246,19 @@ async function testErrors() {
   await app.shown();
   await app.tab.waitForFunction(() => document.getElementById("cageProblem").hidden);
   await app.shot("dark_repaired");
+  await app.unfold("protectSection");
+  await checkAccess(app.tab, "dark");
+
+  // What is for programs is left out of messages.
+  for (const say of [() => {
+    globalThis.flbcApp.flbc.cageFile = async () => { throw new Error("the cage is gone; run flbc cage --repair"); };
+    document.querySelector("[data-save=cage]").click();
+  }, () => globalThis.flbcApp.protector.tell("the cage is gone; choose kNearest")]) {
+    await app.tab.$eval("#note", (note) => { note.textContent = ""; });
+    await app.tab.evaluate(say);
+    await app.tab.waitForFunction(() => document.getElementById("note").textContent !== "");
+    assert.equal(await app.text("note"), "the cage is gone");
+  }
   await app.close();
 }
 
@@ -384,6 +408,90 @@ async function testElbow() {
   const degrees = Math.acos(cosine) * 180 / Math.PI;
   console.log(`an elbow is bent by ${degrees.toFixed(0)} degrees in ${actions} actions`);
   assert.ok(degrees > 30 && actions <= 4);
+  await app.close();
+}
+
+// A walk of four keys is made, edited, and saved as a rig and as a film in twenty actions.
+async function testWalk() {
+  const app = await new App().open(browser, url);
+  const { tab } = app;
+  let actions = 0;
+  const act = async (done) => { ++actions; await done; };
+  await act(tab.click("[data-sample='character.obj']"));
+  await app.shown();
+  const rest = await pointsOfCage(tab);
+  const hip = async (side) => app.touchable(async (i) => {
+    const [x, y] = await app.ask("controlPoint", i);
+    return side * x > 0.1 && y > 0.15 && y < 0.6;
+  });
+  const swing = async (leg, dy) => {
+    const { x, y } = await app.ask("spot", leg);
+    await act(tab.mouse.click(x, y, { count: 2 }));
+    await act(tab.keyboard.press("l"));
+    await drawn(tab);
+    const ring = await cornersOf(tab, ".ring.x polyline");
+    await act(app.drag(ring[18], 0, dy));
+    await act(tab.keyboard.press("k"));
+  };
+  const legs = [await hip(-1), await hip(1)];
+  await swing(legs[0], 60);
+  await act(app.press("resetAll"));
+  await act(tab.keyboard.press("k"));
+  await swing(legs[1], 60);
+  await act(app.press("loop"));
+  const poses = () => tab.evaluate(() => window.flbc.viewer.content.poses.map(({ time, points }) => ({ time, points: [...points] })));
+  const made = await poses();
+  assert.deepEqual(made.map(({ time }) => time), [0, 1, 2, 3, 4]);
+  for (const k of [0, 2, 4]) assert.deepEqual(made[k].points, rest);
+  for (const [k, leg] of [[1, legs[0]], [3, legs[1]]]) {
+    const moved = rest.filter((x, c) => c % 3 === 0 && [c + 1, c + 2].some((d) => Math.abs(rest[d] - made[k].points[d]) > 0.01));
+    assert.ok(moved.length > 5 && moved.reduce((sum, x) => sum + x) * rest[3 * leg] > 0, `key ${k} moves another leg`);
+  }
+
+  // The first step becomes longer, and all steps faster.
+  const middleOf = async (k) => { const box = await (await tab.$$("#keyMarks span"))[k].boundingBox(); return { x: box.x + box.width / 2, y: box.y + box.height / 2 }; };
+  const { x, y } = await middleOf(1);
+  await act(tab.mouse.click(x, y));
+  await drawn(tab);
+  const ring = await cornersOf(tab, ".ring.x polyline");
+  await act(app.drag(ring[18], 0, 25));
+  await act(tab.keyboard.press("k"));
+  const last = await middleOf(4), before = await middleOf(3);
+  await act(app.drag(last, (before.x - last.x) / 2, 0));
+  const edited = await poses();
+  assert.deepEqual(edited.map(({ time }) => time), [0, 1, 2, 3, 3.5]);
+  assert.notDeepEqual(edited[1].points, made[1].points);
+  await app.shot("walk");
+  await act(app.press("play"));
+  await sleep(300);
+  await app.shot("walk_plays");
+  await act(app.press("play"));
+  const inPose = await pointsOfCage(tab);
+  await act(app.saved("#saveAnimation", "character_animation.glb"));
+  assert.match(String(execFileSync(program, ["info", join(downloads, "character_animation.glb")])), /animation of 3.5 s/);
+  await act(app.saved("#saveFilm", "character.webm"));
+  console.log(`a walk of four keys is made, edited, and saved twice in ${actions} actions`);
+  assert.ok(actions <= 20);
+  assert.deepEqual(await pointsOfCage(tab), inPose);
+
+  // The film has the size of the picture, and moves.
+  const { width, height, looks } = await tab.evaluate(async (data) => {
+    const video = Object.assign(document.createElement("video"), { muted: true, src: `data:video/webm;base64,${data}` });
+    await new Promise((done, fail) => { video.onloadeddata = done; video.onerror = () => fail(video.error); });
+    const context = Object.assign(document.createElement("canvas"), { width: 160, height: 120 }).getContext("2d", { willReadFrequently: true });
+    const looks = new Set();
+    video.playbackRate = 2;
+    video.play();
+    while (!video.ended) {
+      await new Promise((done) => { setTimeout(done, 20); });
+      context.drawImage(video, 0, 0, 160, 120);
+      looks.add(String(context.getImageData(0, 0, 160, 120).data));
+    }
+    return { width: video.videoWidth, height: video.videoHeight, looks: looks.size };
+  }, readFileSync(join(downloads, "character.webm")).toString("base64"));
+  const size = await tab.$eval("#canvas", (canvas) => [canvas.width, canvas.height]);
+  assert.deepEqual([width, height], size);
+  assert.ok(looks > 2, `${looks} pictures`);
   await app.close();
 }
 
@@ -843,6 +951,26 @@ async function testGizmo() {
     await drawn(tab);
     assert.equal(await tab.$$eval("#gizmo .arrow", (arrows) => arrows.map((arrow) => arrow.classList[1]).join()), "y");
     await app.type("y");
+
+    // With axes of the selection, arrows are those along which it extends.
+    await app.type(",");
+    await drawn(tab);
+    const axes = await tab.evaluate(() => window.flbc.viewer.axes);
+    const sum = (a, b) => chosen.reduce((total, i) => {
+      const along = (axis) => [0, 1, 2].reduce((all, c) => all + axis[c] * (rest[3 * i + c] - mean[c]), 0);
+      return total + along(a) * along(b);
+    }, 0);
+    const mean = [0, 1, 2].map((c) => chosen.reduce((total, i) => total + rest[3 * i + c], 0) / chosen.length);
+    for (const [a, b] of ["xy", "yz", "zx"]) assert.ok(Math.abs(sum(axes[a], axes[b])) < 1e-9 * sum(axes.x, axes.x), `${a}${b}`);
+    const letter = await tab.$eval("#gizmo .arrow", (arrow) => arrow.classList[1]);
+    const [foot, tip] = await cornersOf(tab, `.arrow.${letter} polyline`);
+    await hold(tip, (tip.x - foot.x) / 2, (tip.y - foot.y) / 2);
+    const step = stepOf(await pointsOfCage(tab)), [u, v, w] = axes[letter];
+    assert.ok(u * step[0] + v * step[1] + w * step[2] > 0);
+    assert.ok(Math.hypot(v * step[2] - w * step[1], w * step[0] - u * step[2], u * step[1] - v * step[0]) < 1e-9);
+    await app.shot(`gizmo_${dim}d_local`);
+    await undo();
+    await app.type(",");
   }
   await app.close();
 }
@@ -856,7 +984,7 @@ async function testTimeline() {
   await app.shown();
   const keys = () => tab.evaluate(() => window.flbc.viewer.content.poses.map(({ name, time, points }) => ({ name, time, points: [...points] })));
   const times = async () => (await keys()).map(({ time }) => time);
-  const all = [await keys()];
+  const all = [await keys()], atRest = await pointsOfCage(tab);
   const keep = async () => { all.push(await keys()); };
   await app.moveOne(20, -15);
   await app.type("k");
@@ -915,13 +1043,86 @@ async function testTimeline() {
   await app.shot("timeline");
   await app.press("removeKey");
   assert.deepEqual((await keys()).map(({ name }) => name), ["rest", "bow", "key 2"]);
-  const saved = await app.saved("#saveAnimation", "limb_model_animation.glb");
-  assert.match(String(execFileSync(program, ["info", saved])), /animation of 2 s/);
+  const numKeysSaved = async () => {
+    rmSync(join(downloads, "limb_model_animation.glb"), { force: true });
+    const file = await app.saved("#saveAnimation", "limb_model_animation.glb");
+    assert.match(String(execFileSync(program, ["info", file])), /animation of 2 s/);
+    const { accessors, animations: [{ samplers: [{ input }] }] } = documentIn(file);
+    return accessors[input].count;
+  };
+  assert.equal(await numKeysSaved(), 25);
+  await app.press("smooth");
+  assert.equal(await numKeysSaved(), 3);
+  await app.press("undo");
+  assert.equal(await numKeysSaved(), 25);
+
+  // A loop ends with the first key again, also when another one is added, and when the first one changes.
+  await app.press("loop");
+  const ends = async () => {
+    const all = await keys();
+    assert.deepEqual(all.at(-1).points, all[0].points);
+    return all.map(({ time }) => Number(time.toFixed(2)));
+  };
+  assert.deepEqual(await ends(), [0, 1.4, 2, 2.6]);
+  await tab.focus("#time");
+  await keyboard.press("End");
+  await app.moveOne(15, 15);
+  await app.type("k");
+  assert.deepEqual(await ends(), [0, 1.4, 2, 2.6, 3.6]);
+  await tab.focus("#time");
+  await keyboard.press("Home");
+  await app.moveOne(10, 15);
+  await app.type("k");
+  assert.deepEqual((await keys())[0].points, await pointsOfCage(tab));
+  await ends();
+  await app.shot("timeline_loop");
+  await app.press("keepPose");
+  for (const part of await tab.$$("details")) await part.evaluate((details) => { details.open = true; });
+  await checkAccess(tab, "work screen");
+
+  // A browser without a recorder says so.
+  await tab.evaluate(() => { globalThis.kept = MediaRecorder; delete globalThis.MediaRecorder; });
+  await app.press("saveFilm");
+  assert.match(await app.text("note"), /does not record films/);
+  await tab.evaluate(() => { globalThis.MediaRecorder = globalThis.kept; });
 
   // Undo leads back through all of it.
-  for (let k = 0; k < 40 && !(await tab.$eval("#undo", (button) => button.disabled)); ++k) await app.press("undo");
-  assert.deepEqual(await keys(), all[0]);
-  assert.equal(await tab.$eval("#timeline", (line) => line.hidden), true);
+  const undoAll = async () => {
+    for (let k = 0; k < 250 && !(await tab.$eval("#undo", (button) => button.disabled)); ++k) await tab.$eval("#undo", (button) => button.click());
+    assert.deepEqual(await keys(), all[0]);
+    assert.equal(await tab.$eval("#timeline", (line) => line.hidden), true);
+  };
+  await undoAll();
+  assert.deepEqual(await pointsOfCage(tab), atRest);
+
+  // And through 200 random actions.
+  const rest = atRest.length / 3;
+  let seed = 7;
+  const random = (count) => { seed = (48271 * seed) % 2147483647; return seed % count; };
+  const center = (box) => ({ x: box.x + box.width / 2, y: box.y + box.height / 2 });
+  const dragSome = async (selector) => {
+    const parts = [];
+    for (const part of await tab.$$(selector)) if (await part.isVisible()) parts.push(part);
+    const box = await parts[random(parts.length || 1)]?.boundingBox();
+    if (box) await app.drag(center(box), random(80) - 40, random(60) - 30, 2);
+  };
+  const press = (id) => tab.$eval(`#${id}`, (button) => { if (button.checkVisibility()) button.click(); });
+  const actions = [
+    () => app.type("k"), () => app.type("k"), () => press("smooth"), () => press("loop"), () => press("removeKey"), () => app.type(","),
+    () => app.type("xyzgrs"[random(6)]), () => app.type("elpom"[random(5)]), () => dragSome("#gizmo polyline"), () => dragSome("#gizmo polygon"), () => dragSome("#keyMarks span"),
+    async () => { const { x, y } = await app.ask("spot", random(rest)); await mouse.click(x, y); },
+    async () => app.drag(await app.ask("spot", random(rest)), random(60) - 30, random(60) - 30, 2),
+    async () => { await app.type("r"); await app.type(String(random(90))); await keyboard.press("Enter"); },
+    () => tab.$eval("#library button", (button) => button.click()), () => press("undo"), () => press("redo"), () => press("play"),
+    async () => { if (await tab.$eval("#timeline", (line) => !line.hidden)) { await tab.focus("#time"); await keyboard.press(["Home", "End", "PageUp"][random(3)]); } },
+  ];
+  for (let k = 0; k < 200; ++k) await actions[random(actions.length)]();
+  await app.shot("timeline_random");
+  await keyboard.press("Escape");
+  const numStrokes = await tab.evaluate(() => window.flbc.viewer.editor.done.length);
+  assert.ok(numStrokes > 50 && numStrokes < 200, `${numStrokes} strokes`);
+  await undoAll();
+  assert.deepEqual(await pointsOfCage(tab), atRest);
   await app.close();
 }
 
@@ -958,6 +1159,14 @@ async function testKeyboard() {
   await app.drop([join(meshes, "3d/limb_model.obj")]);
   await app.shown();
   assert.equal(await tab.evaluate(() => document.activeElement.id), "canvas");
+  const outline = () => tab.$eval("#canvas", (canvas) => getComputedStyle(canvas).outlineStyle);
+  assert.equal(await outline(), "none");
+  await keyboard.press("Tab");
+  await keyboard.down("Shift");
+  await keyboard.press("Tab");
+  await keyboard.up("Shift");
+  assert.equal(await outline(), "solid");
+  await app.shot("keyboard_focus");
   const neighbors = await tab.evaluate(() => window.flbc.viewer.editor.graph.neighbors.map((list) => [...list]));
   await keyboard.press("ArrowRight");
   await keyboard.press("Space");
@@ -1071,6 +1280,7 @@ await testEarlyDrop(join(meshes, "3d/limb_model.obj"));
 await testModel("Figure, in 2D", join(meshes, "2d/figure_model.obj"), 2);
 await testModel("Limb", join(meshes, "3d/limb_model.obj"), 3);
 await testElbow();
+await testWalk();
 await testGizmo();
 await testTimeline();
 await testFirstDrag();

@@ -6,7 +6,7 @@ import { decodeContent, inSpace } from "../../libflbc/front/page/data.mjs";
 import { Deformer } from "../../libflbc/front/page/deformer.mjs";
 import { kNoWebGl, show } from "../../libflbc/front/page/main.mjs";
 import { element, setTheme, tell } from "../../libflbc/front/page/panel.mjs";
-import { interpolatePoses } from "../../libflbc/front/page/poses.mjs";
+import { interpolatePoses, kFrames, straightKeys } from "../../libflbc/front/page/poses.mjs";
 import { download } from "../../libflbc/front/page/saving.mjs";
 import { pointAt } from "../../libflbc/front/page/vectors.mjs";
 import { Flbc } from "../js/flbc.mjs";
@@ -23,7 +23,6 @@ const kPreview = 20000;   // points that are drawn while a model is computed
 const kMoves = 1e-4;      // of the cage size: less is no movement
 const kPicture = /\.(png|jpe?g|webp|gif)$/i;
 const kDrawing = /\.svg$/i;
-const kFrames = 12;       // per second of an animation
 const kScreens = ["start", "busy", "drawing"];
 const kParts = ["stage", "timeline", "panel", "keyHelp"];
 const sentence = (text = "") => text.slice(0, 1).toUpperCase() + text.slice(1);
@@ -340,6 +339,7 @@ class App {
     });
     this.protector = protector;
     bindProtecting(protector);
+    protector.tell = (message) => tell(plain(message));
     element("saveLocality").hidden = this.model.isFilled;
     element("paint").addEventListener("click", () => {
       this.compare(false);
@@ -436,8 +436,11 @@ class App {
       npy: async () => [`${title}_weights.npy`, await this.flbc.weightFile({ format: "npy" })],
       mtx: async () => [`${title}_weights.mtx`, await this.flbc.weightFile({ format: "mtx" })],
       page: async () => [`${title}.html`, await this.flbc.page({ picture })],
-      animation: async () => [`${title}_animation.glb`, await this.flbc.glb(
-        { influences: 8, times: poses.map(({ time }) => time), poses: poses.map((pose) => inFile(pose.points)) })],
+      animation: async () => {
+        const keys = straightKeys(poses);
+        return [`${title}_animation.glb`, await this.flbc.glb(
+          { influences: 8, times: keys.map(({ time }) => time), poses: keys.map((pose) => inFile(pose.points)) })];
+      },
       glb4: async () => [`${title}.glb`, await this.flbc.glb({ influences: 4 })],
       glb8: async () => [`${title}_8.glb`, await this.flbc.glb({ influences: 8 })],
     };
@@ -450,7 +453,7 @@ class App {
       tell(this.note || `Saved ${name}`);
       this.note = "";
     } catch (error) {
-      tell(error.message);
+      tell(plain(error.message));
     }
   }
 

@@ -320,10 +320,11 @@ export function bindProtecting(protector) {
     element("protected").textContent = protector.describe();
     // Not while the slider is dragged.
     const { reach: factors, viewer: { editor: { selection } } } = protector;
-    const state = [protector.falloff, ...[...selection].map((i) => [i, factors.get(i)])].join();
+    const hasConflict = Boolean(protector.reply.conflict);
+    const state = [protector.falloff, hasConflict, ...[...selection].map((i) => [i, factors.get(i)])].join();
     if (state === shown) return;
     shown = state;
-    reach.disabled = selection.size === 0;
+    reach.disabled = selection.size === 0 || hasConflict;
     reach.value = Math.log2(factors.get([...selection][0]) ?? 1);
     showReach();
     falloff.value = protector.falloff;

@@ -26,13 +26,15 @@ function alongAxes(camera, place, axes, dx, dy) {
 export class ToolDrag {
   // \param axisNames  "x", "xy", and so on; nothing: all
   // \param grabbed  the control point under the pointer, null: the center of the selection
-  constructor(editor, camera, tool, axisNames, grabbed, from) {
+  // \param named  axes by name
+  constructor(editor, camera, tool, axisNames, grabbed, from, named = kAxes) {
     this.editor = editor;
     this.camera = camera;
     this.shares = editor.shares();
     this.shareOf = (i) => this.shares.get(i);
     this.tool = this.shares.size > 1 || editor.pivot ? tool : "move";
-    this.axes = [...axisNames ?? ""].map((name) => kAxes[name]);
+    this.named = named;
+    this.axes = [...axisNames ?? ""].map((name) => named[name]);
     this.axis = this.axes[0];
     this.label = axisNames ? `${this.tool} ${axisNames}` : this.tool;
     this.from = from;
@@ -59,7 +61,7 @@ export class ToolDrag {
 
   // By a number of degrees, times, or units of length along the axis (x if none is chosen).
   by(number) {
-    if (this.tool === "move" && !this.axis) return this.translate(times(number, kAxes.x));
+    if (this.tool === "move" && !this.axis) return this.translate(times(number, this.named.x));
     return this.apply([this.tool === "rotate" ? number * Math.PI / 180 : number]);
   }
 

@@ -3,7 +3,6 @@
 // rotate it, and the center moves it freely. An axis that is chosen by its key leaves its own handle only.
 import { ToolDrag } from "./actions.mjs";
 import { isInside } from "./picking.mjs";
-import { kAxes } from "./transforms.mjs";
 import { add, centroid, dot, length, times } from "./vectors.mjs";
 
 const kSize = 84;      // pixels, of an arrow
@@ -34,8 +33,9 @@ export class Gizmo {
 
   // What can be grabbed: kind, tool, names of axes, and its line or outline in pixels.
   handles() {
-    const { editor, camera, brush, playing, showsCage, axis, tool, content: { dim } } = this.viewer;
+    const { editor, camera, brush, drag, playing, showsCage, axis, tool, content: { dim } } = this.viewer;
     if (editor.selection.size === 0 || brush || playing || !showsCage) return [];
+    const axes = drag?.named ?? this.viewer.axes;
     const middle = editor.pivot ?? centroid(editor.points, [...editor.selection]);
     const { right, up, toward } = camera.axes();
     const size = kSize * Math.min(1, Math.min(camera.width, camera.height) / 480);
@@ -51,7 +51,7 @@ export class Gizmo {
     const center = camera.project(middle);
     put("center", axis ?? "", [center], "move");
     for (const name of all.filter((each) => !axis || each === axis)) {
-      const own = kAxes[name], [u, v] = all.filter((each) => each !== name).map((each) => kAxes[each]);
+      const own = axes[name], [u, v] = all.filter((each) => each !== name).map((each) => axes[each]);
       const tip = at(own, own, 1, 0), facing = Math.abs(dot(own, toward));
       if (Math.hypot(tip.x - center.x, tip.y - center.y) > kSteep * size && !(axis && tool === "rotate")) {
         put(tool === "scale" && canTurn ? "box" : "arrow", name, [at(own, own, 0.2, 0), tip], tool === "scale" ? "scale" : "move");
@@ -83,9 +83,9 @@ export class Gizmo {
   }
 
   begin({ id, names, tool }, from) {
-    const { editor, camera } = this.viewer;
+    const { editor, camera, axes } = this.viewer;
     this.held = id;
-    return new ToolDrag(editor, camera, tool, names, null, from);
+    return new ToolDrag(editor, camera, tool, names, null, from, axes);
   }
 
   draw() {

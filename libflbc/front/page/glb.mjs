@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The keys as an animation in glTF. Every key is a morph target, because readers interpolate targets
-// along straight lines, as the page does, and need no limit of influences.
+// along straight lines, and need no limit of influences.
 import { decodeBytes } from "./data.mjs";
 import { Deformer } from "./deformer.mjs";
 import { atVertices, sumNormals } from "./surface_normals.mjs";

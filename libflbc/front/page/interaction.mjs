@@ -8,7 +8,7 @@ const kClick = { mouse: 2, pen: 4, touch: 8 };     // moves up to here are none
 const kHandle = { mouse: 6, pen: 8, touch: 18 };   // pixels around a handle of the gizmo
 
 export class Interaction {
-  // \param view  what is shown: canvas, camera, editor, gizmo, tool, axis, area, typed, drag, and
+  // \param view  what is shown: canvas, camera, editor, gizmo, tool, axis, axes, area, typed, drag, and
   // functions redraw, hover, onOutline, onState
   constructor(view) {
     this.view = view;
@@ -40,6 +40,7 @@ export class Interaction {
     const { view } = this;
     view.canvas.setPointerCapture(event.pointerId);
     view.canvas.focus();
+    view.canvas.classList.remove("keyed");
     const spot = this.spotOf(event);
     this.pointers.set(event.pointerId, spot);
     view.stopPlaying();
@@ -87,8 +88,8 @@ export class Interaction {
   }
 
   newDrag(grabbed) {
-    const { editor, camera, tool, axis } = this.view;
-    return new ToolDrag(editor, camera, tool, axis, grabbed, this.from);
+    const { editor, camera, tool, axis, axes } = this.view;
+    return new ToolDrag(editor, camera, tool, axis, grabbed, this.from, axes);
   }
 
   selectRing(event) {

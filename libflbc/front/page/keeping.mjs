@@ -2,7 +2,7 @@
 // Keeps the pose and the keys of the animation in the browser, so that they survive a reload.
 
 // The same for the same cage of a model of the same name.
-function nameOf({ title, rest }) {
+export function nameOf({ title, rest }) {
   let hash = 0;
   for (const bits of new Uint32Array(Float64Array.from(rest).buffer)) hash = (Math.imul(hash, 31) + bits) | 0;
   return `flbc ${title} ${rest.length / 3} ${hash}`;

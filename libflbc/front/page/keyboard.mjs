@@ -20,6 +20,7 @@ export const kHelp = [
   ["G  R  S", "tools: move, rotate, scale the selection"],
   ["G  R  S, number, Enter", "move by units of length, rotate by degrees, scale by a factor; also during a drag"],
   ["X  Y  Z", "along or around one axis only; again: freely"],
+  [",", "axes along the selection, instead of those of the model"],
   ["Alt+click, P", "pivot of R and S: a control point, the center of the selection; P again: none"],
   ["O", "soft selection: neighbors follow; the slider is its radius"],
   ["Arrows, Space", "walk from control point to control point along the cage; Space selects, one more or one less"],
@@ -68,8 +69,12 @@ export function bindKeys(viewer, commands, interaction, signal) {
     g: "move", r: "rotate", s: "scale", x: "x", y: "y", z: "z", m: "nextMirror",
     a: "selectAll", b: "box", q: "lasso", e: "ring", l: "limb", "+": "grow", "=": "grow", "-": "shrink",
     p: "pivotHere", o: "toggleSoft", k: "addKey", f: "frame", t: "turn", 1: "front", 2: "side", 3: "top", c: "cage", w: "edges",
-    " ": "play", d: "theme", "?": "help", delete: "resetSelection", backspace: "resetSelection",
+    ",": "localAxes", " ": "play", d: "theme", "?": "help", delete: "resetSelection", backspace: "resetSelection",
   };
+  // A frame around the picture is for those who come by keys.
+  window.addEventListener("keyup", ({ key }) => {
+    if (key === "Tab") viewer.canvas.classList.toggle("keyed", document.activeElement === viewer.canvas);
+  }, { signal });
   const withControl = { z: "undo", y: "redo", a: "selectAll" };
   window.addEventListener("keydown", (event) => {
     if (event.target.matches("input, select") && event.key !== "Escape") return;

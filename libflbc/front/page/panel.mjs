@@ -5,7 +5,8 @@ import { kColorings, portion } from "./colors.mjs";
 import { inSpace } from "./data.mjs";
 import { kHelp } from "./keyboard.mjs";
 import { readPose } from "./obj.mjs";
-import { commandOf, saveAnimation, saveModel, savePicture, savePose } from "./saving.mjs";
+import { Library } from "./library.mjs";
+import { commandOf, saveAnimation, saveFilm, saveModel, savePicture, savePose } from "./saving.mjs";
 
 const kAxisNames = ["x", "y", "z"];
 
@@ -49,6 +50,7 @@ function mirror(viewer, axis) {
 async function loadPose(viewer, file) {
   const { editor, content } = viewer;
   try {
+    if (/\.json$/i.test(file.name)) return viewer.library.load(await file.text());
     const places = readPose(await file.text(), content.dim, editor.size);
     viewer.stopPlaying();
     editor.begin();
@@ -56,6 +58,15 @@ async function loadPose(viewer, file) {
     editor.end();
   } catch (error) {
     tell(`${file.name}: ${error.message}`);
+  }
+}
+
+async function film(viewer) {
+  try {
+    tell("Recording…");
+    tell(`Saved ${await saveFilm(viewer)}`);
+  } catch (error) {
+    tell(error.message);
   }
 }
 
@@ -105,11 +116,16 @@ export function makeCommands(viewer) {
     limb: () => { if (editor.selection.size > 0) editor.selectLimb(); },
     grow: () => editor.select(editor.graph.grow(editor.selection)),
     shrink: () => editor.select(editor.graph.shrink(editor.selection)),
+    localAxes: () => viewer.set("isLocal", !viewer.isLocal),
     pivotHere: () => editor.setPivot(editor.pivot || editor.selection.size === 0 ? null : selected()),
     toggleSoft: () => toggleSoft(viewer),
     loadPose: () => element("poseFile").click(),
     addKey: () => viewer.addKey(),
     removeKey: () => viewer.removeKey(),
+    smooth: () => viewer.toggleSmooth(),
+    loop: () => viewer.toggleLoop(),
+    keepPose: () => viewer.library.keep(),
+    savePoses: () => viewer.library.save(),
     nextMirror: () => mirror(viewer, (editor.mirrorAxis + 2) % (content.dim + 1) - 1),
     frame: () => viewer.frame(selected()),
     front: () => viewer.look("front"),
@@ -121,6 +137,7 @@ export function makeCommands(viewer) {
     play: () => (viewer.playing ? viewer.stopPlaying() : viewer.play()),
     savePose: () => savePose(viewer),
     saveAnimation: () => saveAnimation(viewer),
+    saveFilm: () => film(viewer),
     saveModel: () => saveModel(viewer),
     savePicture: () => savePicture(viewer),
     copyCommand: () => copyCommand(viewer),
@@ -182,7 +199,7 @@ function fillTimeline(viewer) {
   const { editor, content } = viewer;
   const slider = element("time"), marks = element("keyMarks");
   slider.addEventListener("input", () => {
-    viewer.playing = null;
+    if (viewer.playing) viewer.stopPlaying();
     viewer.seek(Number(slider.value));
   });
   slider.addEventListener("change", () => viewer.stopPlaying());
@@ -200,7 +217,7 @@ function fillTimeline(viewer) {
     const k = [...marks.children].indexOf(event.target);
     if (k < 0) return;
     const { time } = content.poses[k];
-    viewer.playing = null;
+    if (viewer.playing) viewer.stopPlaying();
     viewer.seek(time);
     held = { k, time, from: event.clientX, scale: (viewer.duration - content.poses[0].time) / marks.clientWidth };
     marks.setPointerCapture(event.pointerId);
@@ -267,7 +284,8 @@ function showState(viewer) {
   const { editor, content } = viewer;
   const isPressed = {
     move: viewer.tool === "move", rotate: viewer.tool === "rotate", scale: viewer.tool === "scale",
-    box: viewer.area === "box", lasso: viewer.area === "lasso", cage: viewer.showsCage, edges: viewer.showsEdges };
+    box: viewer.area === "box", lasso: viewer.area === "lasso", cage: viewer.showsCage, edges: viewer.showsEdges,
+    localAxes: viewer.isLocal, loop: viewer.loops, smooth: !content.poses[0]?.isStraight };
   for (const [id, pressed] of Object.entries(isPressed)) {
     element(id).setAttribute("aria-pressed", String(pressed));
   }
@@ -287,6 +305,7 @@ function showState(viewer) {
 export function bindPanel(viewer) {
   const { content } = viewer;
   const commands = makeCommands(viewer);
+  viewer.library = new Library(viewer, element("library"));
   for (const button of document.querySelectorAll("button[id]")) {
     button.addEventListener("click", commands[button.id]);
   }

@@ -3,6 +3,7 @@
 import { kBases } from "./camera.mjs";
 import { glbOf } from "./glb.mjs";
 import { modelText, poseText } from "./obj.mjs";
+import { straightKeys } from "./poses.mjs";
 
 export function download(name, blob) {
   const link = document.createElement("a");
@@ -44,7 +45,28 @@ export function saveModel(viewer) {
 }
 
 export function saveAnimation({ content }) {
-  download(`${content.title}_animation.glb`, glbOf(content, kBases[content.up]));
+  download(`${content.title}_animation.glb`, glbOf({ ...content, poses: straightKeys(content.poses) }, kBases[content.up]));
+}
+
+// The animation as it plays, once and without the cage. \return the name of the file
+// \throws Error where the browser records no films
+export async function saveFilm(viewer) {
+  const { canvas, content, editor } = viewer;
+  const type = ["video/webm", "video/mp4"].find((each) => globalThis.MediaRecorder?.isTypeSupported(each));
+  if (!type || !canvas.captureStream) throw new Error("This browser does not record films. Recent versions of Chrome, Edge, Firefox, and Safari do");
+  const recorder = new MediaRecorder(canvas.captureStream(30), { mimeType: type, videoBitsPerSecond: 1e7 });
+  const parts = [], name = `${content.title}.${type.slice(6)}`;
+  recorder.addEventListener("dataavailable", ({ data }) => parts.push(data));
+  const stopped = new Promise((done) => { recorder.addEventListener("stop", done); });
+  viewer.stopPlaying();
+  recorder.start();
+  viewer.play(() => {
+    editor.cancel();
+    recorder.stop();
+  });
+  await stopped;
+  download(name, new Blob(parts, { type }));
+  return name;
 }
 
 export function savePicture(viewer) {

@@ -6,6 +6,7 @@ import { Deformer } from "./deformer.mjs";
 import { Editor } from "./editor.mjs";
 import { interpolatePoses, nearestPose, playedTime } from "./poses.mjs";
 import { Renderer } from "./renderer.mjs";
+import { kAxes, principalAxes } from "./transforms.mjs";
 import { pointAt } from "./vectors.mjs";
 
 const kThemes = {
@@ -34,6 +35,7 @@ export class Viewer {
     this.coloring = "shaded";
     this.tool = "move";
     this.axis = null;
+    this.isLocal = false;  // whether axes are those of the selection, instead of the model
     this.brush = null;   // paints on the model: begin, to, end, cancel, colors; and undo, as the editor
     this.area = null;    // what drags elsewhere select: "box", "lasso" or null
     this.typed = null;   // digits of a number for the tool, null: digits are other keys
@@ -105,7 +107,7 @@ export class Viewer {
     this.update();
     const coloring = this.brush ? "region" : this.coloring;
     renderer.draw(camera, { ...kThemes[this.theme], coloring, dotSize: this.dotSize(), pointer: this.pointer,
-                            showsCage: this.showsCage, showsDots: !this.playing, showsEdges: this.showsEdges });
+                            showsCage: this.showsCage && !this.playing?.onEnd, showsDots: !this.playing, showsEdges: this.showsEdges });
     this.onDrawn();
   }
 
@@ -152,6 +154,13 @@ export class Viewer {
     this.onState();
   }
 
+  // Axes of the tools and the gizmo.
+  get axes() {
+    const { points, selection, graph } = this.editor;
+    if (!this.isLocal || selection.size === 0) return kAxes;
+    return principalAxes(points, selection.size > 2 ? [...selection] : [...new Set(graph.grow(selection))]);
+  }
+
   // Whether the cage is reshaped at rest; its poses are for later.
   get holdsModel() {
     return Boolean(this.reshaper?.isOn);
@@ -180,8 +189,8 @@ export class Viewer {
     this.stopPlaying();
     const old = poses.length > 0 ? poses : [{ name: "rest", time: 0, points: rest }];
     const isInside = this.isSought && time < duration;
-    const key = { name: `key ${old.length}`, time: isInside ? time : duration + 1, points: editor.points.slice() };
-    const replaced = old.find((pose) => Math.abs(pose.time - key.time) < kGap);
+    const key = { ...old[0], name: `key ${old.length}`, time: isInside ? time : duration + (this.loops ? 0 : 1), points: editor.points.slice() };
+    const replaced = old.find((pose) => !pose.closes && Math.abs(pose.time - key.time) < kGap);
     if (replaced) Object.assign(key, { name: replaced.name, time: replaced.time });
     this.time = key.time;
     this.setKeys([...old.filter((pose) => pose !== replaced), key]);
@@ -191,7 +200,7 @@ export class Viewer {
   // The key at the time that was chosen, or the last one.
   get key() {
     const { poses } = this.content;
-    return poses.indexOf(this.isSought ? nearestPose(poses, this.time) : poses.at(-1));
+    return poses.indexOf(this.isSought || this.loops ? nearestPose(poses, this.time) : poses.at(-1));
   }
 
   removeKey() {
@@ -212,23 +221,54 @@ export class Viewer {
     this.setKeys(keys);
   }
 
+  // The key that closes a loop comes last, and has the points of the first one.
   setKeys(keys) {
-    this.editor.setPoses(keys.sort((a, b) => a.time - b.time));
+    const open = keys.filter(({ closes }) => !closes).sort((a, b) => a.time - b.time);
+    const closing = keys.find(({ closes }) => closes), last = open.at(-1);
+    if (closing && open.length > 1) {
+      open.push({ ...closing, points: open[0].points, time: closing.time < last.time + kGap ? last.time + 1 : closing.time });
+    }
+    this.editor.setPoses(open);
   }
 
-  play() {
+  get loops() {
+    return Boolean(this.content.poses.at(-1)?.closes);
+  }
+
+  toggleLoop() {
+    const { content: { poses }, loops, duration } = this;
+    this.stopPlaying();
+    const closing = { ...poses[0], name: "loop", time: 2 * duration - poses.at(-2).time, closes: true };
+    this.setKeys(loops ? poses.slice(0, -1) : [...poses, closing]);
+    this.editor.end();
+  }
+
+  toggleSmooth() {
+    const { poses } = this.content;
+    this.stopPlaying();
+    this.setKeys(poses.map((pose) => ({ ...pose, isStraight: !poses[0].isStraight })));
+    this.editor.end();
+  }
+
+  // \param onEnd  is called when playing ends, which then is after the last key
+  play(onEnd = null) {
     if (this.content.poses.length < 2 || this.holdsModel) return;
-    this.playing = { begin: null, from: this.time >= this.duration ? 0 : this.time };
+    this.playing = { begin: null, from: onEnd || this.time >= this.duration ? 0 : this.time, onEnd };
     this.changed();
   }
 
   playOn(now) {
-    this.playing.begin ??= now - 1000 * (this.playing.from - this.content.poses[0].time);
-    this.seek(playedTime(this.content.poses, (now - this.playing.begin) / 1000));
+    const { playing, duration, content: { poses } } = this;
+    playing.begin ??= now - 1000 * (playing.from - poses[0].time);
+    const seconds = (now - playing.begin) / 1000, isOver = playing.onEnd && seconds > duration - poses[0].time;
+    this.seek(isOver ? duration : playedTime(poses, seconds));
+    if (isOver) this.stopPlaying();
   }
 
   stopPlaying() {
-    if (this.playing) this.playing = null;
+    const { onEnd } = this.playing ?? {};
+    this.playing = null;
+    onEnd?.();
     this.editor.end();
     this.onState();
   }
