@@ -286,7 +286,7 @@ async function testShapes() {
   await app.moveOne(-30, 20);
   await app.type("k");
   const playing = readFileSync(await app.saved("[data-save=playing]", "shape_animated.svg"), "utf8");
-  assert.equal(playing.match(/<image /g).length, 13);
+  assert.equal(playing.match(/<image /g).length, 25);  // from rest to the first key, and to the second
   const looks = await app.tab.evaluate(async (source) => {
     const image = new Image();
     image.src = `data:image/svg+xml;utf8,${encodeURIComponent(source)}`;
