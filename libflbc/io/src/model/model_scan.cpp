@@ -56,9 +56,13 @@ void keep_finite(Model& model, PointList<Dim>& attributes) {
 template void keep_finite<2>(Model&, PointList<2>&);
 template void keep_finite<3>(Model&, PointList<3>&);
 
+bool are_colors(const PointList<3>& numbers) {
+  return (numbers.array() >= 0 && numbers.array() <= 1).all();
+}
+
 void keep_colors_in_range(Model& model) {
   auto& colors = model.attributes.colors;
-  if ((colors.array() >= 0 && colors.array() <= 1).all()) return;
+  if (are_colors(colors)) return;
   colors.resize(3, 0);
   add_other(model, "colors out of range");
 }

@@ -74,6 +74,9 @@ void add_other(Model& model, const std::string& phrase);
 template <int Dim>
 void keep_finite(Model& model, PointList<Dim>& attributes);
 
+//! Whether all numbers are in [0, 1], where NaN is not.
+bool are_colors(const PointList<3>& numbers);
+
 //! Drops the colors unless all are in [0, 1], and adds this to Model::others.
 void keep_colors_in_range(Model& model);
 

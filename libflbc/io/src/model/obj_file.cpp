@@ -258,14 +258,10 @@ class ObjReader {
     if (reads_attributes_) add_sites(scan_, places, kind, static_cast<Index>(index));
   }
 
-  // Numbers outside [0, 1], and NaN, are not colors.
   void finish_colors() {
-    const bool are_colors = colors_.size() == model_.soup.points.size() &&
-                            std::all_of(colors_.begin(), colors_.end(), [](const Vector<3>& color) {
-                              return (color.array() >= 0 && color.array() <= 1).all();
-                            });
-    if (are_colors) {
-      model_.attributes.colors = to_matrix<3>(colors_);
+    const PointList<3> colors = to_matrix<3>(colors_);
+    if (colors_.size() == model_.soup.points.size() && are_colors(colors)) {
+      model_.attributes.colors = colors;
       if (most_others_ > 3) add_other(model_, "transparency");
     } else if (most_others_ > 0) {
       add_other(model_, "numbers after the coordinates of vertices");

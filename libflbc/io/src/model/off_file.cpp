@@ -140,7 +140,7 @@ class OffReader {
     auto& colors = model_.attributes.colors;
     const double largest = are_levels_ ? 255 : 1;
     colors /= largest;
-    are_colors_ &= (colors.array() >= 0 && colors.array() <= 1).all();
+    are_colors_ = are_colors_ && are_colors(colors);
     if (are_colors_ && least_alpha_ < largest) add_other(model_, "transparency");
     if (are_colors_) return;
     colors.resize(3, 0);
