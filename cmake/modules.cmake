@@ -8,7 +8,8 @@ include(${CMAKE_CURRENT_LIST_DIR}/unity.cmake)
 #                 [LINKS library...] [DEFINES macro...] SOURCES file...)
 # The sources of the current folder, which other files include as "NAME/header.h". NAME may be nested,
 # such as solver/run.
-# HOT      its loops outside of kernels take a measurable part of a solve: all optimizations
+# HOT      its loops outside of kernels take a measurable part of a solve, a deformation, or a run:
+#          all optimizations
 # LIBRARY  the optional component that contains the module, instead of the core
 # HEADERS  public headers without a source of their name; those with one are found
 # LINKS    other libraries that only this module uses
@@ -56,15 +57,15 @@ function(flbc_add_module name)
     target_include_directories(${target} PUBLIC ${flbc_GENERATED_HEADERS})
   endif()
   # Compiling Eigen dominates build time. GCC compiles all that follows a precompiled header as it
-  # compiled the header, so hot modules have one of their own.
-  if(name STREQUAL base OR name STREQUAL polytope)
+  # compiled the header, so there are two: of the first hot module, and of the first other one.
+  if(name STREQUAL base OR name STREQUAL mesh)
     target_precompile_headers(${target} PRIVATE
       <algorithm> <functional> <map> <string> <vector>
       <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <Eigen/SparseCore>)
   elseif(arg_HOT)
-    target_precompile_headers(${target} REUSE_FROM flbc_module_polytope)
-  else()
     target_precompile_headers(${target} REUSE_FROM flbc_module_base)
+  else()
+    target_precompile_headers(${target} REUSE_FROM flbc_module_mesh)
   endif()
   flbc_compile_in_units(${target} ${files_in_unit})
   foreach(kernel IN LISTS arg_KERNELS)

@@ -37,15 +37,14 @@ ProgressBar::~ProgressBar() {
 }
 
 void ProgressBar::show(const Progress& progress) {
-  replace("solving: iteration " + std::to_string(progress.iteration));
+  if (drawer_.joinable()) replace("solving: iteration " + std::to_string(progress.iteration));
 }
 
 void ProgressBar::show(const std::string& stage, double done) {
-  replace(stage + " " + std::to_string(static_cast<int>(100 * done)) + "%");
+  if (drawer_.joinable()) replace(stage + " " + std::to_string(static_cast<int>(100 * done)) + "%");
 }
 
 void ProgressBar::replace(std::string text) {
-  if (!drawer_.joinable()) return;
   const std::lock_guard lock(mutex_);
   text_ = std::move(text);
 }

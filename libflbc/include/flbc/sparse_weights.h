@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "flbc/types.h"
@@ -13,11 +15,15 @@ namespace flbc {
 
 //! The nonzero weights of each point. A dense matrix converts implicitly, so functions of the
 //! library also accept n x P matrices. Convert once if you call many functions with the same
-//! matrix.
+//! matrix. Copies share their entries, which never change.
 class SparseWeights {
  public:
   //! No points.
-  SparseWeights() = default;
+  SparseWeights() : SparseWeights(0, {}) {}
+
+  // Without moves: what was moved from would have no entries.
+  SparseWeights(const SparseWeights&) = default;
+  SparseWeights& operator=(const SparseWeights&) = default;
 
   //! Keeps weights with |w| > threshold, without scaling them. With threshold 0 this is lossless.
   //! With a larger threshold the sum is no longer exactly 1.
@@ -48,31 +54,34 @@ class SparseWeights {
                           const std::function<Eigen::VectorXd(Index)>& of_point);
 
   //! P.
-  Index num_points() const { return static_cast<Index>(starts_.size()) - 1; }
+  Index num_points() const { return static_cast<Index>(starts().size()) - 1; }
 
   //! n.
   Index num_control_points() const { return num_control_points_; }
 
   //! P + 1 offsets: the weights of point p are entries starts[p] to starts[p + 1] - 1.
-  const std::vector<std::int64_t>& starts() const { return starts_; }
+  const std::vector<std::int64_t>& starts() const { return entries_->starts; }
 
   //! The control point of each weight, ascending for each point.
-  const std::vector<std::uint32_t>& control_points() const { return control_points_; }
+  const std::vector<std::uint32_t>& control_points() const { return entries_->control_points; }
 
   //! The nonzero weights.
-  const std::vector<double>& values() const { return values_; }
+  const std::vector<double>& values() const { return entries_->values; }
 
   //! Calls action(i, weight) for the weights of a point, by ascending control point i.
   //! \param point  in [0, P)
   template <class Action>
   void visit(Index point, const Action& action) const {
-    for (std::int64_t k = starts_[point]; k < starts_[point + 1]; ++k) {
-      action(static_cast<Index>(control_points_[k]), values_[k]);
+    const auto& [starts, control_points, values] = *entries_;
+    for (std::int64_t k = starts[point]; k < starts[point + 1]; ++k) {
+      action(static_cast<Index>(control_points[k]), values[k]);
     }
   }
 
   //! The number of stored weights of a point. \param point  in [0, P)
-  Index count(Index point) const { return static_cast<Index>(starts_[point + 1] - starts_[point]); }
+  Index count(Index point) const {
+    return static_cast<Index>(starts()[point + 1] - starts()[point]);
+  }
 
   //! Whether a point has weights other than zero. Points without weights do not move.
   //! \param point  in [0, P)
@@ -89,16 +98,26 @@ class SparseWeights {
 
   //! Whether all numbers are equal.
   friend bool operator==(const SparseWeights& a, const SparseWeights& b) {
-    return a.num_control_points_ == b.num_control_points_ && a.starts_ == b.starts_ &&
-           a.control_points_ == b.control_points_ && a.values_ == b.values_;
+    return a.num_control_points_ == b.num_control_points_ &&
+           (a.entries_ == b.entries_ ||
+            (a.starts() == b.starts() && a.control_points() == b.control_points() &&
+             a.values() == b.values()));
   }
   friend bool operator!=(const SparseWeights& a, const SparseWeights& b) { return !(a == b); }
 
  private:
+  struct Entries {
+    std::vector<std::int64_t> starts{0};
+    std::vector<std::uint32_t> control_points;
+    std::vector<double> values;
+  };
+
+  SparseWeights(Index num_control_points, Entries entries)
+      : num_control_points_(num_control_points),
+        entries_(std::make_shared<const Entries>(std::move(entries))) {}
+
   Index num_control_points_ = 0;
-  std::vector<std::int64_t> starts_{0};
-  std::vector<std::uint32_t> control_points_;
-  std::vector<double> values_;
+  std::shared_ptr<const Entries> entries_;
 };
 
 }  // namespace flbc

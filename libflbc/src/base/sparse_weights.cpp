@@ -18,52 +18,53 @@ namespace {
 
 }  // namespace
 
-SparseWeights::SparseWeights(const WeightMatrix& weights, double threshold)
-    : num_control_points_(static_cast<Index>(weights.rows())),
-      starts_(static_cast<std::size_t>(weights.cols()) + 1, 0) {
+SparseWeights::SparseWeights(const WeightMatrix& weights, double threshold) {
   if (!(threshold >= 0)) {
     throw OptionError("the threshold of sparse weights must be 0 or more, not " +
                       std::to_string(threshold));
   }
+  Entries entries;
+  auto& starts = entries.starts;
   const Eigen::Index count = weights.cols();
+  starts.resize(static_cast<std::size_t>(count) + 1);
   parallel_for(count, [&](Eigen::Index p) {
-    starts_[p + 1] = weights.rows() - (weights.col(p).array().abs() <= threshold).count();
+    starts[p + 1] = weights.rows() - (weights.col(p).array().abs() <= threshold).count();
   });
-  for (Eigen::Index p = 0; p < count; ++p) starts_[p + 1] += starts_[p];
-  control_points_.resize(starts_.back());
-  values_.resize(starts_.back());
+  for (Eigen::Index p = 0; p < count; ++p) starts[p + 1] += starts[p];
+  entries.control_points.resize(starts.back());
+  entries.values.resize(starts.back());
   parallel_for(count, [&](Eigen::Index p) {
-    std::int64_t entry = starts_[p];
+    std::int64_t entry = starts[p];
     for (Eigen::Index i = 0; i < weights.rows(); ++i) {
       if (std::abs(weights(i, p)) <= threshold) continue;  // keeps NaN
-      control_points_[entry] = static_cast<std::uint32_t>(i);
-      values_[entry++] = weights(i, p);
+      entries.control_points[entry] = static_cast<std::uint32_t>(i);
+      entries.values[entry++] = weights(i, p);
     }
   });
+  *this = SparseWeights(static_cast<Index>(weights.rows()), std::move(entries));
 }
 
 SparseWeights::SparseWeights(Index num_control_points, std::vector<std::int64_t> starts,
                              std::vector<std::uint32_t> control_points, std::vector<double> values)
-    : num_control_points_(num_control_points),
-      starts_(std::move(starts)),
-      control_points_(std::move(control_points)),
-      values_(std::move(values)) {
-  const auto count = static_cast<std::int64_t>(values_.size());
-  if (num_control_points < 0 || starts_.empty() || starts_.front() != 0 ||
-      starts_.back() != count || control_points_.size() != values_.size()) {
+    : SparseWeights(num_control_points,
+                    Entries{std::move(starts), std::move(control_points), std::move(values)}) {
+  const auto& [first, carriers, weights] = *entries_;
+  const auto count = static_cast<std::int64_t>(weights.size());
+  if (num_control_points < 0 || first.empty() || first.front() != 0 || first.back() != count ||
+      carriers.size() != weights.size()) {
     throw InputError("sparse weights need as many control points as values, and starts from 0 to " +
                      std::to_string(count));
   }
   for (Index p = 0; p < num_points(); ++p) {
-    if (starts_[p + 1] < starts_[p] || starts_[p + 1] > count) refuse(p, "end before they start");
-    for (std::int64_t k = starts_[p]; k < starts_[p + 1]; ++k) {
-      if (control_points_[k] >= static_cast<std::uint32_t>(num_control_points)) {
+    if (first[p + 1] < first[p] || first[p + 1] > count) refuse(p, "end before they start");
+    for (std::int64_t k = first[p]; k < first[p + 1]; ++k) {
+      if (carriers[k] >= static_cast<std::uint32_t>(num_control_points)) {
         refuse(p, "refer to a control point that does not exist");
       }
-      if (k > starts_[p] && control_points_[k] <= control_points_[k - 1]) {
+      if (k > first[p] && carriers[k] <= carriers[k - 1]) {
         refuse(p, "are not in the order of their control points");
       }
-      if (!std::isfinite(values_[k])) refuse(p, "are not finite");
+      if (!std::isfinite(weights[k])) refuse(p, "are not finite");
     }
   }
 }
@@ -78,9 +79,8 @@ SparseWeights SparseWeights::of(Index num_control_points, Index num_points,
   constexpr Index kBlock = 64;
   std::vector<Block> blocks((num_points + kBlock - 1) / kBlock);
   const auto num_blocks = static_cast<Index>(blocks.size());
-  SparseWeights result;
-  result.num_control_points_ = num_control_points;
-  result.starts_.resize(static_cast<std::size_t>(num_points) + 1);
+  Entries entries;
+  entries.starts.resize(static_cast<std::size_t>(num_points) + 1);
   parallel_for_chunks(num_blocks, 1, [&](Index b) {
     auto& [control_points, values] = blocks[b];
     for (Index p = b * kBlock; p < std::min(num_points, (b + 1) * kBlock); ++p) {
@@ -91,29 +91,30 @@ SparseWeights SparseWeights::of(Index num_control_points, Index num_points,
         control_points.push_back(static_cast<std::uint32_t>(i));
         values.push_back(weights[i]);
       }
-      result.starts_[p + 1] = static_cast<std::int64_t>(values.size());  // in the block
+      entries.starts[p + 1] = static_cast<std::int64_t>(values.size());  // in the block
     }
   });
   std::int64_t before = 0;
   for (Index p = 0; p < num_points; ++p) {
-    if (p % kBlock == 0) before = result.starts_[p];
-    result.starts_[p + 1] += before;
+    if (p % kBlock == 0) before = entries.starts[p];
+    entries.starts[p + 1] += before;
   }
-  result.control_points_.reserve(result.starts_.back());
-  result.values_.reserve(result.starts_.back());
+  entries.control_points.reserve(entries.starts.back());
+  entries.values.reserve(entries.starts.back());
   for (auto& [control_points, values] : blocks) {
-    result.control_points_.insert(result.control_points_.end(), control_points.begin(),
+    entries.control_points.insert(entries.control_points.end(), control_points.begin(),
                                   control_points.end());
-    result.values_.insert(result.values_.end(), values.begin(), values.end());
+    entries.values.insert(entries.values.end(), values.begin(), values.end());
     control_points = {};
     values = {};
   }
-  return result;
+  return {num_control_points, std::move(entries)};
 }
 
 bool SparseWeights::has_weights(Index point) const {
-  return std::any_of(values_.begin() + starts_[point], values_.begin() + starts_[point + 1],
-                     [](double weight) { return weight != 0; });
+  bool any = false;
+  visit(point, [&](Index, double weight) { any = any || weight != 0; });
+  return any;
 }
 
 Eigen::VectorXd SparseWeights::at(Index point) const {

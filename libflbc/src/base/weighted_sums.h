@@ -10,7 +10,10 @@
 #include "base/parallel.h"
 #include "flbc/sparse_weights.h"
 
+// Internal linkage, or the linker may take the copy of a file that is optimized lightly: then a
+// deformation takes six times as long.
 namespace flbc {
+namespace {
 
 //! Number of threads for a deformation with the given number of weights. Starting threads takes
 //! microseconds on idle cores and milliseconds on busy ones, so they are used only if one thread
@@ -60,4 +63,5 @@ void for_sums(const SparseWeights& weights, const PointList<Dim>& control_points
   });
 }
 
+}  // namespace
 }  // namespace flbc

@@ -11,39 +11,78 @@
 namespace flbc {
 namespace {
 
-// \return after - before, of P points
-SparseWeights difference_of(const SparseWeights& before, const SparseWeights& after) {
-  check_size(before, after.num_control_points(), after.num_points());
-  return SparseWeights::of(after.num_control_points(), after.num_points(), [&](Index p) {
-    Eigen::VectorXd difference = after.at(p);
-    before.visit(p, [&](Index i, double weight) { difference[i] -= weight; });
-    return difference;
-  });
+// Calls action(i, after - before) for each control point that either has at the point.
+template <class Action>
+void visit_difference(const SparseWeights& before, const SparseWeights& after, Index point,
+                      const Action& action) {
+  const auto &from = before.control_points(), &to = after.control_points();
+  auto k = before.starts()[point], l = after.starts()[point];
+  const auto end = before.starts()[point + 1], last = after.starts()[point + 1];
+  while (k < end || l < last) {
+    const bool takes_before = k < end && (l == last || from[k] <= to[l]);
+    const bool takes_after = l < last && (k == end || to[l] <= from[k]);
+    const auto i = takes_before ? from[k] : to[l];
+    const double difference = (takes_after ? after.values()[l++] : 0);
+    action(static_cast<Index>(i), difference - (takes_before ? before.values()[k++] : 0));
+  }
 }
 
-// What the differences displace in every pose, Dim * number of poses x P: all poses at once,
-// because finding the differences takes longer than multiplying them.
+// Displacements by the differences in every pose. All poses at once, because finding the
+// differences takes longer than multiplying them.
 template <int Dim>
-Eigen::MatrixXd displacements(const std::vector<PointList<Dim>>& poses,
-                              const SparseWeights& difference) {
-  check_poses<Dim>(poses, difference.num_control_points());
-  const auto rows = static_cast<Eigen::Index>(Dim * poses.size());
-  Eigen::MatrixXd control_points(rows, difference.num_control_points());
-  for (std::size_t k = 0; k < poses.size(); ++k) {
-    control_points.middleRows(static_cast<Eigen::Index>(Dim * k), Dim) = poses[k];
+class Displacements {
+ public:
+  Displacements(const std::vector<PointList<Dim>>& poses, const SparseWeights& before,
+                const SparseWeights& after)
+      : before_(before), after_(after), control_points_(Dim * poses.size(), 0) {
+    check_size(before, after.num_control_points(), after.num_points());
+    check_poses<Dim>(poses, before.num_control_points());
+    control_points_.resize(Eigen::NoChange, before.num_control_points());
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      control_points_.middleRows(static_cast<Eigen::Index>(Dim * k), Dim) = poses[k];
+    }
   }
-  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(rows, difference.num_points());
-  parallel_for(difference.num_points(), [&](Index p) {
-    difference.visit(
-        p, [&](Index i, double weight) { moved.col(p) += weight * control_points.col(i); });
-  });
-  return moved;
-}
+
+  Eigen::Index rows() const { return control_points_.rows(); }  // Dim * number of poses
+
+  Eigen::VectorXd of(Index point) const {
+    Eigen::VectorXd moved = Eigen::VectorXd::Zero(control_points_.rows());
+    visit_difference(before_, after_, point, [&](Index i, double difference) {
+      moved += difference * control_points_.col(i);
+    });
+    return moved;
+  }
+
+ private:
+  const SparseWeights &before_, &after_;
+  Eigen::MatrixXd control_points_;  // Dim * number of poses x n
+};
 
 // The longest displacement. \param moved  Dim * number of poses
 template <int Dim>
 double longest(const Eigen::VectorXd& moved) {
   return moved.reshaped(Dim, moved.size() / Dim).colwise().norm().maxCoeff();
+}
+
+// The sum of squares and the maximum of what points contribute.
+struct Errors {
+  double sum = 0, max = 0;
+  Errors& operator+=(const Errors& other) {
+    sum += other.sum;
+    max = std::max(max, other.max);
+    return *this;
+  }
+};
+
+// \param of_point  \return the Errors of a point
+template <class OfPoint>
+ErrorNorms norms_of(Index num_points, double count, const OfPoint& of_point) {
+  const auto errors = parallel_sum<Errors>(num_points, {}, [&](Index begin, Index end) {
+    Errors some;
+    for (Index p = begin; p < end; ++p) some += of_point(p);
+    return some;
+  });
+  return count > 0 ? ErrorNorms{std::sqrt(errors.sum / count), errors.max} : ErrorNorms{};
 }
 
 }  // namespace
@@ -62,35 +101,40 @@ Influences count_influences(const SparseWeights& weights, double threshold) {
 }
 
 ErrorNorms weight_error(const SparseWeights& before, const SparseWeights& after) {
-  const auto difference = difference_of(before, after);
-  const Eigen::Map<const Eigen::VectorXd> values(
-      difference.values().data(), static_cast<Eigen::Index>(difference.values().size()));
-  if (values.size() == 0) return {};
+  check_size(before, after.num_control_points(), after.num_points());
   const double count = static_cast<double>(after.num_points()) * after.num_control_points();
-  return {std::sqrt(values.squaredNorm() / count), values.cwiseAbs().maxCoeff()};
+  return norms_of(after.num_points(), count, [&](Index p) {
+    Errors errors;
+    visit_difference(before, after, p, [&](Index, double difference) {
+      errors += {difference * difference, std::abs(difference)};
+    });
+    return errors;
+  });
 }
 
 template <int Dim>
 ErrorNorms deformation_error(const std::vector<PointList<Dim>>& poses, const SparseWeights& before,
                              const SparseWeights& after) {
-  const auto difference = difference_of(before, after);
-  if (difference.num_points() == 0 || poses.empty()) return {};
-  const auto moved = displacements<Dim>(poses, difference);
-  double max = 0;
-  for (const auto& column : moved.colwise()) max = std::max(max, longest<Dim>(column));
-  const double count = static_cast<double>(moved.size() / Dim);
-  return {std::sqrt(moved.squaredNorm() / count), max};
+  const Displacements<Dim> displacements(poses, before, after);
+  const double count = static_cast<double>(after.num_points()) * static_cast<double>(poses.size());
+  if (count == 0) return {};
+  return norms_of(after.num_points(), count, [&](Index p) {
+    const auto moved = displacements.of(p);
+    return Errors{moved.squaredNorm(), longest<Dim>(moved)};
+  });
 }
 
 template <int Dim>
 ErrorNorms edge_error(const PointList<Dim>& points, const EdgeList& edges,
                       const std::vector<PointList<Dim>>& poses, const SparseWeights& before,
                       const SparseWeights& after) {
-  check_poses<Dim>(poses, before.num_control_points());
+  const Displacements<Dim> displacements(poses, before, after);
   check_size(before, before.num_control_points(), points.cols());
   validate(edges, points.cols());
   if (poses.empty()) return {};
-  const auto moved = displacements<Dim>(poses, difference_of(before, after));
+  Eigen::MatrixXd moved(displacements.rows(), points.cols());
+  parallel_for(points.cols(),
+               [&](Eigen::Index p) { moved.col(p) = displacements.of(static_cast<Index>(p)); });
   double sum = 0, rest = 0;
   ErrorNorms norms;
   for (std::size_t e = 0; e < edges.ends.size(); ++e) {

@@ -177,8 +177,9 @@ SparseWeights project_non_negative(const PointList<Dim>& control_points,
     return p >= 0 && p < weights.num_points() && !weights.has_weights(p);
   };
   numbers.erase(std::remove_if(numbers.begin(), numbers.end(), is_still), numbers.end());
-  return project_columns<Dim>(
+  const auto projected = project_columns<Dim>(
       control_points, points, numbers, [&](Index p) { return weights.at(p); }, masks);
+  return projected == weights ? weights : projected;  // one copy of the entries
 }
 
 FLBC_INSTANTIATE_FUNCTION(project_columns)

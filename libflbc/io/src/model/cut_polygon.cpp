@@ -132,6 +132,12 @@ class PolygonCutter {
 }  // namespace
 
 FacetList<3> cut_polygon(const std::vector<Vector<3>>& points, const std::vector<Index>& polygon) {
+  if (polygon.size() == 3) {  // as below, but for a model of millions
+    FacetList<3> triangle = Eigen::Map<const FacetList<3>>(polygon.data(), 3, 1);
+    auto corners = triangle.reshaped();
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    return triangle;
+  }
   const auto [ordered, is_reversed] = in_canonical_order(polygon);
   const auto triangles = PolygonCutter(points, ordered).cut();
   FacetList<3> result(3, triangles.size());

@@ -237,13 +237,13 @@ class PlyScanner {
                       std::size_t fewest) const {
     for (std::size_t f = 0; f < polygons.size(); ++f) {
       const auto& polygon = polygons[f];
-      const std::string name = path_ + ": " + kind + std::to_string(f);
+      const auto name = [&] { return path_ + ": " + kind + std::to_string(f); };
       if (polygon.size() < fewest) {
-        throw InputError(name + " has fewer than " + std::to_string(fewest) + " vertices");
+        throw InputError(name() + " has fewer than " + std::to_string(fewest) + " vertices");
       }
       const Index largest = *std::max_element(polygon.begin(), polygon.end());
       if (static_cast<std::size_t>(largest) < model_.soup.points.size()) continue;
-      throw InputError(name + " names vertex " + std::to_string(largest) + ", but there are " +
+      throw InputError(name() + " names vertex " + std::to_string(largest) + ", but there are " +
                        std::to_string(model_.soup.points.size()) + " vertices");
     }
   }

@@ -95,6 +95,7 @@ void append_triangles(const io::PolygonSoup& soup, std::size_t polygon, const Co
                       Corners& corners) {
   const auto& points = soup.polygons[polygon];
   std::vector<Vector<3>> places;
+  places.reserve(points.size());
   for (const Index point : points) places.push_back(soup.points[point]);
   const auto triangles = io::cut_polygon(places);
   for (const auto& triangle : triangles.colwise()) {

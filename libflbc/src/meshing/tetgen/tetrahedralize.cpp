@@ -170,7 +170,9 @@ DomainMesh<3> fill(const Task& task, CoplanarFacets coplanar, const Patience& pa
   // vertices, and far more, unless TetGen does not terminate.
   const bool may_hang = coplanar == CoplanarFacets::kKeep;
   Patience time = patience;
-  if (may_hang) time.seconds = std::min(time.seconds, 10 + 1e-3 * task.input.points.cols());
+  if (may_hang)
+    time.seconds =
+        std::min(time.seconds, 10 + 1e-3 * static_cast<double>(task.input.points.cols()));
   const Index most_points = std::max(kMostPoints, 4 * task.vertices);
   const DecimalUnit<3> unit(task.input.points);
   const auto make_mesh = [&](double ratio, double largest_volume) {

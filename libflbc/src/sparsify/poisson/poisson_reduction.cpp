@@ -491,7 +491,7 @@ SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const Poin
   const StageScope scope(options.progress);
   constexpr double kStart = 0.3;  // share of the time
   const auto masks = masks_of(options, weights);
-  const auto projected = [&] {
+  auto projected = [&] {
     const StagePart part(0, kStart / 2);
     return project_non_negative(control_points, points, weights, {}, masks);  // checks the input
   }();
@@ -514,7 +514,9 @@ SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const Poin
   for (std::size_t a = place.size(); a-- > 0;) order[place[a]] = static_cast<Index>(a);
   const PointList<Dim> sorted_points = points(Eigen::all, order);
   const auto sorted_given = take_points(given, order);
-  const auto sorted_projected = take_points(projected, order);
+  const auto sorted_projected = projected == given ? sorted_given : take_points(projected, order);
+  const Index num_control_points = given.num_control_points(), num_points = given.num_points();
+  projected = {};  // frees memory
   SparseWeights sorted_start;
   if (options.start.num_points() > 0) {
     check_size(options.start, control_points.cols(), points.cols());
@@ -532,7 +534,7 @@ SparseWeights reduce_by_poisson(const PointList<Dim>& control_points, const Poin
   }
   const StagePart part(kStart, 1);
   descent.run();
-  return SparseWeights::of(given.num_control_points(), given.num_points(),
+  return SparseWeights::of(num_control_points, num_points,
                            [&](Index a) { return descent.weights_of(place[a]); });
 }
 
