@@ -298,6 +298,19 @@ void add_shapes(CLI::App& command, RunArguments& a) {
       ->group(kMore);
 }
 
+// bbw and extend, which check_arguments() refuses with the reason, are the last values.
+void hide_refused_values(CLI::App& command) {
+  for (const char* name : {"--method", "--outside"}) {
+    auto* option = command.get_option(name);
+    const auto values = option->get_type_name();
+    option->type_name(values.substr(0, values.rfind('|')));
+  }
+  command.get_option("--outside")
+      ->description(
+          "method for model vertices outside the cage (default: fail). nearest: follow the nearest "
+          "point of the cage at a constant offset. keep: stay where they are, without weights");
+}
+
 void add_rare_options(CLI::App& command, RunArguments& a, CLI::Option* poses) {
   command.add_flag("--embed", a.settings.embed, "use the model vertices as vertices of the mesh");
   add_reduction_option(command, a.reduction);
@@ -340,6 +353,7 @@ void add_run_command(CLI::App& app, int& exit_status) {
   command->add_option("--vertices", a.settings.vertices, "number of mesh vertices (default: 10000)")
       ->check(refuse_vertex_count);
   add_solver_options(*command, a.settings);
+  hide_refused_values(*command);
   add_rare_options(*command, a, poses);
   command->callback(
       [arguments, command, &exit_status] { exit_status = run_command(*command, *arguments); });

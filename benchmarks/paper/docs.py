@@ -13,9 +13,10 @@
 
 A table is on a page between <!-- results: NAME --> and <!-- end of results -->. Its results are in
 docs/results/NAME.csv, as flbc_bench_paper wrote them, or in the file that tables.SOURCES names. Its
-last line has the commit that made it. FROZEN results are not measured again: their tables and measurements
-stay as they are, and the program that measured is in the commit below the table. A measurement in a sentence is between <!--n:NAME--> and <!--/n-->, and
-measured.NUMBERS computes it. Every stored result is in a table or in a measurement, or a page links to it.
+last line has the commit that made it. A measurement, or a statement that compares, is between
+<!--n:NAME--> and <!--/n-->; measured.NUMBERS computes it from its result, a statement as "no longer true" if the result
+contradicts it. FROZEN results are not measured again: the program that measured is in their commit. Every stored result is
+in a table or in a measurement, or a page links to it.
 """
 
 import hashlib
@@ -36,21 +37,16 @@ MARKED = re.compile(r"(<!-- results: (\w+) -->\n)(.*?)(<!-- end of results -->\n
 NUMBER = re.compile(r"(<!--n:([\w.-]+)-->)(.*?)(<!--/n-->)")
 LINK = re.compile(r"\(\S*results/(\w+)\.csv\)")
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
-FROZEN = {"authors2014", "blender", "cages", "compare", "figure3", "figure5", "figure6", "many", "mesh_deform", "mesh_error", "pipeline", "points",
-          "smoothness", "sparsify", "tolerance"}
+FROZEN = {"cages", "compare", "figure3", "figure5", "figure6", "many", "pipeline", "smoothness", "sparsify", "tolerance"}
 UNFIT = ("quick run", "incomplete", "only models")  # comments of results not to be taken over
 
 
-def is_checked(source):
-    return source not in FROZEN and (STORED / f"{source}.csv").exists()
-
-
 def table(name, present):
-    return tables.markdown(STORED, name) if is_checked(tables.source_of(name)) else present
+    return tables.markdown(STORED, name) if (STORED / f"{tables.source_of(name)}.csv").exists() else present
 
 
 def number(name, present):
-    return measured.text(STORED, name) if is_checked(measured.source_of(name)) else present
+    return measured.text(STORED, name) if (STORED / f"{measured.source_of(name)}.csv").exists() else present
 
 
 def with_results(page):

@@ -9,7 +9,8 @@
 namespace flbc::app {
 namespace {
 
-// Fitted to docs/results: models.csv, growth.csv and many.csv.
+// Seconds are 0.7 to 8 times, and bytes 0.7 to 2.5 times those of docs/results: models.csv,
+// speed.csv, and many.csv.
 constexpr double kSecondsPerPair2D = 0.8e-6, kSecondsPerPair3D = 2e-6;
 constexpr double kBytesPerPair2D = 80, kBytesPerPair3D = 180;
 // On an active set, of the pairs in it.

@@ -9,7 +9,7 @@
 
 namespace flbc::app {
 
-//! Roughly: within a factor of three on a usual computer with two cores.
+//! Rough: times measured on two cores (docs/results) are a seventh of it to 1.5 times as long.
 struct Estimate {
   double seconds = 0;
   double bytes = 0;

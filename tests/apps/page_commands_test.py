@@ -41,6 +41,8 @@ RESULTS = {
     "docs/how-to/cages.md": {"cage.obj": 500, "repaired.obj": 500},
     "docs/how-to/weights.md": {"few.npz": 10_000, "exact.npz": 10_000, "nearest.npy": 10_000, "weights.csv": 10_000},
     "docs/how-to/engines.md": {"model.glb": 10_000, "moving.glb": 10_000},
+    "docs/tutorials/blender.md": {"limb/model_8.glb": 10_000},
+    "docs/explanation/compared_to_other_coordinates.md": {"out/compared/index.html": 1_000},
 }
 MOVED = {"README.md": "meshes/3d/moved.obj", "docs/tutorials/first_deformation.md": "moved.obj"}
 

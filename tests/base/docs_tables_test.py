@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables and measurements of the docs equal their stored results, and docs.py would notice if one did not."""
+"""Tables, measurements, and comparisons of the docs follow from their stored results, and docs.py would notice if one did not."""
 
 import contextlib
 import io
 import pathlib
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -90,12 +91,12 @@ def notices_any_digit():
         docs.PAGES = [pathlib.Path(name) / f"{k}.md" for k in range(len(pages))]
         for page, copy in zip(pages, docs.PAGES):
             copy.write_text(page.read_text())
-        shown = [page for page in docs.PAGES if any(m[2] not in docs.FROZEN for m in docs.MARKED.finditer(page.read_text()))]
+        shown = [page for page in docs.PAGES if docs.MARKED.search(page.read_text())]
         for _ in range(10):
             page = RANDOM.choice(shown)
             text = page.read_text()
-            numbers = [m.span(3) for m in docs.NUMBER.finditer(text) if measured.source_of(m[2]) not in docs.FROZEN]
-            rows = [m.span(3) for m in docs.MARKED.finditer(text) if m[2] not in docs.FROZEN]
+            numbers = [m.span(3) for m in docs.NUMBER.finditer(text) if re.search(r"\d", m[3])]
+            rows = [m.span(3) for m in docs.MARKED.finditer(text)]
             page.write_text(with_another_digit(text, RANDOM.choice([numbers or rows, rows])))
             assert quietly(docs.check) == 1, f"another digit of {page.name} went unnoticed"
             page.write_text(text)
@@ -110,10 +111,44 @@ def notices_any_digit():
     docs.PAGES, docs.STORED = pages, stored
 
 
+def with_another_cell(text):
+    """The text of a stored result with one number multiplied by up to 1e8."""
+    lines = text.splitlines()
+    at = RANDOM.choice([k for k, line in enumerate(lines) if not line.startswith("#")][1:])
+    cells = lines[at].split(",")
+    column = RANDOM.choice([k for k, cell in enumerate(cells) if re.fullmatch(r"-?[\d.]+(e-?\d+)?", cell)])
+    lines[at] = ",".join([*cells[:column], repr(float(cells[column]) * 10 ** RANDOM.uniform(-8, 8)), *cells[column + 1:]])
+    return "\n".join(lines) + "\n"
+
+
+def finds_false_statements():
+    """Two random changes of a result that make a statement false are found, for each statement."""
+    stored = docs.STORED
+    with tempfile.TemporaryDirectory() as name:
+        docs.STORED = pathlib.Path(name)
+        for path in stored.glob("*.csv"):
+            shutil.copy(path, docs.STORED)
+        for claim in 2 * list(measured.CLAIMS):
+            path = docs.STORED / f"{measured.source_of(claim)}.csv"
+            text = path.read_text()
+            for _ in range(2000):
+                path.write_text(with_another_cell(text))
+                with contextlib.suppress(KeyError):  # the cell is what rows are found by
+                    if measured.text(docs.STORED, claim).startswith(measured.FALSE):
+                        break
+            else:
+                raise AssertionError(f"no change of {path.name} makes {claim} false")
+            printed = io.StringIO()
+            with contextlib.redirect_stderr(printed):
+                assert docs.check() == 1
+            assert f"{claim} is {measured.FALSE}" in printed.getvalue(), f"{claim} is false and went unnoticed"
+            path.write_text(text)
+    docs.STORED = stored
+
+
 def shows_all_measurements():
-    """Each number that measured.py computes is on a page."""
-    shown = {m[2] for page in docs.PAGES for m in docs.NUMBER.finditer(page.read_text())
-             if measured.source_of(m[2]) not in docs.FROZEN}
+    """Each number and statement that measured.py computes is on a page."""
+    shown = {m[2] for page in docs.PAGES for m in docs.NUMBER.finditer(page.read_text())}
     assert shown == set(measured.NUMBERS), shown ^ set(measured.NUMBERS)
 
 
@@ -139,6 +174,7 @@ if __name__ == "__main__":
     result = docs.check()
     shows_all_measurements()
     notices_any_digit()
+    finds_false_statements()
     finds_other_behavior()
     refuses_folders_without_cages()
     notices_changes()

@@ -112,8 +112,7 @@ struct LeastReach {
 template <int Dim>
 LeastReach<Dim> least_reach(const Cage<Dim>& cage, const PointList<Dim>& points);
 
-//! Local extrema up to this depth are within the accuracy of a solve. Iterates to the default
-//! tolerance have extrema up to 1e-3; true extrema of optima are 9e-3 deep (conjecture1.csv).
+//! Local extrema up to this depth are within the accuracy of a solve.
 constexpr double kSolverAccuracy = 2e-3;
 
 //! A property that fails by more than this is a violation.

@@ -18,12 +18,12 @@ namespace flbc {
 //! Solver method. Each minimizes the objective of local barycentric coordinates; other coordinates
 //! are in coordinates.h. In this file, "the paper" is that of Tao, Deng, and Zhang (2019).
 enum class Method {
-  kWeights,          //!< ADMM on the weights, in the metric of the continuous problem; fastest
+  kWeights,          //!< ADMM on the weights, in the metric of the continuous problem
   kAuto = kWeights,  //!< the recommended method
   kGradient,  //!< gradient ADMM of the paper, started from harmonic coordinates, over-relaxed;
               //!< iterates on a mesh of OpenMesh, in programs that link flbc::openmesh
   kPaper,     //!< FLBC 2019: the same with the parameters of the paper
-              //!< (docs/explanation/method/differences_from_papers.md)
+              //!< (docs/paper.md)
   kLbc2014    //!< LBC 2014: the original solver (Zhang et al. 2014; section 3 of the paper)
 };
 
@@ -71,10 +71,10 @@ struct SolverOptions {
 
   //! epsilon / size of the cage (bounding_box_diagonal), >= 0. The objective is the sum over cells
   //! and control points of A (phi |grad w_i| + epsilon / 2 |grad w_i|^2). A positive epsilon makes
-  //! the optimum unique and removes the kinks of total variation, so that poses crease a model no
-  //! more than with harmonic coordinates. 0 is the problem of the papers, whose optimum does not
-  //! determine the weights. Useful values are 0.001 to 0.03. For kWeights and kGradient; an error
-  //! for other methods. Default: 0.003, and 0 for kPaper and kLbc2014.
+  //! the optimum unique and removes the kinks of total variation, which crease a model in poses. 0
+  //! is the problem of the papers, whose optimum does not determine the weights. Useful values are
+  //! 0.001 to 0.03. For kWeights and kGradient; an error for other methods. Default: 0.003, and 0
+  //! for kPaper and kLbc2014.
   std::optional<double> smoothness{};
 
   //! Source of the distances for phi when solve() sets up the problem. kAuto interpolates if the
@@ -90,8 +90,7 @@ struct SolverOptions {
 
   //! Tolerance, > 0.
   //! - kWeights: estimated mean squared error of the weights (equation (5) of the paper). The
-  //!   estimate extrapolates how changes shrink from iteration to iteration. Default: 1e-6, a fifth
-  //!   of the error of a mesh of 10,000 vertices.
+  //!   estimate extrapolates how changes shrink from iteration to iteration. Default: 1e-6.
   //! - kGradient: the same, relative to the optimum without non-negativity. Default: 1e-6.
   //! - kPaper, kLbc2014: section 5 of the paper: residual norms at most N_p * tolerance and 10 *
   //!   N_d * tolerance. Default: 1e-7, as in the paper.
