@@ -187,7 +187,8 @@ class Binding:
         if not (isinstance(moved, np.ndarray) and moved.shape == shape and moved.dtype == np.float64
                 and moved.flags.c_contiguous and moved.flags.writeable):
             raise InputError(f"out must be a C-contiguous, writable array of float64 and shape {shape}")
-        for pose, place in zip(poses, moved.reshape(len(poses), *self.points.shape)):
+        places: Any = moved.reshape(len(poses), *self.points.shape)
+        for pose, place in zip(poses, places):
             self._any.deform_into(pose, place)
         return moved
 
@@ -330,9 +331,9 @@ class Binding:
         distances that are left, ``worst``, the vertex with the largest, and ``condition`` of the
         equations. Raises InputError if the targets do not determine the pose."""
         check_scalars(stiffness=(stiffness, "a number"))
-        which = as_indices(as_array(() if points is None else points, "points"), "points",
-                           len(self.points)).tolist()
-        held = as_indices(as_array(hold, "hold"), "hold", len(self.cage)).tolist()
+        which: Any = as_indices(as_array(() if points is None else points, "points"), "points",
+                                len(self.points)).tolist()
+        held: Any = as_indices(as_array(hold, "hold"), "hold", len(self.cage)).tolist()
         count = len(self.points) if points is None else len(which)
         to = as_points(targets, "targets", self.cage.dim, count)
         pose, facts = self._any.fit(to, which, held, stiffness)

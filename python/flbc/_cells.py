@@ -94,7 +94,7 @@ def largest_step(
         return bool(_quality(at_rest, corners, move(t))["jacobian"].min(initial=1) >= at_least)
 
     steps = np.linspace(0, 1, 33)
-    broken = next((k for k, t in enumerate(steps) if not is_sound(t)), None)
+    broken = next((k for k, t in enumerate(steps) if not is_sound(float(t))), None)
     if broken is None:
         return 1.0
     low, high = float(steps[max(broken - 1, 0)]), float(steps[broken])
