@@ -71,42 +71,52 @@ SparseWeights::SparseWeights(Index num_control_points, std::vector<std::int64_t>
 
 SparseWeights SparseWeights::of(Index num_control_points, Index num_points,
                                 const std::function<Eigen::VectorXd(Index)>& of_point) {
-  // The weights of 64 points; one allocation per point would fragment the memory.
+  // Threads fill blocks of points, and the blocks of a batch are appended to the result.
   struct Block {
     std::vector<std::uint32_t> control_points;
     std::vector<double> values;
   };
-  constexpr Index kBlock = 64;
-  std::vector<Block> blocks((num_points + kBlock - 1) / kBlock);
-  const auto num_blocks = static_cast<Index>(blocks.size());
+  constexpr Index kBlock = 64, kBlocks = 64;
+  std::vector<Block> blocks(kBlocks);
   Entries entries;
   entries.starts.resize(static_cast<std::size_t>(num_points) + 1);
-  parallel_for_chunks(num_blocks, 1, [&](Index b) {
-    auto& [control_points, values] = blocks[b];
-    for (Index p = b * kBlock; p < std::min(num_points, (b + 1) * kBlock); ++p) {
-      const Eigen::VectorXd weights = of_point(p);
-      if (weights.size() != num_control_points) refuse(p, "are not as many as control points");
-      for (Index i = 0; i < num_control_points; ++i) {
-        if (weights[i] == 0) continue;
-        control_points.push_back(static_cast<std::uint32_t>(i));
-        values.push_back(weights[i]);
+  for (Index first = 0; first < num_points; first += kBlocks * kBlock) {
+    const Index last = std::min(num_points - first, kBlocks * kBlock) + first;
+    const Index num_blocks = (last - first + kBlock - 1) / kBlock;
+    parallel_for_chunks(num_blocks, 1, [&](Index b) {
+      auto& [control_points, values] = blocks[b];
+      control_points.clear();
+      values.clear();
+      const Index begin = first + b * kBlock;
+      for (Index p = begin; p < std::min(last, begin + kBlock); ++p) {
+        const Eigen::VectorXd weights = of_point(p);
+        if (weights.size() != num_control_points) refuse(p, "are not as many as control points");
+        for (Index i = 0; i < num_control_points; ++i) {
+          if (weights[i] == 0) continue;
+          control_points.push_back(static_cast<std::uint32_t>(i));
+          values.push_back(weights[i]);
+        }
+        entries.starts[p + 1] = static_cast<std::int64_t>(values.size());  // in the block
       }
-      entries.starts[p + 1] = static_cast<std::int64_t>(values.size());  // in the block
+    });
+    std::int64_t before = 0;
+    for (Index p = first; p < last; ++p) {
+      if (p % kBlock == 0) before = entries.starts[p];
+      entries.starts[p + 1] += before;
     }
-  });
-  std::int64_t before = 0;
-  for (Index p = 0; p < num_points; ++p) {
-    if (p % kBlock == 0) before = entries.starts[p];
-    entries.starts[p + 1] += before;
-  }
-  entries.control_points.reserve(entries.starts.back());
-  entries.values.reserve(entries.starts.back());
-  for (auto& [control_points, values] : blocks) {
-    entries.control_points.insert(entries.control_points.end(), control_points.begin(),
-                                  control_points.end());
-    entries.values.insert(entries.values.end(), values.begin(), values.end());
-    control_points = {};
-    values = {};
+    if (first == 0) {  // as if all batches were like the first: growth would copy
+      const double batches = last < num_points ? 1.1 * num_points / last : 1;
+      const auto count =
+          static_cast<std::size_t>(batches * static_cast<double>(entries.starts[last]));
+      entries.control_points.reserve(count);
+      entries.values.reserve(count);
+    }
+    for (Index b = 0; b < num_blocks; ++b) {
+      const auto& [control_points, values] = blocks[b];
+      entries.control_points.insert(entries.control_points.end(), control_points.begin(),
+                                    control_points.end());
+      entries.values.insert(entries.values.end(), values.begin(), values.end());
+    }
   }
   return {num_control_points, std::move(entries)};
 }
