@@ -31,6 +31,11 @@ def _numbers(items, name, dtype, width=1):
     return flat
 
 
+def points_of(mesh):
+    """Positions of the vertices, (V, 3)."""
+    return _numbers(mesh.vertices, 'co', np.float32, 3).reshape(-1, 3)
+
+
 def shape_of(mesh):
     """The rest shape of a mesh that is not in Edit Mode."""
     keys = mesh.shape_keys
@@ -107,6 +112,15 @@ def write_binding(mesh, indices, weights, rest):
         _write(mesh, weight_name(k), 'FLOAT', 'value', weights[:, k].astype(np.float32))
     _write(mesh, REST, 'FLOAT_VECTOR', 'vector', rest.astype(np.float32))
     mesh.update()
+
+
+def read_binding(mesh):
+    """Yields pairs of indices (V) and weights (V) of a binding."""
+    k = 0
+    while index_name(k) in mesh.attributes:
+        yield (_numbers(mesh.attributes[index_name(k)].data, 'value', np.int32),
+               _numbers(mesh.attributes[weight_name(k)].data, 'value', np.float32))
+        k += 1
 
 
 def remove_binding(mesh):

@@ -2,7 +2,7 @@
 """Buttons of the panel. From the user interface they work in the background, from scripts not."""
 import bpy
 
-from . import binding, nodes, preferences, program
+from . import binding, nodes, preferences, program, skin
 from .program import Refusal
 
 running = None  # the Job in the background
@@ -169,6 +169,37 @@ class FLBC_OT_rebind(_InBackground, bpy.types.Operator):
         return binding.bind(models, cages.pop(), _settings(context), refine)
 
 
+class FLBC_OT_skin(_AtOnce, bpy.types.Operator):
+    bl_idname = 'flbc.skin'
+    bl_label = 'Weights from Cage'
+    bl_description = (
+        'Give all models of the cage vertex groups named like the bones that skin it. Their armature '
+        'then poses the models, and their modifiers of the cage are turned off')
+
+    existing: bpy.props.EnumProperty(
+        name='Existing Weights', default='REPLACE',
+        items=(('REPLACE', 'Replace', 'Vertices get new weights in vertex groups named like bones'),
+               ('KEEP', 'Keep', 'Vertices with weights in such vertex groups keep them')))
+
+    def execute(self, context):
+        cages = {nodes.cage_of(model) for model in bound_models(context)} - {None}
+        models = [item for item in context.view_layer.objects
+                  if item.type == 'MESH' and nodes.cage_of(item) in cages]
+        try:
+            bones = {cage: skin.bones_of(cage) for cage in cages}
+            weights = [skin.weights_of(model, bones[nodes.cage_of(model)][1],
+                                       int(context.scene.flbc.influences)) for model in models]
+        except Refusal as refusal:
+            self.report({'ERROR'}, str(refusal))
+            return {'CANCELLED'}
+        for model, found in zip(models, weights):
+            names = bones[nodes.cage_of(model)][0]
+            difference = skin.write(model, names, found, self.existing == 'REPLACE')
+            self.report({'INFO'}, f'{model.name}: {len(names)} bones. Largest difference from the '
+                                  f'pose of the cage: {difference:.2%} of the size')
+        return {'FINISHED'}
+
+
 class FLBC_OT_unbind(_AtOnce, bpy.types.Operator):
     """Remove the binding. The model returns to its rest shape"""
     bl_idname = 'flbc.unbind'
@@ -199,5 +230,5 @@ class FLBC_OT_cancel(bpy.types.Operator):
         return {'FINISHED'}
 
 
-CLASSES = (FLBC_OT_make_cage, FLBC_OT_bind, FLBC_OT_rebind, FLBC_OT_unbind, FLBC_OT_apply,
-           FLBC_OT_cancel)
+CLASSES = (FLBC_OT_make_cage, FLBC_OT_bind, FLBC_OT_rebind, FLBC_OT_skin, FLBC_OT_unbind,
+           FLBC_OT_apply, FLBC_OT_cancel)

@@ -5,7 +5,7 @@ import time
 
 import bpy
 
-from . import binding, compat, nodes, operators, preferences
+from . import binding, compat, nodes, operators, preferences, skin
 from .program import Refusal
 
 _SECONDS = 1.0  # for which the state of a model counts as known
@@ -86,7 +86,10 @@ class FLBC_PT_cage(bpy.types.Panel):
         cage = nodes.cage_of(model)
         if cage:
             quality = model.flbc.quality.capitalize()
-            _text(box, f'{model.name} follows {cage.name} ({quality})', 'CHECKMARK')
+            leader = cage.name if nodes.modifier_of(model).show_viewport else f'bones of {cage.name}'
+            _text(box, f'{model.name} follows {leader} ({quality})', 'CHECKMARK')
+            if skin.armature_of(cage):
+                box.operator('flbc.skin', icon='ARMATURE_DATA')
         for text in [*_problems(model), *filter(None, [model.flbc.note])]:
             _text(box, text, 'ERROR')
         row = box.row(align=True)

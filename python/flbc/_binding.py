@@ -296,6 +296,24 @@ class Binding:
         shares = as_weights(as_matrix(map, "map"), "map", len(self.cage), len(outer))
         return _binding(self._any.composed(shares, outer.points, outer.facets))
 
+    def skin(self, bones: Weights, *, influences: Optional[int] = None) -> csr_matrix:
+        """The skin of the model if bones skin the cage: the product of `weights` and `bones`.
+
+        `bones`, shape (n, m), has the weights of the n control points for m bones: at least 0, with
+        rows that sum to 1. The result is sparse, of shape (P, m), at least 0, with rows that sum to
+        1, except for vertices without weights, whose rows are empty. With `influences`, each vertex
+        keeps that many of its largest weights, which are scaled. Raises InputError naming the first
+        control point with other weights."""
+        check_scalars(influences=(influences, "an integer"))
+        if influences is not None and influences < 1:
+            raise OptionError("influences must be at least 1, or None for all")
+        matrix = as_matrix(bones, "bones")
+        if matrix.shape[0] != len(self.cage):
+            raise InputError(f"bones has shape {matrix.shape}, but needs a row for each of the "
+                             f"{len(self.cage)} control points")
+        shares = as_weights(matrix, "bones", *matrix.shape)
+        return from_core(self._any.skin(shares, influences or 0))
+
     def joined(self, joint: str = "smooth") -> Binding:
         """The binding with a smooth end of the deformation where the mesh passes through the cage
         and vertices outside stay (``outside="keep"``).

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "arrays.h"
+#include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/io/binding_file.h"
 #include "front/model_facets.h"
@@ -116,6 +117,13 @@ AnyBinding composed(const AnyBinding& self, const py::object& map, const Doubles
   });
 }
 
+py::object skin(const AnyBinding& self, const py::object& bones, Index most) {
+  const auto shares = weights_of(bones);
+  return self.visit([&](const auto& binding) {
+    return as_python(without_gil([&] { return flbc::skin(binding.weights, shares, most); }));
+  });
+}
+
 AnyBinding joined(const AnyBinding& self, const std::string& joint) {
   return changed(self,
                  [&](const auto& binding, auto) { return binding.joined(parse_joint(joint)); });
@@ -208,6 +216,7 @@ void bind_bindings(py::module_& module) {
       .def("reduced", &reduced)
       .def("transferred", &transferred)
       .def("composed", &composed)
+      .def("skin", &skin)
       .def("joined", &joined)
       .def("adjoint", &adjoint)
       .def("fit", &fit)

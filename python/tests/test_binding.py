@@ -168,6 +168,43 @@ def test_bindings_of_other_control_points(case):
     assert abs(alone.weights - found.weights).nnz == 0 and len(alone.cage.facets) == 0
 
 
+@pytest.mark.parametrize("make", [np.asarray, scipy.sparse.csr_matrix, scipy.sparse.coo_matrix])
+def test_skin(make, case):
+    """Bones that are control points of an outer cage give its weights; masks stay 0."""
+    shares = np.random.default_rng(3).random((len(case.cage), 9))
+    shares /= shares.sum(1, keepdims=True)
+    outside = case.full.outside
+    for binding in (case.full, case.given):
+        product = binding.weights @ shares
+        skin = binding.skin(make(shares))
+        assert scipy.sparse.isspmatrix_csr(skin) and skin.shape == product.shape
+        assert abs(skin.toarray() - product).max() < 1e-14
+        for influences in (4, 8):
+            few = binding.skin(make(shares.astype(np.float32)), influences=influences)
+            sums = np.asarray(few.sum(1)).ravel()
+            assert few.data.min() > 0 and few.getnnz(1).max() == influences
+            assert not sums[outside].any() and abs(np.delete(sums, outside) - 1).max() < 1e-14
+    # Bones that are the control points themselves: the binding's own weights.
+    assert abs(case.full.skin(scipy.sparse.eye(len(case.cage))) - case.full.weights).max() < 1e-14
+
+
+def test_skins_that_are_refused(case):
+    n = len(case.cage)
+    for bones, words in [
+        (np.eye(n + 1), f"bones has shape .* each of the {n} control points"),
+        (2 * np.eye(n), "control point 0 in the map sum to 2"),
+        (np.eye(n) - 1e-3 * np.eye(n, k=1), "the weight -0.001"),
+        (np.full((n, 1), np.nan), "bones"),
+        (np.ones(n), "bones has shape"),
+        (case.full, "bones is a Binding"),
+    ]:
+        with pytest.raises(flbc.InputError, match=words):
+            case.full.skin(bones)
+    for influences in (0, -1, 1.5):
+        with pytest.raises(flbc.OptionError, match="influences"):
+            case.full.skin(np.eye(n), influences=influences)
+
+
 # ---- the object ----------------------------------------------------------------------------------
 
 

@@ -165,18 +165,165 @@ class AddonTest(unittest.TestCase):
             self.assertLess(np.abs(weight.sum(1) - 1).max(), 1e-6)
             self.assertTrue(0 <= index.min() and index.max() < len(self.cage.data.vertices))
 
-    def test_an_armature_on_the_cage(self):
-        self.bind()
+    def add_armature(self, *names):
+        """Bones in a chain along the cage."""
         data = bpy.data.armatures.new('rig')
         rig = bpy.data.objects.new('rig', data)
         bpy.context.collection.objects.link(rig)
+        rig.matrix_world = self.cage.matrix_world
         select(rig)
         bpy.ops.object.mode_set(mode='EDIT')
-        data.edit_bones.new('bone').tail = (0, 0, 1)
+        low, high = (f(base(self.cage)[:, 0]) for f in (np.min, np.max))
+        for k, name in enumerate(names):
+            bone = data.edit_bones.new(name)
+            bone.head, bone.tail = [(low + (high - low) * (k + end) / len(names), 0, 0)
+                                    for end in (0, 1)]
+            bone.parent = data.edit_bones[names[k - 1]] if k else None
         bpy.ops.object.mode_set(mode='OBJECT')
+        self.cage.modifiers.new('rig', 'ARMATURE').object = rig
+        return rig
+
+    def skin_cage(self, *names):
+        """Random weights of bones that do not sum to 1, (control points, bones)."""
+        shares = self.random.random((len(self.cage.data.vertices), len(names)))
+        shares *= self.random.random(shares.shape) < 0.7
+        shares[np.arange(len(shares)), self.random.integers(len(names), size=len(shares))] = 0.5
+        for name, column in zip(names, shares.T):
+            group = self.cage.vertex_groups.new(name=name)
+            for vertex in np.flatnonzero(column):
+                group.add([int(vertex)], column[vertex], 'REPLACE')
+        return shares / shares.sum(1, keepdims=True)
+
+    def groups(self, model, *names):
+        found = np.zeros((len(model.data.vertices), len(names)))
+        for vertex in model.data.vertices:
+            for part in vertex.groups:
+                name = model.vertex_groups[part.group].name
+                found[vertex.index, names.index(name)] = part.weight
+        return found
+
+    def skin(self, **options):
+        """Presses the button. Returns the largest difference that it measures, by model."""
+        from local_barycentric_cage import skin
+        select(self.model)
+        found, write = {}, skin.write
+        skin.write = lambda model, *rest: found.setdefault(model.name, write(model, *rest))
+        try:
+            self.assertEqual(bpy.ops.flbc.skin(**options), {'FINISHED'})
+        finally:
+            skin.write = write
+        return found
+
+    def product(self, shares, influences):
+        """What the vertex groups of the model should be."""
+        index, weight = scene.influences(self.model)
+        product = np.einsum('vk,vkb->vb', weight, shares[index])
+        product[product < np.sort(product)[:, -influences:-influences + 1]] = 0
+        return product / product.sum(1, keepdims=True)
+
+    def test_bones_of_the_cage_skin_all_its_models(self):
+        names = [f'bone {k}' for k in range(11)]
+        other = self.model.copy()
+        other.data = self.model.data.copy()
+        other.name = 'other'
+        bpy.context.collection.objects.link(other)
+        rig = self.add_armature(*names)
+        shares = self.skin_cage(*names)
+        self.cage.vertex_groups.new(name='of no bone').add([0, 1], 1, 'REPLACE')
+        for influences in (8, 4):
+            self.bind(self.model, other, influences=str(influences))
+            found = self.skin()
+            self.assertEqual(set(found), {self.model.name, other.name})
+            self.assertLess(max(found.values()), 1e-6, 'nothing is posed')
+            for model in (self.model, other):
+                groups = self.groups(model, *names)
+                self.assertEqual((groups > 0).sum(1).max(), influences)
+                np.testing.assert_allclose(groups, self.product(shares, influences), atol=1e-6)
+            self.require_equal(shown(self.model), base(self.model))
+        # A bone that moves all others poses the model as the cage does; others do not.
+        self.bind(quality='GOOD')
+        rig.pose.bones['bone 0'].matrix_basis = Matrix.LocRotScale((0.3, 0.1, 0), Euler((1, 2, 0.5)),
+                                                                   (1, 1, 2))
+        self.assertLess(self.skin()[self.model.name], 1e-5)
+        self.assertGreater(np.abs(shown(self.model) - base(self.model)).max(), 0.1)
+        rig.pose.bones['bone 5'].matrix_basis = Matrix.Rotation(0.5, 4, 'X')
+        found = self.skin()[self.model.name]
+        skinned = shown(self.model)
+        self.model.modifiers['rig'].show_viewport = False
+        self.model.modifiers['Local Barycentric Cage'].show_viewport = True
+        by_cage = shown(self.model)
+        apart = np.linalg.norm(skinned - by_cage, axis=1).max() / size(base(self.model))
+        self.assertAlmostEqual(found, apart, places=6)
+        self.assertGreater(found, 1e-3)
+        # The armature poses the model without the binding.
+        bpy.ops.flbc.unbind()
+        self.model.modifiers['rig'].show_viewport = True
+        self.require_equal(shown(self.model), skinned)
+
+    def test_weights_of_bones_are_kept_or_replaced(self):
+        self.bind()
+        self.add_armature('a', 'b')
+        shares = self.skin_cage('a', 'b')
+        own = self.model.vertex_groups.new(name='a')
+        own.add([3, 4], 0.25, 'REPLACE')
+        self.model.vertex_groups.new(name='eyes').add([4], 1, 'REPLACE')
+        expected = self.product(shares, 2)
+        kept = np.isin(np.arange(len(expected)), [3, 4])
+        for existing, free in (('KEEP', ~kept), ('REPLACE', kept | ~kept)):
+            self.skin(existing=existing)
+            groups = self.groups(self.model, 'a', 'b', 'eyes')
+            np.testing.assert_allclose(groups[free, :2], expected[free], atol=1e-6)
+            np.testing.assert_array_equal(groups[~free, :2], np.tile([0.25, 0], (sum(~free), 1)))
+            self.assertEqual(groups[4, 2], 1)
+            self.assertEqual(groups[:, 2].sum(), 1)
+
+    def test_protected_vertices_have_no_weight_of_bones_of_the_others(self):
+        along = base(self.cage)[:, 0]
+        far = along > np.quantile(along, 0.8)
+        near = base(self.model)[:, 0] < np.quantile(base(self.model)[:, 0], 0.3)
+        self.share_group(np.flatnonzero(near), np.flatnonzero(far))
+        self.bind()
+        self.add_armature('near', 'far')
+        for name, are in (('near', ~far), ('far', far)):
+            self.cage.vertex_groups.new(name=name).add(np.flatnonzero(are).tolist(), 1, 'REPLACE')
+        self.skin()
+        groups = self.groups(self.model, 'near', 'far', 'lock.hand')
+        self.assertEqual(groups[near, 1].max(), 0)
+        self.assertGreater(groups[~near, 1].max(), 0.9)
+
+    def test_undo_of_weights_from_the_cage(self):
+        self.bind()
+        self.add_armature('a', 'b')
+        self.skin_cage('a', 'b')
+        bpy.ops.ed.undo_push(message='before')
+        self.skin()
+        bpy.ops.ed.undo_push(message='after')
+        bpy.ops.ed.undo()
+        model = bpy.data.objects['limb_model']
+        self.assertFalse(model.vertex_groups)
+        self.assertEqual([m.show_viewport for m in model.modifiers], [True])
+
+    def test_cages_without_bones_are_refused(self):
+        self.bind()
+        self.refused(bpy.ops.flbc.skin, 'limb_cage has no armature')
+        self.add_armature('a', 'b')
+        select(self.model)
+        self.refused(bpy.ops.flbc.skin, '54 of 54 vertices')
+        self.skin_cage('a', 'b')
+        for name in 'ab':
+            self.cage.vertex_groups[name].remove([7])
+        self.refused(bpy.ops.flbc.skin, '1 of 54 vertices of the cage limb_cage .* first vertex 7')
+        with self.edit(self.model) as edited:
+            bmesh.ops.delete(edited, geom=edited.verts[-100:], context='VERTS')
+        self.cage.vertex_groups['a'].add([7], 1, 'REPLACE')
+        self.refused(bpy.ops.flbc.skin, 'limb_model: .* Rebind')
+        self.assertFalse(self.model.vertex_groups)
+
+    def test_an_armature_on_the_cage(self):
+        self.bind()
+        rig = self.add_armature('bone')
         half = range(len(self.cage.data.vertices) // 2)
         self.cage.vertex_groups.new(name='bone').add(list(half), 1, 'REPLACE')
-        self.cage.modifiers.new('rig', 'ARMATURE').object = rig
         rig.pose.bones['bone'].matrix_basis = Matrix.Rotation(0.5, 4, 'X')
         moved = shown(self.cage)
         self.assertGreater(np.abs(moved - base(self.cage)).max(), 0.01)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //! \file
 //! Moving a model with its cage: X = C W for any number of poses C. Control points may follow
-//! others.
+//! others, or bones.
 #pragma once
 
 #include "flbc/sparse_weights.h"
@@ -37,5 +37,17 @@ Eigen::VectorXd displacements(const PointList<Dim>& before, const PointList<Dim>
 //! \throws InputError if sizes do not match, or naming the first control point whose weights in the
 //! map are negative, or sum to 1 with an error above 1e-9
 SparseWeights compose(const SparseWeights& weights, const SparseWeights& map);
+
+//! The skin of a model whose cage is skinned by bones: the product of both, >= 0 with sum 1 for
+//! each point. Negative products are dropped; they occur with OutsidePoints::kExtend. What remains
+//! is scaled.
+//! \param weights  of P points for n control points
+//! \param bones  weights of the n control points for m bones
+//! \param max_influences  the largest are kept for each point; 0 = all
+//! \return weights of P points for m bones; points without weights have none
+//! \throws OptionError for a negative number; InputError if sizes do not match, or naming the first
+//! control point whose weights for bones are negative, or sum to 1 with an error above 1e-6
+SparseWeights skin(const SparseWeights& weights, const SparseWeights& bones,
+                   Index max_influences = 0);
 
 }  // namespace flbc

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/deform.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "base/instantiate.h"
@@ -22,8 +24,8 @@ void check_pose(const SparseWeights& weights, const PointList<Dim>& pose) {
   check_finite<Dim>(pose);
 }
 
-void require_stochastic(const SparseWeights& map) {
-  constexpr double kSumError = 1e-9;
+// \param tolerance  of sums
+void require_stochastic(const SparseWeights& map, double tolerance) {
   for (Index i = 0; i < map.num_points(); ++i) {
     double sum = 0;
     map.visit(i, [&](Index j, double weight) {
@@ -34,10 +36,30 @@ void require_stochastic(const SparseWeights& map) {
       }
       sum += weight;
     });
-    if (std::abs(sum - 1) <= kSumError) continue;
+    if (std::abs(sum - 1) <= tolerance) continue;
     throw InputError("the weights of control point " + std::to_string(i) + " in the map sum to " +
                      format_number(sum) + "; they must sum to 1");
   }
+}
+
+// \param tolerance  of the sums of the map \param finish  changes the m sums of each point
+SparseWeights product(const SparseWeights& weights, const SparseWeights& map, double tolerance,
+                      const std::function<void(Eigen::VectorXd&)>& finish) {
+  if (weights.num_control_points() != map.num_points()) {
+    throw InputError("the weights are for " + std::to_string(weights.num_control_points()) +
+                     " control points, but the map has weights of " +
+                     std::to_string(map.num_points()));
+  }
+  require_stochastic(map, tolerance);
+  const Index m = map.num_control_points();
+  return SparseWeights::of(m, weights.num_points(), [&](Index p) {
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(m);
+    weights.visit(p, [&](Index i, double weight) {
+      map.visit(i, [&](Index j, double share) { sums[j] += weight * share; });
+    });
+    finish(sums);
+    return sums;
+  });
 }
 
 }  // namespace
@@ -67,19 +89,26 @@ Eigen::VectorXd displacements(const PointList<Dim>& before, const PointList<Dim>
 }
 
 SparseWeights compose(const SparseWeights& weights, const SparseWeights& map) {
-  if (weights.num_control_points() != map.num_points()) {
-    throw InputError("the weights are for " + std::to_string(weights.num_control_points()) +
-                     " control points, but the map has weights of " +
-                     std::to_string(map.num_points()));
-  }
-  require_stochastic(map);
-  const Index m = map.num_control_points();
-  return SparseWeights::of(m, weights.num_points(), [&](Index p) {
-    Eigen::VectorXd sums = Eigen::VectorXd::Zero(m);
-    weights.visit(p, [&](Index i, double weight) {
-      map.visit(i, [&](Index j, double share) { sums[j] += weight * share; });
-    });
-    return sums;
+  return product(weights, map, 1e-9, [](Eigen::VectorXd&) {});
+}
+
+SparseWeights skin(const SparseWeights& weights, const SparseWeights& bones, Index max_influences) {
+  if (max_influences < 0) throw OptionError("the number of influences must be at least 0");
+  // Files of bones have single precision.
+  return product(weights, bones, 1e-6, [&](Eigen::VectorXd& sums) {
+    sums = sums.cwiseMax(0);
+    if (max_influences > 0 && max_influences < sums.size()) {
+      Eigen::VectorXd sorted = sums;
+      std::nth_element(sorted.begin(), sorted.begin() + max_influences - 1, sorted.end(),
+                       std::greater<>());
+      const double least = sorted[max_influences - 1];
+      // Of equal ones the first are kept.
+      auto room = max_influences - (sums.array() > least).count();
+      for (double& sum : sums) {
+        if (sum < least || (sum == least && room-- <= 0)) sum = 0;
+      }
+    }
+    if (sums.sum() > 0) sums /= sums.sum();
   });
 }
 
