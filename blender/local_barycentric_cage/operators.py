@@ -2,7 +2,7 @@
 """Buttons of the panel. From the user interface they work in the background, from scripts not."""
 import bpy
 
-from . import binding, nodes, preferences, program, skin
+from . import binding, keys, nodes, preferences, program, skin
 from .program import Refusal
 
 running = None  # the Job in the background
@@ -200,6 +200,35 @@ class FLBC_OT_skin(_AtOnce, bpy.types.Operator):
         return {'FINISHED'}
 
 
+class FLBC_OT_transfer_keys(_AtOnce, bpy.types.Operator):
+    bl_idname = 'flbc.transfer_keys'
+    bl_label = 'Transfer Shape Keys'
+    bl_description = (
+        'Give the other selected models of the cage, such as garments, the shape keys of the active '
+        'one. They move with the cage that is fitted to each key')
+
+    @classmethod
+    def poll(cls, context):
+        body = context.active_object
+        return (super().poll(context) and body in bound_models(context)
+                and body.data.shape_keys is not None)
+
+    def execute(self, context):
+        body = context.active_object
+        others = [model for model in bound_models(context) if model != body]
+        try:
+            if not others or {nodes.cage_of(model) for model in others} != {nodes.cage_of(body)}:
+                raise Refusal(f'Select models of the same cage, and {body.name} last: they get its '
+                              'shape keys')
+            count, distance = keys.transfer(body, others)
+        except Refusal as refusal:
+            self.report({'ERROR'}, str(refusal))
+            return {'CANCELLED'}
+        self.report({'INFO'}, f'{count} shape keys, {len(others)} models. The cage fits those of '
+                              f'{body.name} up to {distance:.2%} of the size')
+        return {'FINISHED'}
+
+
 class FLBC_OT_unbind(_AtOnce, bpy.types.Operator):
     """Remove the binding. The model returns to its rest shape"""
     bl_idname = 'flbc.unbind'
@@ -230,5 +259,5 @@ class FLBC_OT_cancel(bpy.types.Operator):
         return {'FINISHED'}
 
 
-CLASSES = (FLBC_OT_make_cage, FLBC_OT_bind, FLBC_OT_rebind, FLBC_OT_skin, FLBC_OT_unbind,
-           FLBC_OT_apply, FLBC_OT_cancel)
+CLASSES = (FLBC_OT_make_cage, FLBC_OT_bind, FLBC_OT_rebind, FLBC_OT_skin,
+           FLBC_OT_transfer_keys, FLBC_OT_unbind, FLBC_OT_apply, FLBC_OT_cancel)

@@ -90,6 +90,8 @@ class FLBC_PT_cage(bpy.types.Panel):
             _text(box, f'{model.name} follows {leader} ({quality})', 'CHECKMARK')
             if skin.armature_of(cage):
                 box.operator('flbc.skin', icon='ARMATURE_DATA')
+        if model.data.shape_keys:
+            box.operator('flbc.transfer_keys', icon='SHAPEKEY_DATA')
         for text in [*_problems(model), *filter(None, [model.flbc.note])]:
             _text(box, text, 'ERROR')
         row = box.row(align=True)

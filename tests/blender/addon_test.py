@@ -319,6 +319,41 @@ class AddonTest(unittest.TestCase):
         self.refused(bpy.ops.flbc.skin, 'limb_model: .* Rebind')
         self.assertFalse(self.model.vertex_groups)
 
+    def test_shape_keys_move_other_models_of_the_cage(self):
+        garment = self.model.copy()
+        garment.data = self.model.data.copy()
+        garment.name = 'garment'
+        bpy.context.collection.objects.link(garment)
+        # Half of the body, turned: in the world, both are at the same places. By a right angle,
+        # because objects have no shear.
+        turn = Matrix.LocRotScale((0.1, 0.2, 0.3), Euler((np.pi / 2, 0, 0)), (2, 2, 2))
+        garment.data.transform(turn.inverted())
+        garment.matrix_world = self.model.matrix_world @ turn
+        with self.edit(garment) as edited:
+            bmesh.ops.delete(edited, geom=edited.verts[len(edited.verts) // 2:], context='VERTS')
+        self.bind(self.model, garment)
+        index, weight = scene.influences(self.model)
+        moves = {}
+        self.model.shape_key_add(name='Basis')
+        for name in ('smile', 'frown'):
+            pose = 0.1 * self.random.standard_normal((len(self.cage.data.vertices), 3))
+            moves[name] = np.einsum('vk,vkx->vx', weight, pose[index])
+            key = self.model.shape_key_add(name=name)
+            key.data.foreach_set('co', (base(self.model) + moves[name]).astype(np.float32).ravel())
+        select(garment, self.model)
+        for _ in range(2):  # the second time, keys are replaced
+            self.assertEqual(bpy.ops.flbc.transfer_keys(), {'FINISHED'})
+            blocks = garment.data.shape_keys.key_blocks
+            self.assertEqual([key.name for key in blocks], ['Basis', 'smile', 'frown'])
+        linear = np.array(turn)[:3, :3]
+        for name, expected in moves.items():
+            places = [np.array([point.co for point in blocks[each].data]) for each in ('Basis', name)]
+            found = (places[1] - places[0]) @ linear.T
+            error = np.linalg.norm(found - expected[:len(found)], axis=1).max()
+            self.assertLess(error, 1e-3 * np.abs(expected).max())
+        select(self.model)
+        self.refused(bpy.ops.flbc.transfer_keys, 'limb_model last')
+
     def test_an_armature_on_the_cage(self):
         self.bind()
         rig = self.add_armature('bone')
