@@ -180,6 +180,11 @@ const char* const kDrawing =
     "viewBox='0 0 1 2' preserveAspectRatio='xMinYMax slice'><polygon points='1,2 3,4 5 6'/><image "
     "width='1' height='1'/></svg></g></svg>";
 
+const char* const kSu2 =
+    "% a\nNDIME= 2\nNELEM=2\n5 0 1 2 0\n9 1 3 4 2\nNPOIN= 5 5\n0 0 0\n1 0 1\n0.5 1 2\n2 0 3\n2 1 "
+    "4\n"
+    "NMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= 1\n3 0 1\n";
+
 const char* const kStlText =
     "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
     "endfacet\nfacet normal 0 0 -1\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\nendloop\n"
@@ -206,6 +211,7 @@ std::vector<Reader> model_readers() {
        {tent_as("a.ply", true), tent_as("a.ply", false), kPlyOfScanner}},
       {"glb", "input.glb", read_model, {tent_as("a.glb", false)}},
       {"svg", "input.svg", read_drawing, {kDrawing}},
+      {"su2", "input.su2", read_model, {kSu2}},
       {"stl",
        "input.stl",
        read_model,

@@ -137,6 +137,53 @@ TEST_F(ModelFileTest, NormalsAreCrossToWhatWasCrossToThem) {
   }
 }
 
+// Sections in any order; comments, indices after points, and unknown lines stay.
+TEST_F(ModelFileTest, Su2MeshesKeepAllButTheirPoints) {
+  const std::string elements = "NELEM=3\n5 0 1 2 0\n9 1 3 4 2 1\n10 0 1 2 3 2\n";
+  const std::string marker =
+      "NMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS = 2\n5 0 2 1\n3 1 0\nSEND_RECV= 0\n";
+  const std::string other = "% made by hand\nFFD_CORNER_POINTS= 1\n0.5 0.5\n";
+  const auto points_in = [](int dim, bool moves) {
+    std::string text = "NPOIN= 5 5\n";
+    for (int v = 0; v < 5; ++v) {
+      for (int d = 0; d < dim; ++d) {
+        text += std::to_string(v * v + 2 * d + (moves && d < 2 ? 8 : 0)) + "\t";
+      }
+      text += std::to_string(v) + "\n";
+    }
+    return text;
+  };
+  for (const int dim : {2, 3}) {
+    const auto text = [&](bool comes_first, bool moves) {
+      const auto points = points_in(dim, moves);
+      return "NDIME= " + std::to_string(dim) + "\n" + (comes_first ? points : "") + elements +
+             other + marker + (comes_first ? "" : points);
+    };
+    for (const bool comes_first : {false, true}) {
+      const ModelFile file = open("a.su2", text(comes_first, false));
+      const auto& soup = file.model().soup;
+      using Polygons = std::vector<std::vector<Index>>;
+      EXPECT_EQ(soup.polygons,
+                dim == 2 ? (Polygons{{0, 1, 2}, {1, 3, 4, 2}}) : Polygons{{0, 2, 1}});
+      EXPECT_EQ(soup.points[3], Vector<3>(9, 11, dim == 2 ? 0 : 13));
+      const PointList<2> points = io::to_points<3>(soup, "").topRows<2>();
+      EXPECT_EQ(rewritten<2>(file, points), text(comes_first, false));
+      EXPECT_EQ(rewritten<2>(file, points.array() + 8), text(comes_first, true));
+    }
+  }
+  const auto refused = [&](const std::string& content, const std::string& words) {
+    make("b.su2", content);
+    expect_refused("b.su2:" + words, [&] { ModelFile(path("b.su2")); });
+  };
+  refused("NPOIN= 1\n0 0\n", "1: the number of dimensions (NDIME) must come first");
+  refused("NDIME= 4\n", "1: ");
+  refused("NDIME= 2\nNELEM= 1\n5 0 1 9\n" + points_in(2, false), "3: the index 9 is out of range");
+  refused("NDIME= 2\nNELEM= 1\n7 0 1 9\n", "3: the type 7 of an element is unknown");
+  refused("NDIME= 2\nNELEM= 5\n5 0 1 2\n", "");
+  refused("NDIME= 2\n" + elements, "5: not an SU2 mesh: it has no points");
+  refused("NDIME= 2\nNZONE= 2\n", "2: a mesh of several zones is not supported");
+}
+
 TEST_F(ModelFileTest, In2DZAndNormalsStay) {
   const auto mesh = flat_box_with_attributes();
   for (const ModelKind& kind : kModelKinds) {

@@ -27,6 +27,7 @@ constexpr Format kFormats[] = {
     {"glb", {read_gltf, write_glb, Attributes::kCorners}},
     {"gltf", {read_gltf, nullptr, Attributes::kCorners}},
     {"vrm", {read_gltf, nullptr, Attributes::kCorners}},  // .glb of persons
+    {"su2", {read_su2}},
     {"svg", {read_svg}},
     {"vtu", {}, kVtu<2>, kVtu<3>},
     {"mesh", {}, {}, {read_medit, write_medit}},

@@ -6,12 +6,15 @@
 
 namespace flbc::io {
 
-PlacedNumbers next_numbers(TextReader& reader, std::size_t size, int needed, TripleKind kind) {
+PlacedNumbers next_numbers(TextReader& reader, std::size_t size, int needed, TripleKind kind,
+                           int most) {
   PlacedNumbers result;
   auto& places = result.places;
   for (int k = 0; k < 3; ++k) {
     // Separate words, because a line may be continued in the middle.
-    if (reader.has_word() || k < needed) {
+    if (k >= most) {
+      places[k].form = NumberForm::kInteger;  // cannot be stored
+    } else if (reader.has_word() || k < needed) {
       places[k] = {size - reader.bytes_left(), static_cast<std::uint32_t>(reader.peek().size()),
                    NumberForm::kText};
       result.values[k] = kind == TripleKind::kPoint ? reader.number() : reader.any_number();

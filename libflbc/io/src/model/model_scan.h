@@ -57,8 +57,9 @@ struct PlacedNumbers {
 //! previous one.
 //! \param reader  of a file of `size` bytes
 //! \param needed  an error if there are fewer
-//! \param kind  points must be finite
-PlacedNumbers next_numbers(TextReader& reader, std::size_t size, int needed, TripleKind kind);
+//! \param kind  points must be finite \param most  further numbers belong to something else
+PlacedNumbers next_numbers(TextReader& reader, std::size_t size, int needed, TripleKind kind,
+                           int most = 3);
 
 void add_sites(ModelScan& scan, const std::array<NumberPlace, 3>& places, TripleKind kind,
                Index index);
@@ -99,6 +100,7 @@ void read_off(const std::string& path, Extent extent, ModelScan& scan);
 void read_ply(const std::string& path, Extent extent, ModelScan& scan);
 void read_stl(const std::string& path, Extent extent, ModelScan& scan);
 void read_gltf(const std::string& path, Extent extent, ModelScan& scan);
+void read_su2(const std::string& path, Extent extent, ModelScan& scan);
 void read_svg(const std::string& path, Extent extent, ModelScan& scan);
 
 //! Reads these materials from a .mtl file. \return false if it cannot be read
