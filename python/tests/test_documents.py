@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 import flbc
+import numpy as np
 import pytest
 from conftest import MESHES, SOURCE
 
@@ -45,6 +46,21 @@ def test_pytorch_moves_the_model_to_the_pose():
     printed = run(SOURCE / "examples/gradient_of_loss.py", *(MESHES / f"3d/{name}.obj" for name in names))
     losses = [float(line.split()[1]) for line in printed.splitlines()]
     assert losses[-1] < 1e-3 * losses[0], losses
+
+
+def test_duct_bends_inside_the_cage_alone(tmp_path):
+    printed = run(SOURCE / "examples/duct.py", tmp_path / "out")
+    rows = [line.split() for line in printed.splitlines()[1:6]]
+    assert [row[1] for row in rows[:3]] == ["0", "0", "0"]
+    jacobians = [float(row[2]) for row in rows]
+    assert jacobians == sorted(jacobians, reverse=True)
+    points, wall = flbc.read_model(tmp_path / "out/duct.su2")
+    outside = (np.abs(points[:, 0] - 1.5) > 0.75) | (points[:, 2] > 0.7)
+    for k in range(1, 6):
+        moved, faces = flbc.read_model(tmp_path / f"out/duct_{k}.su2")
+        assert (moved[outside] == points[outside]).all()
+        assert abs(moved - points).max() > 0.1 * k
+        assert np.array_equal(faces, wall)
 
 
 def test_dask_binds_a_folder_and_reports_failures(tmp_path):
