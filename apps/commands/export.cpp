@@ -117,8 +117,7 @@ void add_export_command(CLI::App& app, int&) {
       "\n"
       "Examples:\n"
       "  flbc export model.obj --weights binding.npz -o model.glb\n"
-      "  flbc export model.obj --weights binding.npz --pose pose.obj -o posed.glb\n"
-      "  flbc export model.obj --weights binding.npz --skeleton rig.glb -o skinned.glb");
+      "  flbc export model.obj --weights binding.npz --pose pose.obj -o posed.glb");
   command
       ->add_option("MODEL", a.model,
                    "model (.obj .off .ply .stl .glb .gltf), or domain mesh (3D: .mesh .msh) "
