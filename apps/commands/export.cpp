@@ -17,6 +17,7 @@
 #include "front/movable_model.h"
 #include "front/poses.h"
 #include "front/up_axis.h"
+#include "gltf/skeleton.h"
 #include "gltf/skin.h"
 #include "help/options.h"
 #include "report/skin_facts.h"
@@ -29,6 +30,8 @@ struct ExportArguments {
   BindingFiles files;
   PoseArguments poses;
   std::string output;
+  std::string skeleton;  // empty: joints are control points
+  bool corrects = false;
   UpAxis up = UpAxis::kAuto;
   bool quiet = false;
   gltf::SkinOptions options;
@@ -44,7 +47,8 @@ void check_arguments(ExportArguments& arguments) {
 }
 
 void check_files(const ExportArguments& arguments, const CageFiles& poses) {
-  std::vector<std::string> inputs{arguments.model, arguments.files.weights, arguments.files.cage};
+  std::vector<std::string> inputs{arguments.model, arguments.files.weights, arguments.files.cage,
+                                  arguments.skeleton};
   inputs.insert(inputs.end(), poses.paths.begin(), poses.paths.end());
   require_distinct(inputs, {arguments.output});
 }
@@ -56,6 +60,18 @@ gltf::Animation<Dim> load_motion(const ExportArguments& arguments, const CageFil
   const bool is_alone = poses.paths.size() == 1;
   return animation_of(load_poses(arguments.poses, poses, rest, is_alone ? 1 : 0),
                       is_alone ? &rest.points() : nullptr);
+}
+
+template <int Dim>
+gltf::ExportedSkin export_by_skeleton(const ExportArguments& arguments, const Binding<Dim>& binding,
+                                      const gltf::Surface& surface) {
+  if constexpr (Dim == 3) {
+    const auto skeleton = gltf::read_skeleton(arguments.skeleton, binding.cage.points);
+    return naming(arguments.model, [&] {
+      return gltf::export_skin(binding, surface, arguments.options, skeleton, arguments.corrects);
+    });
+  }
+  throw OptionError("--skeleton: the cage is in 2D; skeletons need one in 3D");
 }
 
 template <int Dim>
@@ -72,8 +88,11 @@ void export_model(const ExportArguments& arguments, const CageFiles& poses) {
 
   auto options = arguments.options;
   options.turn = turn_upright(up_axis(up_of(arguments.up, arguments.model), points));
-  const auto skin = naming(arguments.model,
-                           [&] { return gltf::export_skin(binding, surface, options, animation); });
+  const auto skin = !arguments.skeleton.empty()
+                        ? export_by_skeleton(arguments, binding, surface)
+                        : naming(arguments.model, [&] {
+                            return gltf::export_skin(binding, surface, options, animation);
+                          });
   write_text(arguments.output, skin.content);
   const double size = bounding_box_diagonal<Dim>(points);
   if (!arguments.quiet) {
@@ -91,7 +110,8 @@ void add_export_command(CLI::App& app, int&) {
   auto* command =
       app.add_subcommand("export", "export a model as a glTF skin that the cage deforms");
   command->footer(
-      "Each control point becomes a joint (control_point_0 and so on) that only translates.\n"
+      "Each control point becomes a joint (control_point_0 and so on) that only translates. With\n"
+      "--skeleton the joints are those that skin the cage in another file.\n"
       "Vertices are split along seams of texture coordinates and normals. The attribute _VERTEX\n"
       "maps them to the vertices of MODEL. Normals do not deform.\n"
       "\n"
@@ -105,11 +125,19 @@ void add_export_command(CLI::App& app, int&) {
       ->required();
   command->add_option("--weights", a.files.weights, describe_weight_file())->required();
   add_cage_option(*command, a.files.cage);
-  add_rate_option(*command, a.poses, add_pose_option(*command, a.poses));
+  auto* poses = add_pose_option(*command, a.poses);
+  add_rate_option(*command, a.poses, poses);
+  auto* skeleton = command->add_option("--skeleton", a.skeleton,
+                                       "skinned cage (.glb .gltf .vrm) whose joints and animations "
+                                       "the model gets");
+  command
+      ->add_flag("--correct", a.corrects,
+                 "add a morph target for each key, so that the model is as the cage deforms it")
+      ->needs(skeleton);
   command->add_option("-k,--max-influences", a.options.max_influences,
                       "maximum influences per vertex, 4 or 8 (default: 8)");
   command->add_option("-o,--output", a.output, "skin: .glb or .usda")->required();
-  add_up_option(*command, a.up);
+  skeleton->excludes(poses)->excludes(add_up_option(*command, a.up));
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);

@@ -122,6 +122,29 @@ TEST_F(ExportCommand, PictureOfPly) {
   EXPECT_EQ(skinned.json["materials"].size(), 1U);
 }
 
+// The skin of the cage alone: its joints are the control points, so the model moves with them.
+TEST_F(ExportCommand, JointsOfASkinnedCage) {
+  const auto pose = tetrahedron("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.1 1.5\n", "pose.obj");
+  expect_export(rig(tetrahedron(), "rig.glb") + " --pose " + pose, 0, "4 vertices");
+  const auto arguments = rig(square()) + " --skeleton rig.glb";
+  const auto errors = expect_export(arguments, 0, "6 joints, of which 1 move").errors;
+  expect_piece(errors, "difference from the deformation by the cage over 2 keys");
+  expect_piece(errors,
+               "fits Unity, Unreal, Godot, three.js, Babylon.js, VRChat, Roblox, libGDX, Filament");
+  expect_no_piece(errors, "morph targets");
+  EXPECT_FALSE(skin("s.glb").primitive().contains("targets"));
+  expect_piece(expect_export(arguments + " --correct", 0, "over 2 keys").errors,
+               "with morph targets");
+  EXPECT_EQ(skin("s.glb").primitive()["targets"].size(), 2U);
+  expect_export(rig("s.glb", "t.glb") + " --skeleton rig.glb --correct", 2, "has morph targets");
+
+  expect_export(rig(square()) + " --correct", 1, "--correct requires --skeleton");
+  expect_export(arguments + " --pose " + pose, 1, "--pose cannot be combined with --skeleton");
+  expect_export(rig(square(), "s.usda") + " --skeleton rig.glb", 1, ".glb only");
+  expect_export(rig(square()) + " --skeleton " + pose, 2, "a skeleton is in a .glb");
+  expect_export(rig(square(), "t.glb") + " --skeleton s.glb", 2, "no skinned mesh has all");
+}
+
 // Of a tetrahedron, each on an axis.
 Eigen::MatrixXd corners() {
   return (Eigen::MatrixXd(3, 4) << 0, 1, 0, 0,  //

@@ -73,7 +73,8 @@ TEST(SkinTest, EqualAndNegativeWeights) {
   weights << 1, 1.5, 0, -0.5;
   bones << 0.5, 0, 0.5, 0, 0, 1;
   const auto found = skin(weights, bones, 1).dense();
-  EXPECT_EQ(found.col(0), Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(found.col(0).maxCoeff(), 1);
+  EXPECT_EQ(found.col(0).head(2).sum(), 1);
   EXPECT_EQ(skin(weights, bones).dense().col(1), Eigen::Vector3d(0.5, 0.5, 0));
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whether a .glb file is valid, and moves its model as flbc deform does:
 //   node check.mjs SKIN.glb --model MODEL [--pose TIME MOVED_MODEL]... [--joints N] [--slots N]
-//                  [--tolerance T] [--texture]
-// Models are .obj or .mesh; between two poses their mean is expected.
+//                  [--tolerance T] [--texture] [--turns]
+// Models are .obj or .mesh; between two poses their mean is expected, unless joints turn.
 import { readFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import validator from 'gltf-validator';
@@ -65,6 +65,7 @@ function parse(argv) {
       slots: { type: 'string' },
       tolerance: { type: 'string', default: '1e-5' },
       texture: { type: 'boolean', default: false },
+      turns: { type: 'boolean', default: false },
     },
   });
   return { ...values, poses, path: positionals[0], model: readPoints(values.model) };
@@ -84,11 +85,11 @@ async function validate(path, hasTexture) {
 }
 
 // Moments and what is expected there.
-function* moments({ model, poses }) {
+function* moments({ model, poses, turns }) {
   yield { points: model };
   for (const [k, pose] of poses.entries()) {
     yield pose;
-    if (k + 1 === poses.length) break;
+    if (turns || k + 1 === poses.length) continue;
     const next = poses[k + 1];
     yield { time: (pose.time + next.time) / 2, points: between(pose.points, next.points) };
   }

@@ -107,6 +107,12 @@ check still.glb --model "$model"
 export_skin limb "$model" "$cage" still.usda -k 4
 node "$here/usd.mjs" still.usda "$model" 55
 
+# ---- 3D: joints of a rigged cage, with the difference from the deformation by the cage -------------
+node "$here/rig.mjs" "$cage" 60 rig.glb bent_cage.obj
+"$flbc" deform "$model" --weights limb.npy --rest "$cage" --pose bent_cage.obj -q -o bent.obj
+export_skin limb "$model" "$cage" bent.glb -k 4 --skeleton rig.glb --correct
+check bent.glb --model "$model" --pose 0 "$model" --pose 1 bent.obj --turns --slots 4
+
 # ---- 3D: the boundary of a mesh, where most vertices have few influences -------------------------
 "$flbc" solve "$cage" --method harmonic --domain limb.mesh -q -o domain3.npy
 prepare domain3 limb.mesh "$cage" "$pose" 4
@@ -156,6 +162,10 @@ cp globe.npy cut.npy
 prepare cut cut.obj cube.obj cube_pose.obj 4
 export_skin cut globe.glb cube.obj kept.glb -k 4 --pose cube.obj cube_pose.obj --fps 2
 check kept.glb --model cut.obj --pose 0 cut.obj --pose 0.5 cut.4.posed.obj --texture
+node "$here/rig.mjs" cube.obj 60 cube_rig.glb bent_cube.obj
+"$flbc" deform cut.obj --weights cut.npy --rest cube.obj --pose bent_cube.obj -q -o bent_cut.obj
+export_skin cut globe.glb cube.obj bent_document.glb -k 4 --skeleton cube_rig.glb --correct
+check bent_document.glb --model cut.obj --pose 0 cut.obj --pose 1 bent_cut.obj --turns --texture
 # The result once more: its second scene shows the model as well.
 export_skin cut kept.glb cube.obj again.glb -k 4 --pose cube.obj cube_pose.obj --fps 2
 check again.glb --model cut.obj --pose 0 cut.obj --pose 0.5 cut.4.posed.obj --texture

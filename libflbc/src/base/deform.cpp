@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flbc/deform.h"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -97,16 +96,11 @@ SparseWeights skin(const SparseWeights& weights, const SparseWeights& bones, Ind
   // Files of bones have single precision.
   return product(weights, bones, 1e-6, [&](Eigen::VectorXd& sums) {
     sums = sums.cwiseMax(0);
-    if (max_influences > 0 && max_influences < sums.size()) {
-      Eigen::VectorXd sorted = sums;
-      std::nth_element(sorted.begin(), sorted.begin() + max_influences - 1, sorted.end(),
-                       std::greater<>());
-      const double least = sorted[max_influences - 1];
-      // Of equal ones the first are kept.
-      auto room = max_influences - (sums.array() > least).count();
-      for (double& sum : sums) {
-        if (sum < least || (sum == least && room-- <= 0)) sum = 0;
-      }
+    auto left = max_influences > 0 ? (sums.array() > 0).count() : 0;
+    for (; left > max_influences; --left) {
+      Eigen::Index least = 0;
+      (sums.array() > 0).select(sums, 2).minCoeff(&least);
+      sums[least] = 0;
     }
     if (sums.sum() > 0) sums /= sums.sum();
   });

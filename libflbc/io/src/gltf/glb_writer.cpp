@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -50,7 +51,7 @@ class SkinBuilder {
       add_joints();
       add_new_mesh();
     }
-    add_animation();
+    add_animations();
     add_scenes();
   }
 
@@ -188,6 +189,30 @@ class SkinBuilder {
             .cast<float>();
     influences["_VERTEX"] = document_.add_attribute(sources);
     for (const auto number : part.primitives) set_influences(part, number, influences);
+    correct(list("meshes").at(io::whole(edit_.node(part.node).at("mesh"))), part.node,
+            part.primitives, part.points, (has_pose ? origin : part.frame(0)).linear());
+  }
+
+  // Adds the corrections as morph targets. \param points  their columns \param frame  of the mesh
+  template <class Points>
+  void correct(Json& mesh, std::size_t node, const std::vector<std::size_t>& primitives,
+               const Points& points, const Eigen::Matrix3d& frame) {
+    if (scene_.corrections.empty()) return;
+    auto targets = Json::array();
+    for (const auto& correction : scene_.corrections) {
+      const Eigen::MatrixXd columns = correction(Eigen::all, points).template cast<double>();
+      const Eigen::MatrixXf shifts = (frame.inverse() * columns).cast<float>();
+      targets.push_back({{"POSITION", document_.add_attribute(shifts, true)}});
+    }
+    for (const auto number : primitives) {
+      auto& primitive = mesh["primitives"].at(number);
+      if (primitive.contains("targets")) {
+        document_.fail("the model has morph targets, which --correct cannot keep; leave one out");
+      }
+      primitive["targets"] = targets;
+    }
+    mesh["weights"] = std::vector<double>(targets.size(), 0);
+    corrected_.insert(node);
   }
 
   void pose(const GltfPart& part) {
@@ -229,13 +254,16 @@ class SkinBuilder {
       const auto mesh = io::whole(edit_.node(node).at("mesh"));
       for (std::size_t p = 0; p < list("meshes").at(mesh).at("primitives").size(); ++p) {
         if (primitives.count(p) > 0) continue;
+        if (!scene_.corrections.empty()) {
+          document_.fail("a mesh has points or lines, which --correct cannot move; leave one out");
+        }
         const auto position = io::whole(edit_.primitive(part, p).at("attributes").at("POSITION"));
         const auto count =
             document_.json.at("accessors").at(position).at("count").get<Eigen::Index>();
         JointWeights still;
         still.joints.setZero(4, count);
         still.numbers.setZero(4, count);
-        still.joints.row(0).setConstant(static_cast<std::uint16_t>(scene_.joints.cols()));
+        still.joints.row(0).setConstant(static_cast<std::uint16_t>(scene_.num_joints()));
         still.numbers.row(0).setOnes();
         set_influences(part, p, influences_of(still));
       }
@@ -245,7 +273,7 @@ class SkinBuilder {
   Json influences_of(const JointWeights& weights) {
     auto attributes = Json::object();
     // The joint after the control points is the root.
-    const bool is_small = scene_.joints.cols() <= 256 && (weights.joints.array() < 256).all();
+    const bool is_small = scene_.num_joints() <= 256 && (weights.joints.array() < 256).all();
     for (Eigen::Index set = 0; set < weights.joints.rows() / 4; ++set) {
       const auto joints = weights.joints.middleRows(4 * set, 4);
       const auto suffix = std::to_string(set);
@@ -266,6 +294,9 @@ class SkinBuilder {
         io::add_mesh(document_, scene_.surface, scene_.positions, scene_.sources, left_out_);
     const auto influences = influences_of(scene_.weights);
     for (auto& primitive : mesh["primitives"]) primitive["attributes"].update(influences);
+    std::vector<std::size_t> all(mesh["primitives"].size());
+    std::iota(all.begin(), all.end(), 0);
+    correct(mesh, 0, all, Eigen::all, Eigen::Matrix3d::Identity());
     mesh["name"] = scene_.name;
     document_.append("meshes", std::move(mesh));
   }
@@ -275,11 +306,12 @@ class SkinBuilder {
   // All control points are children of one joint at the center of the cage. Programs that draw
   // joints as bones give leaf joints the length of the shortest sibling, which is the helper joint.
   void add_joints() {
+    cage_ = num_nodes();
+    if (scene_.skeleton) return add_skeleton(*scene_.skeleton);
     const auto num_points = scene_.joints.cols();
     const Eigen::Vector3f low = scene_.joints.rowwise().minCoeff();
     const Eigen::Vector3f size = scene_.joints.rowwise().maxCoeff() - low;
     centre_ = low + size / 2;
-    cage_ = num_nodes();
     add_joint("cage", centre_, Eigen::Vector3f::Zero());
     edit_.node(cage_)["translation"] =
         list_of(scene_.turn * (scene_.origin + centre_.cast<double>()));
@@ -299,13 +331,27 @@ class SkinBuilder {
     edit_.node(cage_)["children"] = std::move(children);
     joints_.push_back(cage_);
     joints_.push_back(helper);
+    std::rotate(binds_.begin(), binds_.begin() + 1, binds_.end() - 1);  // as the joints
+  }
+
+  void add_skeleton(const Skeleton& skeleton) {
+    document_.append("nodes", {{"name", "skeleton"}});
+    for (const auto& node : skeleton.nodes) document_.append("nodes", node);
+    for (std::size_t k = 0; k < skeleton.nodes.size(); ++k) {
+      edit_.node(joint_node(skeleton.parents[k]))["children"].push_back(joint_node(k));
+    }
+    for (const auto joint : skeleton.joints) joints_.push_back(joint_node(joint));
+    joints_.push_back(cage_);
+    binds_ = skeleton.binds;
+    binds_.push_back(Eigen::Affine3d::Identity());
   }
 
   // Appends a node. \param parent  position of its parent
   void add_joint(const std::string& name, const Eigen::Vector3f& place,
                  const Eigen::Vector3f& parent) {
     document_.append("nodes", {{"name", name}, {"translation", list_of(place.cast<double>())}});
-    places_.push_back(parent + place);
+    const Eigen::Vector3f sum = parent + place;
+    binds_.emplace_back(Eigen::Translation3d(-sum.cast<double>()));
   }
 
   std::size_t joint_node(Eigen::Index joint) const {
@@ -317,13 +363,11 @@ class SkinBuilder {
     const std::vector<double> key(frame.data(), frame.data() + 16);
     const auto known = skins_.find(key);
     if (known != skins_.end()) return known->second;
-    Eigen::MatrixXf inverse_binds(16, joints_.size());
-    for (std::size_t k = 0; k < joints_.size(); ++k) {
-      Eigen::Matrix4d inverse_bind = frame.matrix();
-      const auto& place = places_[joints_[k].get<std::size_t>() - cage_];
-      inverse_bind.col(3).head<3>() =
-          frame.translation() - scene_.origin - place.cast<double>().eval();
-      inverse_binds.col(static_cast<Eigen::Index>(k)) = inverse_bind.cast<float>().reshaped();
+    Eigen::MatrixXf inverse_binds(16, binds_.size());
+    const auto from_origin = Eigen::Translation3d(-scene_.origin) * frame;
+    for (std::size_t k = 0; k < binds_.size(); ++k) {
+      inverse_binds.col(static_cast<Eigen::Index>(k)) =
+          (binds_[k] * from_origin).matrix().cast<float>().reshaped();
     }
     const auto binds = document_.add_accessor<float>(inverse_binds);
     return skins_[key] = document_.append("skins", {{"name", "cage"},
@@ -332,21 +376,51 @@ class SkinBuilder {
                                                     {"joints", joints_}});
   }
 
-  void add_animation() {
-    if (scene_.channels.empty()) return;
-    const Eigen::Map<const Eigen::RowVectorXf> times(
-        scene_.times.data(), static_cast<Eigen::Index>(scene_.times.size()));
-    const auto input = document_.add_accessor<float>(times, 0, true);
+  void add_animations() {
+    if (scene_.skeleton) {
+      for (const auto& clip : scene_.skeleton->clips) add_animation(clip);
+    } else if (!scene_.channels.empty()) {
+      Clip poses{"poses"};
+      const Eigen::Map<const Eigen::RowVectorXf> times(
+          scene_.times.data(), static_cast<Eigen::Index>(scene_.times.size()));
+      for (const auto& moving : scene_.channels) {
+        const Eigen::Matrix3Xf values = moving.translations.colwise() - centre_;
+        poses.channels.push_back({static_cast<std::size_t>(moving.joint), "translation", false,
+                                  times.cast<double>(), values.cast<double>()});
+      }
+      add_animation(poses);
+    }
+  }
+
+  void add_animation(const Clip& clip) {
     auto samplers = Json::array(), channels = Json::array();
-    for (const Channel& moving : scene_.channels) {
-      const auto output = document_.add_accessor<float>(moving.translations.colwise() - centre_);
+    Eigen::RowVectorXd known;
+    std::size_t input = 0;
+    const auto add = [&](std::size_t node, const std::string& path, bool is_step,
+                         const Eigen::RowVectorXd& keys, const Eigen::MatrixXd& values) {
+      if (keys.size() != known.size() || keys != known) {
+        input = document_.add_accessor<float>(known = keys, 0, true);
+      }
       channels.push_back(
-          {{"sampler", samplers.size()},
-           {"target", {{"node", joint_node(moving.joint)}, {"path", "translation"}}}});
-      samplers.push_back({{"input", input}, {"interpolation", "LINEAR"}, {"output", output}});
+          {{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", path}}}});
+      samplers.push_back({{"input", input},
+                          {"interpolation", is_step ? "STEP" : "LINEAR"},
+                          {"output", document_.add_accessor<float>(values)}});
+    };
+    for (const auto& channel : clip.channels) {
+      add(joint_node(channel.node), channel.path, channel.is_step, channel.keys, channel.values);
+    }
+    // At each key the weight of its correction is 1.
+    const auto count = static_cast<Eigen::Index>(clip.keys.size());
+    Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(scene_.corrections.size(), count);
+    if (!corrected_.empty()) weights.middleRows(num_keys_, count).setIdentity();
+    num_keys_ += count;
+    for (const auto node : corrected_) {
+      add(node, "weights", false, Eigen::RowVectorXd::Map(clip.keys.data(), count),
+          weights.reshaped(1, weights.size()));
     }
     document_.append("animations",
-                     {{"name", "poses"}, {"channels", channels}, {"samplers", samplers}});
+                     {{"name", clip.name}, {"channels", channels}, {"samplers", samplers}});
   }
 
   // ---------------------------------------- scenes
@@ -388,8 +462,10 @@ class SkinBuilder {
   io::GltfDocument& document_;
   Eigen::Vector3f centre_;                              // of the cage
   std::size_t cage_ = 0;                                // node of the root joint
-  std::vector<Eigen::Vector3f> places_;                 // of the nodes from it on, at rest
-  Json joints_;                                         // nodes of all joints
+  Json joints_ = Json::array();                         // nodes of all joints
+  std::vector<Eigen::Affine3d> binds_{};                // of these, from the origin
+  std::set<std::size_t> corrected_{};                   // nodes with corrections
+  Eigen::Index num_keys_ = 0;                           // of the animations so far
   std::map<std::vector<double>, std::size_t> skins_{};  // by the frame of their mesh
 };
 

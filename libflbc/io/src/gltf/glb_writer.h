@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes binary glTF 2.0 and Universal Scene Description, limited to a skin whose joints only
-// translate.
+// Writes binary glTF 2.0 and Universal Scene Description: a mesh and its skin. Joints of control
+// points only translate; those of a skeleton, in glTF, do anything.
 #pragma once
 
 #include <memory>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gltf/joint_weights.h"
+#include "gltf/skeleton.h"
 #include "model/gltf_writer.h"
 
 namespace flbc::gltf {
@@ -34,6 +35,15 @@ struct GlbScene {
   std::vector<float> times{};                        //!< in seconds
   std::vector<Channel> channels{};                   //!< joints that move
   std::shared_ptr<const io::GltfSource> document{};  //!< null: the mesh is written anew
+  //! Has the joints in place of control points, without origin, turn, and channels; may be null.
+  const Skeleton* skeleton = nullptr;
+  //! Morph targets, one for each key of the clips: 3 x number of weights. May be empty.
+  std::vector<Eigen::Matrix3Xf> corrections{};
+
+  //! Joints that may move. Points without weights have the joint of this number.
+  Eigen::Index num_joints() const {
+    return skeleton ? static_cast<Eigen::Index>(skeleton->joints.size()) : joints.cols();
+  }
 };
 
 //! Makes the content of a .glb file. The scene has two root nodes: the mesh, and the joint "cage"
@@ -42,7 +52,7 @@ struct GlbScene {
 //! bones. A document keeps all its content, except for skins of the model and animations of their
 //! joints. Positions stay in the coordinates of their nodes, which lose their transforms and
 //! parents, because those do not move skins, unless something else needs them. Triangles turn over
-//! where a mirroring is lost.
+//! where a mirroring is lost. With a skeleton the root is "skeleton".
 //! \param left_out  gets what is missing, one phrase each
 //! \throws InputError if it exceeds the 4 GB limit of the format
 std::string encode_glb(const GlbScene& scene, std::vector<std::string>& left_out);

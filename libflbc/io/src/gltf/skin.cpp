@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <sstream>
+
+#include <Eigen/QR>
 
 #include "flbc/bounding_box.h"
 #include "flbc/deform.h"
@@ -129,6 +132,43 @@ GlbScene make_scene(const PointList<Dim>& control_points, const PointList<Dim>& 
   return scene;
 }
 
+ExportedSkin encode(const GlbScene& scene, const SkinOptions& options, const Surface& surface) {
+  ExportedSkin result;
+  for (const auto& file : surface.missing_files) {
+    result.left_out.push_back("materials: " + file + " cannot be read");
+  }
+  result.content =
+      options.format == SkinFormat::kUsda ? encode_usda(scene) : encode_glb(scene, result.left_out);
+  result.vertices = static_cast<Index>(surface.sources.size());
+  if (scene.document) {
+    result.vertices = 0;
+    for (const auto& part : scene.document->parts) {
+      result.vertices += static_cast<Index>(part.points.size());
+    }
+  }
+  result.triangles = static_cast<Index>(surface.triangles.cols());
+  result.joints = static_cast<Index>(scene.num_joints());
+  return result;
+}
+
+// The shift of a point at rest that moves it by this much. Joints that press it flat can move it
+// within a plane only.
+Vector<3> shift_for(const Eigen::Matrix3d& linear, const Vector<3>& move) {
+  constexpr double kFlat = 1e-3;
+  Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> solver;
+  solver.setThreshold(kFlat);
+  return solver.compute(linear).solve(move);
+}
+
+ErrorNorms norms_of(const std::vector<double>& lengths) {
+  const Eigen::Map<const Eigen::VectorXd> all(lengths.data(),
+                                              static_cast<Eigen::Index>(lengths.size()));
+  return all.size() == 0
+             ? ErrorNorms{}
+             : ErrorNorms{std::sqrt(all.squaredNorm() / static_cast<double>(all.size())),
+                          all.maxCoeff()};
+}
+
 // The errors of the stored skin at the points that are vertices.
 template <int Dim>
 void measure(const PointList<Dim>& control_points, const PointList<Dim>& points,
@@ -191,22 +231,61 @@ ExportedSkin export_skin(const Binding<Dim>& binding, const Surface& surface,
   scene.name = options.name;
   scene.turn = options.turn;
 
-  ExportedSkin result;
-  for (const auto& file : surface.missing_files) {
-    result.left_out.push_back("materials: " + file + " cannot be read");
-  }
-  result.content = is_usd ? encode_usda(scene) : encode_glb(scene, result.left_out);
-  result.vertices = static_cast<Index>(surface.sources.size());
-  if (scene.document) {
-    result.vertices = 0;
-    for (const auto& part : scene.document->parts) {
-      result.vertices += static_cast<Index>(part.points.size());
-    }
-  }
-  result.triangles = static_cast<Index>(surface.triangles.cols());
-  result.joints = static_cast<Index>(control_points.cols());
+  auto result = encode(scene, options, surface);
   result.moving_joints = static_cast<Index>(scene.channels.size());
   measure(control_points, points, weights, stored, surface.sources, animation, origin, result);
+  return result;
+}
+
+ExportedSkin export_skin(const Binding<3>& binding, const Surface& surface,
+                         const SkinOptions& options, const Skeleton& skeleton, bool corrects) {
+  if (options.format != SkinFormat::kGlb) {
+    throw OptionError("joints of a skeleton can be written as .glb only");
+  }
+  const PointList<3> points = binding.rest();
+  check(binding.cage.points, points, binding.weights, surface, options);
+  const auto bones = skin(binding.weights, skeleton.weights);
+  const auto stored =
+      to_joint_weights(skin(binding.weights, skeleton.weights, options.max_influences));
+  auto scene =
+      make_scene<3>(binding.cage.points, points, stored, surface, {}, Vector<3>::Zero(), true);
+  scene.name = options.name;
+  scene.skeleton = &skeleton;
+  std::vector<double> skinned, corrected;  // distances
+  std::set<std::size_t> moving;
+  for (const auto& clip : skeleton.clips) {
+    for (const auto& channel : clip.channels) moving.insert(channel.node);
+    for (const double key : clip.keys) {
+      auto places = skeleton.places(&clip, key);
+      const auto targets = binding.deform(skeleton.pose(places));
+      for (std::size_t j = 0; j < places.size(); ++j) places[j] = places[j] * skeleton.binds[j];
+      places.push_back(Eigen::Affine3d::Identity());
+      Eigen::Matrix3Xf correction(3, points.cols());
+      for (Eigen::Index p = 0; p < points.cols(); ++p) {
+        Eigen::Affine3d frame(Eigen::Matrix4d::Zero());
+        for (Eigen::Index slot = 0; slot < stored.joints.rows(); ++slot) {
+          frame.matrix() += stored.numbers(slot, p) * places[stored.joints(slot, p)].matrix();
+        }
+        Vector<3> error = targets.col(p) - frame * Vector<3>(points.col(p));
+        skinned.push_back(error.norm());
+        if (!corrects) continue;
+        correction.col(p) = shift_for(frame.linear(), error).cast<float>();
+        corrected.push_back((error - frame.linear() * correction.col(p).cast<double>()).norm());
+      }
+      if (!corrects) continue;
+      scene.corrections.push_back(scene.document ? correction
+                                                 : correction(Eigen::all, surface.sources).eval());
+    }
+  }
+  auto result = encode(scene, options, surface);
+  for (const auto joint : skeleton.joints) {
+    result.moving_joints += static_cast<Index>(moving.count(joint));
+  }
+  for (const auto& clip : skeleton.clips) result.keys += clip.keys.size();
+  result.given_influences = count_influences(bones).max;
+  result.influences = count_influences(to_weights(stored, scene.num_joints())).max;
+  result.skeleton_error = norms_of(skinned);
+  if (corrects) result.corrected_error = norms_of(corrected);
   return result;
 }
 

@@ -6,6 +6,7 @@
 // joint and does not move. Normals do not change, because the joints do not rotate.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@
 #include "model/surface.h"
 
 namespace flbc::gltf {
+
+struct Skeleton;  // gltf/skeleton.h
 
 //! Displacements beyond this part of the model size make vertices visibly jitter.
 constexpr double kVisibleChange = 1e-5;
@@ -47,7 +50,7 @@ struct ExportedSkin {
   std::string content{};                //!< of the file
   Index vertices = 0;                   //!< S
   Index triangles = 0;                  //!< T
-  Index joints = 0;                     //!< n
+  Index joints = 0;                     //!< n, or J of a skeleton
   Index moving_joints = 0;              //!< joints with an animation channel
   Index influences = 0;                 //!< maximum per vertex
   Index given_influences = 0;           //!< maximum per vertex of the given weights
@@ -56,6 +59,10 @@ struct ExportedSkin {
   //! Distances between vertices deformed by the given weights and by those in the file, over the
   //! poses of the animation, or over smooth_poses() if there is none.
   ErrorNorms deformation_error{};
+  //! With a skeleton: distances between points deformed by the cage and by its joints over the keys
+  //! of the clips, and the same with morph targets.
+  std::optional<ErrorNorms> skeleton_error{}, corrected_error{};
+  std::size_t keys = 0;  //!< of all clips
 };
 
 //! Weights are reduced by Binding::reduced() with the poses of the animation. Non-negative weights
@@ -67,5 +74,12 @@ struct ExportedSkin {
 template <int Dim>
 ExportedSkin export_skin(const Binding<Dim>& binding, const Surface& surface,
                          const SkinOptions& options = {}, const Animation<Dim>& animation = {});
+
+//! The same with the joints of a skinned cage: their weights are those of flbc::skin().
+//! \param corrects  whether a morph target for each key closes the difference from the deformation
+//! by the cage
+//! \throws as above; OptionError for .usda; InputError if the model has morph targets already
+ExportedSkin export_skin(const Binding<3>& binding, const Surface& surface,
+                         const SkinOptions& options, const Skeleton& skeleton, bool corrects);
 
 }  // namespace flbc::gltf
