@@ -163,8 +163,8 @@ TEST_F(ModelFileTest, Su2MeshesKeepAllButTheirPoints) {
       const ModelFile file = open("a.su2", text(comes_first, false));
       const auto& soup = file.model().soup;
       using Polygons = std::vector<std::vector<Index>>;
-      EXPECT_EQ(soup.polygons,
-                dim == 2 ? (Polygons{{0, 1, 2}, {1, 3, 4, 2}}) : Polygons{{0, 2, 1}});
+      const Polygons in_2d{{0, 1, 2}, {1, 3, 4, 2}}, in_3d{{0, 2, 1}};
+      EXPECT_EQ(soup.polygons, dim == 2 ? in_2d : in_3d);
       EXPECT_EQ(soup.points[3], Vector<3>(9, 11, dim == 2 ? 0 : 13));
       const PointList<2> points = io::to_points<3>(soup, "").topRows<2>();
       EXPECT_EQ(rewritten<2>(file, points), text(comes_first, false));
