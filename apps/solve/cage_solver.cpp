@@ -207,6 +207,7 @@ void CageSolver<Dim>::load_masks(bool quiet) {
     locality_ =
         load_locality(settings_.locality, cage_, points, settings_.model, settings_.mirror_axis);
     options.masks = locality_.masks;
+    options.solid = locality_.solid;
     options.solver.reach = locality_.reach;
     options.solver.falloff = locality_.falloff;
     naming(settings_.locality, [&] { rig_->set_options(options); });

@@ -26,6 +26,7 @@ QUALITIES = {
 }
 POSE = 'Pose'
 LOCK = 'lock.'  # begins the names of vertex groups that protect; bones have groups as well
+SOLID = 'solid.'  # begins those of vertex groups that move by one affine map
 # Modifiers that change the number of vertices.
 GENERATORS = {'ARRAY', 'BEVEL', 'BOOLEAN', 'BUILD', 'DECIMATE', 'EDGE_SPLIT', 'MASK', 'MIRROR',
               'MULTIRES', 'NODES', 'REMESH', 'SCREW', 'SKIN', 'SOLIDIFY', 'SUBSURF', 'WELD',
@@ -85,16 +86,30 @@ def locking_groups(models, cage):
             and any(group.name in model.vertex_groups for model in models)]
 
 
+def solid_groups(models):
+    """Pairs of a number of a model and the name of a vertex group of it that is solid."""
+    return [(k, group.name) for k, model in enumerate(models) for group in model.vertex_groups
+            if group.name.startswith(SOLID)]
+
+
 def _locks(model, cage):
-    """A fingerprint of the vertex groups that protect a model; empty if there are none."""
+    """A fingerprint of the vertex groups that _locality() reads; empty if there are none."""
     groups = [(mesh.members(cage, name), mesh.members(model, name))
               for name in locking_groups([model], cage)]
+    groups += [mesh.members(model, name) for _, name in solid_groups([model])]
     return mesh.digest(np.frombuffer(json.dumps(groups).encode(), np.uint8)) if groups else ''
 
 
-def _masks(models, cage):
+def _locality(models, cage):
     """What flbc reads as --locality, for the joined models. Raises Refusal."""
     begins = np.cumsum([0] + [len(model.data.vertices) for model in models])
+    solid = []
+    for k, name in solid_groups(models):
+        vertices = [int(begins[k]) + vertex for vertex in mesh.members(models[k], name)]
+        if not vertices:
+            raise Refusal(f'The vertex group {name} of {models[k].name} is empty. Assign vertices '
+                          'to it, or remove it')
+        solid.append({'region': {'vertices': vertices}})
     masks = []
     for name in locking_groups(models, cage):
         control_points = mesh.members(cage, name)
@@ -104,7 +119,7 @@ def _masks(models, cage):
             raise Refusal(f'The vertex group {name} is empty on the cage or on the model. '
                           'Assign vertices to it, or remove it from one of them')
         masks.append({'control_points': control_points, 'region': {'vertices': vertices}})
-    return masks
+    return {'masks': masks, 'solid': solid}
 
 
 def _evaluated_count(item):
@@ -156,9 +171,10 @@ class _Task:
             raise Refusal(f'{cage.name} has a scale of 0. Change its scale') from None
         files.write_ply(folder / 'cage.ply', *self._cage)
         files.write_ply(folder / 'model.ply', *self._model)
-        masks = _masks(models, cage)
-        (folder / 'locality.json').write_text(json.dumps({'masks': masks, 'falloff': falloff}))
-        self._locality = ['--locality', folder / 'locality.json'] if masks else []
+        locality = _locality(models, cage)
+        (folder / 'locality.json').write_text(json.dumps({**locality, 'falloff': falloff}))
+        self._locality = ['--locality', folder / 'locality.json'] if any(locality.values()) else []
+        self._is_solid = bool(locality['solid'])
 
     def _command(self, settings, *arguments):
         names = {self._folder / 'cage.ply': self._cage_name,
@@ -185,9 +201,10 @@ class _Task:
         if len(outside) == len(self._model.points):
             raise Refusal(f'All vertices are outside the cage {self._cage_name}')
         notes = [note + part for part in self._notes_outside(outside)]
-        if not quality.reduction:
+        reduction = quality.reduction or ('quadratic' if self._is_solid else '')
+        if not reduction:
             return *files.largest_weights(solved, k), notes
-        yield self._command(settings, 'sparsify', solved, '--reduction', quality.reduction, '-k', k,
+        yield self._command(settings, 'sparsify', solved, '--reduction', reduction, '-k', k,
                             '-o', reduced)
         return *files.largest_weights(reduced, k), notes
 
@@ -259,7 +276,7 @@ def problems(model):
         elif new_places != places:
             found.append(f'The rest shape of {item.name} has changed. Rebind')
     if _locks(model, cage) != binding.locks:
-        found.append(f'Vertex groups {LOCK}... were changed. Rebind')
+        found.append(f'Vertex groups {LOCK}... or {SOLID}... were changed. Rebind')
     before = list(model.modifiers)[:model.modifiers.find(nodes.modifier_of(model).name)]
     found += [f'{modifier.name} comes before the cage and changes vertices. Rebind'
               for modifier in before if modifier.type in GENERATORS and modifier.show_viewport]

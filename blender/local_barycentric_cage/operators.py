@@ -141,7 +141,8 @@ class FLBC_OT_bind(_InBackground, bpy.types.Operator):
     bl_description = (
         'Bind the selected meshes to the cage. They then follow its vertices. If the cage and a mesh '
         f'have a vertex group of the same name that starts with "{binding.LOCK}", the vertices of '
-        'the cage in it never move those of the mesh')
+        'the cage in it never move those of the mesh. Vertices of a group that starts with '
+        f'"{binding.SOLID}" move together by one affine map')
 
     @classmethod
     def poll(cls, context):

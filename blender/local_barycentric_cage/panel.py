@@ -78,6 +78,10 @@ class FLBC_PT_cage(bpy.types.Panel):
             _text(column, 'Control points never move vertices of the same group: '
                   + ', '.join(groups), 'LOCKED')
             column.prop(scene, 'falloff')
+        solid = binding.solid_groups(models)
+        if solid:
+            _text(column, 'Vertices of these groups stay solid: '
+                  + ', '.join(sorted({name for _, name in solid})), 'MOD_SOLIDIFY')
         text = f'Bind {models[0].name}' if len(models) == 1 else f'Bind {len(models)} Meshes'
         column.operator('flbc.bind', text=text if models else 'Bind to Cage', icon='MOD_MESHDEFORM')
 

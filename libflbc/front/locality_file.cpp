@@ -173,6 +173,22 @@ double falloff_in(const LocalityJson& json) {
   return options.falloff;
 }
 
+template <int Dim>
+std::vector<std::vector<Index>> solid_in(const LocalityJson& json, const PointList<Dim>& points,
+                                         const std::string& model) {
+  std::vector<std::vector<Index>> solid;
+  if (!json.contains("solid")) return solid;
+  if (!json["solid"].is_array()) throw InputError("solid is not a list");
+  for (const auto& entry : json["solid"]) {
+    const auto name = "solid region " + std::to_string(solid.size());
+    require_keys(entry, {"region"});
+    if (!entry.contains("region")) throw InputError(name + ": give a region");
+    solid.push_back(indices_of<Dim>(entry["region"], points, model));
+    if (solid.back().empty()) throw InputError(name + ": no vertices are chosen");
+  }
+  return solid;
+}
+
 // Whether control points in conflict are removed from masks.
 bool relaxes(const LocalityJson& json) {
   const auto choice = json.is_array() ? "fail" : json.value("conflicts", "fail");
@@ -198,12 +214,14 @@ Locality load_locality(const std::string& path, const Cage<Dim>& cage, const Poi
   std::string entry;  // that is read
   try {
     const auto json = LocalityJson::parse(io::read_file(path));
-    if (json.is_object()) require_keys(json, {"masks", "conflicts", "reach", "falloff"});
+    if (json.is_object()) require_keys(json, {"masks", "conflicts", "reach", "falloff", "solid"});
     locality.reach = reach_in<Dim>(json, cage.points);
     locality.falloff = falloff_in(json);
-    const auto list = json.is_array()          ? json
-                      : json.contains("reach") ? json.value("masks", LocalityJson::array())
-                                               : json.at("masks");
+    locality.solid = solid_in<Dim>(json, points, model);
+    const bool needs_masks = !json.contains("reach") && !json.contains("solid");
+    const auto list = json.is_array() ? json
+                      : needs_masks   ? json.at("masks")
+                                      : json.value("masks", LocalityJson::array());
     if (!list.is_array()) throw InputError("masks is not a list");
     for (const auto& mask : list) {
       entry = "entry " + std::to_string(masks.size()) + ": ";

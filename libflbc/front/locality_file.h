@@ -4,7 +4,7 @@
 //! numbers from 0, {"vertices": [...]}, or {"box": [lowest, highest]}; a region also {"group":
 //! name} of a .obj model, or {"attribute": name} of a .ply or glTF model, above 0.5. The masks are
 //! a list, or are in an object {"masks": [...], "conflicts": "relax", "reach": [{"control_points":
-//! ..., "factor": 0.5}], "falloff": 0.1}.
+//! ..., "factor": 0.5}], "falloff": 0.1, "solid": [{"region": ...}]}.
 #pragma once
 
 #include <string>
@@ -19,9 +19,10 @@ namespace flbc::app {
 //! The content of a locality file.
 struct Locality {
   std::vector<flbc::Mask> masks{};
-  std::vector<Index> freed{};   //!< control points that "relax" removed from the masks
-  std::vector<double> reach{};  //!< SolverOptions::reach
-  double falloff = 0;           //!< SolverOptions::falloff
+  std::vector<Index> freed{};               //!< control points that "relax" removed from the masks
+  std::vector<double> reach{};              //!< SolverOptions::reach
+  double falloff = 0;                       //!< SolverOptions::falloff
+  std::vector<std::vector<Index>> solid{};  //!< BindOptions::solid
 
   //! About the control points that were freed; empty if there are none.
   std::string note() const;

@@ -210,6 +210,7 @@ SparseWeights limit_influences(const Binding<Dim>& binding, Index most) {
                       std::to_string(kMostInfluences) + " influences per vertex, not " +
                       std::to_string(most));
   }
+  if (!binding.solid.empty()) return binding.reduced({most}, {}, Reduction::kQuadratic).weights;
   const auto& weights = binding.weights;
   std::vector<Index> crowded, number;
   for (Index p = 0; p < weights.num_points(); ++p) {

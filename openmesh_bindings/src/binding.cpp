@@ -95,6 +95,9 @@ template <int Dim>
 BindingRows rows_of(const Binding<Dim>& binding) {
   const auto& [cage, weights] = std::tie(binding.cage, binding.weights);
   const auto count = static_cast<std::size_t>(weights.num_points());
+  if (!binding.solid.empty()) {
+    throw InputError("solid regions cannot be stored in a mesh; use flbc::Binding and flbc::Rig");
+  }
   BindingRows rows;
   rows.cage = zeros(1, static_cast<std::size_t>(cage.size()), Dim);
   rows.cage[0].matrix() = cage.points.transpose();

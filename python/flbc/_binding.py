@@ -92,6 +92,8 @@ class Binding:
     masks : list of tuple
         Pairs of indices, ``(control_points, vertices)``, of weights that stay 0. They end at the
         facets of these control points.
+    solid : list of ndarray of int
+        Vertices of each region that moves by one affine map.
     held : ndarray of int
         Control points that must stay at rest (`joined`).
     report : dict
@@ -106,7 +108,8 @@ class Binding:
     """
 
     __slots__ = (
-        "weights", "offsets", "cage", "points", "outside", "masks", "held", "report", "solution",
+        "weights", "offsets", "cage", "points", "outside", "masks", "solid", "held", "report",
+        "solution",
         "_any"
     )
     weights: csr_matrix
@@ -115,6 +118,7 @@ class Binding:
     points: Floats
     outside: Ints
     masks: List[Tuple[Ints, Ints]]
+    solid: List[Ints]
     held: Ints
     report: Dict[str, Any]
     solution: Optional[Solution]

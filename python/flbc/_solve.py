@@ -7,7 +7,8 @@ import os
 import textwrap
 import warnings
 from typing import (
-    TYPE_CHECKING, Any, Callable, Dict, List, NamedTuple, Optional, TypedDict, TypeVar, Union,
+    TYPE_CHECKING, Any, Callable, Dict, List, NamedTuple, Optional, Sequence, TypedDict, TypeVar,
+    Union,
 )
 
 import numpy as np
@@ -60,6 +61,7 @@ class RigOptions(SolverOptions, total=False):
     max_influences: int
     outside: str
     symmetric: Optional[str]
+    solid: Optional[Sequence[ArrayLike]]
     conflicts: str
 
 
@@ -125,6 +127,10 @@ MODEL_OPTIONS = """\
     symmetric : str, optional
         "x", "y", or "z": weights of mirrored vertices are exactly alike, in a cage that is
         symmetric across this axis.
+    solid : list of array_like, optional
+        Regions of the model, as indices of vertices, or Boolean with an entry per vertex. Each
+        moves by one affine map in every pose, also after a reduction. Weights stay >= 0, and change
+        smoothly over a band around a region. Not with `symmetric`.
     conflicts : str, default "fail"
         For masks that cannot be obeyed: "fail" raises `MaskConflict`; "relax" removes a few
         control points from all masks, and lists them in ``report["note"]`` and a warning.
@@ -182,6 +188,18 @@ def as_masks(mask: Any, count: int, cage: Cage) -> Any:
     return [(np.array([i], np.int32), rows) for i, rows in enumerate(columns) if len(rows)]
 
 
+def as_regions(solid: Any, count: int) -> Any:
+    """Solid regions of count points as _core takes them: indices."""
+    regions = []
+    for k, region in enumerate(solid):
+        array, name = as_array(region, f"solid[{k}]").reshape(-1), f"solid[{k}]"
+        if array.dtype == bool and len(array) != count:
+            raise InputError(f"{name} has {len(array)} entries, but there are {count} vertices")
+        indices = array.nonzero()[0] if array.dtype == bool else array
+        regions.append(as_indices(indices, name, count))
+    return regions
+
+
 def as_table(value: Any, name: str, shape: Any, what: str) -> Floats:
     array = as_array(value, name)
     if array.shape != shape:
@@ -205,6 +223,8 @@ def parsed(
         )
     if given.get("mask") is not None:
         given["mask"] = as_masks(given["mask"], count, cage)
+    if given.get("solid") is not None:
+        given["solid"] = as_regions(given["solid"], count)
     choices: Dict[str, Any] = {
         "symmetric": [None, "x", "y", "z"][: cage.dim + 1], "conflicts": ["fail", "relax"]
     }

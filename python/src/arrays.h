@@ -169,10 +169,14 @@ py::tuple as_python(DomainMesh<Dim> mesh) {
 //! Masks: pairs of control points and points.
 using MaskLists = std::vector<std::pair<Indices, Indices>>;
 
+inline std::vector<std::vector<Index>> regions_of(const std::vector<Indices>& arrays) {
+  std::vector<std::vector<Index>> regions;
+  for (const auto& array : arrays) regions.emplace_back(array.data(), array.data() + array.size());
+  return regions;
+}
+
 inline std::vector<Mask> masks_of(const MaskLists& lists) {
-  const auto indices = [](const Indices& array) {
-    return std::vector<Index>(array.data(), array.data() + array.size());
-  };
+  const auto indices = [](const Indices& array) { return regions_of({array}).front(); };
   std::vector<Mask> masks;
   for (const auto& [control_points, points] : lists) {
     masks.push_back({indices(control_points), indices(points)});

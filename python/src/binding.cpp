@@ -45,7 +45,10 @@ py::dict arrays(const py::object& self) {
     for (const auto& mask : binding.masks) {
       masks.append(py::make_tuple(as_array(mask.control_points), as_array(mask.points)));
     }
-    py::dict dict("cage"_a = as_python(binding.cage), "weights"_a = view_of(binding.weights, self),
+    py::list solid;
+    for (const auto& region : binding.solid) solid.append(as_array(region));
+    py::dict dict("solid"_a = solid, "cage"_a = as_python(binding.cage),
+                  "weights"_a = view_of(binding.weights, self),
                   "points"_a = as_array(binding.rest()), "offsets"_a = py::none(),
                   "outside"_a = as_array(binding.outside), "masks"_a = masks,
                   "held"_a = as_array(binding.held), "report"_a = as_dict(binding.report),

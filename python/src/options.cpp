@@ -96,6 +96,8 @@ BindOptions options_of(const py::dict& keywords) {
       options.max_influences = value_of<Index>(name, value);
     } else if (name == "outside") {
       options.outside = value_of<OutsidePoints>(name, value);
+    } else if (name == "solid") {
+      if (!value.is_none()) options.solid = regions_of(value.cast<std::vector<Indices>>());
     } else if (name == "mirror_axis") {
       options.mirror_axis = value.cast<int>();
     } else if (options.coordinates && (name == "method" || name == "relax" || value.is_none())) {

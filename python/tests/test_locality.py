@@ -86,3 +86,31 @@ def test_reach_extends_weights(masked, checker, tmp_path):  # noqa: F811
         flbc.solve(cage, mesh, reach=[1, 1, 17, 1, 1, 1])
     with pytest.raises(flbc.OptionError, match="reach: the method harmonic does not use it"):
         flbc.solve(cage, mesh, reach=reach, method="harmonic")
+
+
+def test_solid_regions_move_by_one_affine_map(tmp_path):
+    square = flbc.Cage([[0, 0], [1, 0], [2, 0], [2, 1], [1, 1], [0, 1]])
+    points = np.stack(np.meshgrid(np.linspace(0.1, 1.9, 25), np.linspace(0.1, 0.9, 13)), -1)
+    points = points.reshape(-1, 2)
+    index = np.arange(25 * 13).reshape(13, 25)
+    faces = np.stack([index[:-1, :-1], index[:-1, 1:], index[1:, 1:], index[1:, :-1]], -1)
+    disc = np.hypot(*(points - [1.2, 0.5]).T) < 0.2
+    options = {"mesh_vertices": 300, "max_influences": 0}
+    solid = np.flatnonzero(disc)
+    for given in (disc, solid.tolist()):
+        binding = flbc.bind(points, faces.reshape(-1, 4), square, solid=[given], **options)
+        assert [region.tolist() for region in binding.solid] == [solid.tolist()]
+    assert "a certificate does not hold" in binding.report["note"]
+    binding.save(tmp_path / "b.npz")
+    affine = np.c_[points, np.ones(len(points))]
+    for some in (binding, binding.reduced(4), flbc.load_binding(tmp_path / "b.npz").reduced(5)):
+        moved = some.deform(np.random.default_rng(1).normal(size=square.points.shape))
+        left = moved - affine @ np.linalg.lstsq(affine[solid], moved[solid], rcond=None)[0]
+        assert np.abs(left[solid]).max() < 1e-12 < 1e-3 < np.abs(left).max()
+        assert some.weights.data.min() >= 0
+        assert np.abs(some.weights @ square.points - points).max() < 1e-13
+    for wrong, words in (([disc[:-1]], "entries"), ([[len(points)]], "solid[0]"),
+                         ([[0.5]], "integers"), ([solid, solid[:1]], "already"),
+                         ([range(len(points))], "enlarge the cage")):
+        with pytest.raises(flbc.InputError, match=words.replace("[", r"\[")):
+            flbc.bind(points, faces.reshape(-1, 4), square, solid=wrong, **options)

@@ -60,6 +60,36 @@ TEST_F(LocalityCommand, ReachIsAFactorOfPhi) {
   }
 }
 
+// A solid region of the model moves by one affine map through all commands.
+TEST_F(LocalityCommand, SolidRegionsStaySolidInTheFile) {
+  file("solid.json", R"({"solid": [{"region": {"vertices": [0, 1, 2, 3, 4, 5, 6, 7]}}]})");
+  expect(
+      "solve 3d/limb_cage.obj --model 3d/limb_model.obj --locality solid.json --vertices 1500 "
+      "-o b.npz",
+      0, "solid.json: 8 vertices are solid (regions: 1), so a certificate does not hold");
+  for (const std::string k : {"8", "4"}) {
+    expect("sparsify b.npz -k " + k + " -o few.npz -q");
+    const auto weights = io::read_weights("few.npz").dense().leftCols(8).eval();
+    const auto points = io::to_points<3>(io::read_polygons("3d/limb_model.obj"), "model");
+    Eigen::MatrixXd places(8, 4);
+    places << points.leftCols(8).transpose(), Eigen::VectorXd::Ones(8);
+    const Eigen::MatrixXd rows = weights.transpose();
+    EXPECT_LT((rows - places * least_squares(places, rows)).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_GE(weights.minCoeff(), 0);
+  }
+  const auto refused = [&](const std::string& content, const std::string& words) {
+    expect("solve 3d/limb_cage.obj --model 3d/limb_model.obj -o w.npy --locality " +
+               file("bad.json", content),
+           2, words);
+  };
+  refused(R"({"solid": [{"region": [0]}, {"regoin": [1]}]})", "unknown key \"regoin\"");
+  refused(R"({"solid": [{}]})", "bad.json: solid region 0: give a region");
+  refused(R"({"solid": {"region": [0]}})", "bad.json: solid is not a list");
+  refused(R"({"solid": [{"region": {"box": [[9, 9, 9], [9, 9, 9]]}}]})", "no vertices are chosen");
+  refused(R"({"solid": [{"region": {"box": [[-9, -9, -9], [9, 9, 9]]}}]})",
+          "bad.json: solid region 0 of ");
+}
+
 TEST_F(LocalityCommand, DefectiveFilesAreRefused) {
   const auto refused = [&](const std::string& content, const std::string& words) {
     expect("solve 3d/limb_cage.obj --model 3d/limb_model.obj -o w.npy --locality " +

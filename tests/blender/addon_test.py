@@ -129,6 +129,31 @@ class AddonTest(unittest.TestCase):
                 self.assertEqual((weight * np.isin(index, far))[near].max(), 0)
                 self.require_equal(shown(self.model), base(self.model))
 
+    def test_a_solid_vertex_group_moves_by_one_affine_map(self):
+        places = base(self.model)
+        distance = np.linalg.norm(places - places[np.argmin(places[:, 0])], axis=1)
+        solid = np.flatnonzero(distance <= np.sort(distance)[20])
+        for name, members in (('solid.tip', solid), ('hat', range(len(places)))):
+            self.model.vertex_groups.new(name=name).add([int(p) for p in members], 1, 'REPLACE')
+        random = np.random.default_rng(1)
+        for quality, influences in (('DRAFT', '8'), ('GOOD', '8')):
+            with self.subTest(quality=quality, influences=influences):
+                self.bind(quality=quality, influences=influences)
+                self.assertEqual(self.problems(), '')
+                index, weight = scene.influences(self.model)
+                rows = np.zeros((len(places), len(base(self.cage))))
+                np.add.at(rows, (np.arange(len(places))[:, None], index), weight)
+                moved = rows @ random.normal(size=(rows.shape[1], 3))
+                affine = np.c_[places, np.ones(len(places))]
+                left = moved - affine @ np.linalg.lstsq(affine[solid], moved[solid], rcond=None)[0]
+                self.assertLess(np.abs(left[solid]).max(), 1e-5)  # of single precision
+                self.assertGreater(np.abs(left).max(), 0.01)
+        self.model.vertex_groups['solid.tip'].remove([int(solid[0])])
+        self.assertIn('were changed. Rebind', self.problems())
+        self.model.vertex_groups['solid.tip'].remove(range(len(places)))
+        select(self.model)
+        self.refused(bpy.ops.flbc.bind, 'solid.tip')
+
     def test_what_cannot_be_protected_is_refused(self):
         self.share_group(range(len(self.model.data.vertices)), range(len(self.cage.data.vertices)))
         select(self.model)

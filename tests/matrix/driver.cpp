@@ -58,6 +58,13 @@ BindOptions options_of(const Task& task) {
   options.mirror_axis = 0;
   options.coordinates = value_named<Coordinates>(task.method);
   if (options.coordinates) return options;
+  if (task.method == "solid") {
+    options.mirror_axis = -1;
+    std::ifstream file(task.path("solid.csv"));
+    options.solid.emplace_back();
+    for (Index p = 0; file >> p;) options.solid[0].push_back(p);
+    return options;
+  }
   options.masks = read_masks(task);
   options.solver.falloff = 0.1;
   return options;

@@ -45,6 +45,8 @@ export type Locality = LocalityMask[] | {
   reach?: { control_points: LocalityMask["control_points"]; factor: number }[];
   /** Width of a band next to masks in which weights fade out, as a part of the cage size; 0 to 1. */
   falloff?: number;
+  /** Regions that move by one affine map each. */
+  solid?: { region: LocalityMask["region"] }[];
 };
 export interface LocalityMask {
   control_points: number[] | { vertices: number[] } | { box: [number[], number[]] };
@@ -56,6 +58,8 @@ export interface Protection {
   /** The factor of each control point; empty if none are given. */
   reach: number[];
   falloff: number;
+  /** The vertices of each solid region. */
+  solid: number[][];
   /** Vertices on facets of masked control points, which still move them. */
   onFacets: number;
   /** Control points that "relax" removed from the masks. */

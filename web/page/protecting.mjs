@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Regions of the model that control points must not move, painted by a brush, and the reach of
-// control points. Weights are solved for the latest stroke, one at a time.
+// Regions of the model that control points must not move, and solid ones, painted by a brush, and the
+// reach of control points. Weights are solved for the latest stroke, one at a time.
 import { element, tell } from "../../libflbc/front/page/panel.mjs";
 import { download } from "../../libflbc/front/page/saving.mjs";
 import { add, length, pointAt } from "../../libflbc/front/page/vectors.mjs";
@@ -39,13 +39,14 @@ export class Protector {
     this.ask = ask;
     this.masked = new Map();  // by vertex: the control points that must not move it, as text
     this.reach = new Map();   // by control point: a factor other than 1
+    this.solid = new Map();   // by vertex: the number of its solid region
     this.falloff = 0;         // width of the band next to regions, as a part of the cage size
     this.sent = null;         // the last regions that were sent; another reach makes others
     this.accepted = [];       // the locality that the weights obey
     this.done = [];
     this.undone = [];
     this.radius = 30;         // pixels
-    this.isOn = this.erases = this.isBusy = false;
+    this.isOn = this.erases = this.isBusy = this.paintsSolid = false;
     this.stroke = null;
     this.reply = {};
     this.tell = () => {};
@@ -75,21 +76,28 @@ export class Protector {
     return [...this.reach].map(([i, factor]) => ({ control_points: [i], factor }));
   }
 
-  locality() {
-    const { falloff } = this;
-    if (this.reach.size === 0 && falloff === 0) return this.masks();
-    return { masks: this.masks(), ...this.reach.size > 0 && { reach: this.factors() }, ...falloff > 0 && { falloff } };
+  regions() {
+    const regions = new Map();
+    for (const [vertex, number] of this.solid) regions.set(number, [...regions.get(number) ?? [], vertex]);
+    return [...regions.values()].map((vertices) => ({ region: { vertices } }));
   }
 
-  get state() { return { masked: this.masked, reach: this.reach, falloff: this.falloff }; }
-  get isUsed() { return this.masked.size > 0 || this.reach.size > 0; }
+  locality() {
+    const { falloff } = this;
+    if (this.reach.size === 0 && this.solid.size === 0 && falloff === 0) return this.masks();
+    return { masks: this.masks(), ...this.reach.size > 0 && { reach: this.factors() }, ...falloff > 0 && { falloff },
+      ...this.solid.size > 0 && { solid: this.regions() } };
+  }
+
+  get state() { return { masked: this.masked, reach: this.reach, falloff: this.falloff, solid: this.solid }; }
+  get isUsed() { return this.masked.size > 0 || this.reach.size > 0 || this.solid.size > 0; }
 
   // Masks and reach for a cage that has been edited. \param numbers  of its control points, by those of before
   renumbered(numbers) {
     const known = (list) => [...new Set(list.map((i) => numbers[i]))].filter((i) => i !== undefined);
     const renamed = (choices) => choices.map(({ control_points, ...others }) => ({ control_points: known(control_points), ...others }))
       .filter(({ control_points }) => control_points.length > 0);
-    return { masks: renamed(this.masks()), reach: renamed(this.factors()), falloff: this.falloff };
+    return { masks: renamed(this.masks()), reach: renamed(this.factors()), falloff: this.falloff, solid: this.regions() };
   }
 
   // \param factor  of phi of the selection is divided; more lets weights extend farther
@@ -118,12 +126,13 @@ export class Protector {
     const { deformer, camera, content, editor: { selection } } = this.viewer;
     this.seen = seenPlaces(deformer.points, camera, content.center);
     if (!this.placeAt(spot)) return false;
-    if (selection.size === 0) {
+    if (selection.size === 0 && !this.paintsSolid) {
       this.tell("First select the control points that must not move the region");
       return true;
     }
     this.stroke = { spot, before: this.state, selection, erases: erases || this.erases, after: new Map() };
     this.masked = new Map(this.masked);
+    this.solid = new Map(this.solid);
     this.to(spot);
     return true;
   }
@@ -180,7 +189,15 @@ export class Protector {
     }
   }
 
+  // A stroke grows the first region that it meets, or makes another one.
   paint(vertex) {
+    if (this.paintsSolid) {
+      const { solid, stroke } = this;
+      if (stroke.erases) solid.delete(vertex);
+      else solid.set(vertex, solid.get(vertex) ?? (stroke.region ??= Math.max(-1, ...solid.values()) + 1));
+      stroke.region ??= solid.get(vertex);
+      return;
+    }
     const { selection, erases, after } = this.stroke;
     const key = this.masked.get(vertex) ?? "";
     if (!after.has(key)) after.set(key, erases ? listed(key).filter((i) => !selection.has(i)).join() : united(key, selection));
@@ -211,11 +228,12 @@ export class Protector {
   // Takes a file. \param locality  its bytes, or its content
   async load(locality) {
     try {
-      const { masks, reach, falloff } = await this.ask.protect(locality);
+      const { masks, reach, falloff, solid } = await this.ask.protect(locality);
       const before = this.state;
       this.masked = new Map();
       this.reach = new Map([...(reach ?? []).entries()].filter(([, factor]) => factor !== 1));
       this.falloff = falloff ?? 0;
+      this.solid = new Map((solid ?? []).flatMap((vertices, number) => vertices.map((vertex) => [vertex, number])));
       for (const { controlPoints, vertices } of masks) {
         for (const vertex of controlPoints.length > 0 ? vertices : []) {
           this.masked.set(vertex, united(this.masked.get(vertex), controlPoints));
@@ -268,6 +286,7 @@ export class Protector {
     const { isChosen } = this;
     const values = new Float32Array(this.viewer.deformer.base.length / 3);
     for (const [vertex, key] of this.masked) values[vertex] = isChosen(key) ? 0.6 : 0.2;
+    for (const vertex of this.solid.keys()) values[vertex] = 1;
     return { values, legend: null };
   }
 
@@ -292,6 +311,7 @@ export class Protector {
         + `Release the ringed control points (${conflict.controlPoints.join(", ")}), or erase a part of the region. Until then, weights and reach stay as they were.`;
     }
     const state = isBusy ? "; solving…" : onFacets > 0 ? `; ${onFacets} on the cage still move` : "";
+    if (this.paintsSolid) return `${vertices(this.solid.size)} solid; drag on the model to paint a region that moves as one${state}`;
     if (editor.selection.size === 0) return `${vertices(masked.size)} protected; select control points to paint${state}`;
     const count = [...masked.values()].filter(isChosen).length;
     if (count === 0) return `Drag on the model to paint what the selection must not move${state}`;
@@ -316,6 +336,7 @@ export function bindProtecting(protector) {
     onState();
     element("paint").setAttribute("aria-pressed", String(protector.isOn));
     element("erase").setAttribute("aria-pressed", String(protector.erases));
+    element("solid").setAttribute("aria-pressed", String(protector.paintsSolid));
     element("release").hidden = !protector.reply.conflict;
     element("protected").textContent = protector.describe();
     // Not while the slider is dragged.
@@ -332,7 +353,9 @@ export function bindProtecting(protector) {
   };
   onClick("paint", () => protector.toggle());
   onClick("erase", () => { protector.erases = !protector.erases; viewer.changed(); });
-  onClick("release", () => protector.load({ masks: protector.masks(), reach: protector.factors(), falloff: protector.falloff, conflicts: "relax" }));
+  onClick("solid", () => { protector.paintsSolid = !protector.paintsSolid; viewer.changed(); });
+  onClick("release", () => protector.load({
+    masks: protector.masks(), reach: protector.factors(), falloff: protector.falloff, solid: protector.regions(), conflicts: "relax" }));
   onClick("saveLocality", () => protector.save());
   onClick("loadLocality", () => element("localityFile").click());
   element("brush").addEventListener("input", ({ target }) => { protector.radius = Number(target.value); });

@@ -441,15 +441,13 @@ class Work {
     auto binding = rig().options();
     const auto locality = app::load_locality(kLocalityFile, cage_, points(), file_);
     binding.masks = locality.masks;
+    binding.solid = locality.solid;
     binding.solver.reach = locality.reach;
     binding.solver.falloff = locality.falloff;
     Index on_facets = 0;
     end_at_facets(cage_, points(), binding.masks, &on_facets);
-    Json reply{{"masks", Json::array()},
-               {"reach", locality.reach},
-               {"falloff", locality.falloff},
-               {"freed", locality.freed},
-               {"onFacets", on_facets}};
+    Json reply{{"masks", Json::array()},  {"reach", locality.reach}, {"falloff", locality.falloff},
+               {"solid", locality.solid}, {"freed", locality.freed}, {"onFacets", on_facets}};
     for (const auto& [control_points, region] : binding.masks) {
       reply["masks"].push_back({{"controlPoints", control_points}, {"vertices", region}});
     }

@@ -48,6 +48,11 @@ struct BindOptions {
   //! exactly 0 there, also after the reduction, except on facets of masked control points, which
   //! BindReport::note counts.
   std::vector<Mask> masks{};
+  //! Solid regions of the points, each of which moves by one affine map in every pose, also after
+  //! the reduction. Weights there are the nearest ones that are >= 0; a control point that is
+  //! masked at a point of a region moves none of its points. Along the edges, weights change
+  //! smoothly over a band around a region.
+  std::vector<std::vector<Index>> solid{};
   //! Exact mirror (mirror.h): axis of the symmetric cage, 0 to Dim - 1; -1 for none. Weights of
   //! mirrored points are bit-identical, also after the reduction.
   int mirror_axis = -1;
@@ -61,7 +66,7 @@ struct BindReport {
   Quality quality{};      //!< of the final weights at the points that they reproduce
   Index outside = 0;      //!< number of points outside the cage
   std::string mesher{};   //!< that made the mesh; empty if it was given
-  std::string note{};     //!< MadeDomain::note and PlacedMasks::note()
+  std::string note{};     //!< MadeDomain::note, PlacedMasks::note(), and the solid regions
   double mesh_seconds = 0, solve_seconds = 0, evaluate_seconds = 0, sparsify_seconds = 0;
 };
 
@@ -97,9 +102,9 @@ struct Fit {
 };
 
 //! The P points of a model bound to a cage of n control points. Its functions keep what the weights
-//! promise, or refuse: masked weights stay exactly 0, mirrored ones bit-identical, sums 1, points
-//! reproduced, and points outside follow their policy. A Rig makes bindings, and flbc/io reads and
-//! writes them (io/binding_file.h).
+//! promise, or refuse: masked weights stay exactly 0, mirrored ones bit-identical, solid regions
+//! affine, sums 1, points reproduced, and points outside follow their policy. A Rig makes bindings,
+//! and flbc/io reads and writes them (io/binding_file.h).
 template <int Dim>
 struct Binding {
   Cage<Dim> cage{};         //!< at rest; without facets if they are not known
@@ -110,6 +115,7 @@ struct Binding {
   PointList<Dim> offsets{};
   EdgeList edges{};           //!< of the model, along which a reduction leaves no seams
   std::vector<Mask> masks{};  //!< of the points; these weights are 0
+  std::vector<std::vector<Index>> solid{};  //!< regions of the points that move by one affine map
   std::optional<Mirror> mirror{};
   OutsidePoints policy = OutsidePoints::kFail;  //!< for points outside the cage
   std::vector<Index> outside{};                 //!< points outside the cage, ascending
@@ -154,7 +160,8 @@ struct Binding {
   //! others, and their displacement u becomes s(min(1, m / mass)) u with s(t) = t (2 - t), or
   //! 6 t^2 - 8 t^3 + 3 t^4 for continuous curvature. Value and slope are 0 at the border. There is
   //! no domain mesh then.
-  //! \throws OptionError; InputError if no edge passes through the cage, or nothing can move
+  //! \throws OptionError; InputError if no edge passes through the cage, nothing can move,
+  //! or there are solid regions
   Binding joined(const Joint& joint) const;
 
   //! The Jacobians of the deformation at the points, from smooth gradients of the weights on the
@@ -167,21 +174,24 @@ struct Binding {
   PointJacobians<Dim> point_jacobians() const;
 
   //! Reduces influences by reduce_influences(). Masks and mirror are kept. Points outside keep all
-  //! weights of OutsidePoints::kExtend, because negative weights cannot be reduced.
+  //! weights of OutsidePoints::kExtend, because negative weights cannot be reduced. All points of a
+  //! solid region have the same influences, regardless of the threshold.
   //! \param limits  without masks \param poses  Dim x n each, may be empty
-  //! \throws OptionError, InputError as reduce_influences()
+  //! \throws OptionError, InputError as reduce_influences(), or naming a solid region that so few
+  //! control points do not surround
   Binding reduced(const SparsifyOptions& limits, const std::vector<PointList<Dim>>& poses = {},
                   Reduction reduction = Reduction::kPoisson) const;
 
   //! A binding of other points in the same cage, evaluated on the domain mesh. A weight is masked
-  //! where it is masked at all ends of the nearest edge of this model.
+  //! where it is masked at all ends of the nearest edge of this model; solid regions as well.
   //! \param to  Dim x Q, in the units of the cage \param edges  between them, may be empty
   //! \throws InputError if the binding has no domain mesh, or as place_points()
   Binding transferred(const PointList<Dim>& to, EdgeList edges, OutsidePoints outside) const;
 
   //! A binding of another version of the model. Weights are interpolated linearly in the nearest
   //! element of this one, then projected so that they are non-negative, sum to 1, and reproduce the
-  //! point (project_non_negative()). A weight is masked where it is masked at all vertices around.
+  //! point (project_non_negative()). A weight is masked where it is masked at all vertices around;
+  //! solid regions as well.
   //! \param corners  3 x E, elements of this model (ModelElements)
   //! \param limit  maximum distance, in units of the cage \param distances  output; may be null
   //! Points outside the cage follow the policy of the binding, or the nearest point of the cage.

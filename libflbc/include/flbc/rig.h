@@ -83,7 +83,7 @@ class Rig {
   //! BindOptions::masks, at the points and in the mesh.
   const PlacedMasks& masks() const { return placed_.masks; }
 
-  //! What masks and mirror do not reach; empty if they reach all points.
+  //! What masks and mirror do not reach, and the solid regions; empty if there is nothing to say.
   std::string note() const;
 
   //! Weights of the points with all influences. They are kept until the solution or the model
@@ -116,6 +116,8 @@ class Rig {
   static Placed place(const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                       const PointList<Dim>& points, const EdgeList& edges,
                       const BindOptions& options);
+  static Binding<Dim> frame(const Cage<Dim>& cage, const Placed& placed,
+                            const BindOptions& options);
   static void constrain(Placed& placed, const Cage<Dim>& cage, const DomainMesh<Dim>& mesh,
                         const PointList<Dim>& points, const BindOptions& options);
   SparseWeights evaluated(const Placement<Dim>& placement) const;

@@ -9,6 +9,7 @@
 #include "base/messages.h"
 #include "base/shape_checks.h"
 #include "base/weighted_sums.h"
+#include "binding/solid.h"
 #include "flbc/bounding_box.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
@@ -82,12 +83,13 @@ void mirror_again(Binding<Dim>& binding, int axis,
 }
 
 // The masks of other points: where all vertices of the nearest element are masked.
+// \param n  number of control points
 template <int Dim>
-std::vector<Mask> masks_near(const Binding<Dim>& binding, const ModelElements<Dim>& elements,
-                             const PointList<Dim>& to) {
-  if (binding.masks.empty()) return {};
-  const Index n = binding.cage.size(), count = binding.weights.num_points();
-  const PointMasks masked(binding.masks, n, count);
+std::vector<Mask> masks_near(const std::vector<Mask>& masks, Index n,
+                             const ModelElements<Dim>& elements, const PointList<Dim>& to) {
+  if (masks.empty()) return {};
+  const auto count = static_cast<Index>(elements.points.cols());
+  const PointMasks masked(masks, n, count);
   const auto indicators = SparseWeights::of(n, count, [&](Index p) -> Eigen::VectorXd {
     Eigen::VectorXd row = Eigen::VectorXd::Zero(n);
     if (masked.at(p)) row(masked.forbidden(p)).setOnes();
@@ -106,6 +108,19 @@ std::vector<Mask> masks_near(const Binding<Dim>& binding, const ModelElements<Di
   found.erase(std::remove_if(found.begin(), found.end(),
                              [](const Mask& mask) { return mask.points.empty(); }),
               found.end());
+  return found;
+}
+
+// The same for solid regions, as masks of their numbers.
+template <int Dim>
+std::vector<std::vector<Index>> solid_near(const std::vector<std::vector<Index>>& solid,
+                                           const ModelElements<Dim>& elements,
+                                           const PointList<Dim>& to) {
+  std::vector<Mask> numbered;
+  const auto count = static_cast<Index>(solid.size());
+  for (Index k = 0; k < count; ++k) numbered.push_back({{k}, solid[k]});
+  std::vector<std::vector<Index>> found;
+  for (auto& region : masks_near(numbered, count, elements, to)) found.push_back(region.points);
   return found;
 }
 
@@ -176,6 +191,22 @@ Binding<Dim> Binding<Dim>::reduced(const SparsifyOptions& limits,
                                    const std::vector<PointList<Dim>>& poses,
                                    Reduction reduction) const {
   const Index most = limits.max_influences;
+  if (!solid.empty()) {
+    // The other points see the reduced regions.
+    auto few = *this;
+    few.weights = with_few_in_solid(*this, most);
+    few.solid.clear();
+    auto result = few.reduced(limits, poses, reduction);
+    std::vector<bool> is_solid(points.cols(), false);
+    for (const auto& region : solid) {
+      for (const Index p : region) is_solid[p] = true;
+    }
+    result.solid = solid;
+    result.weights = SparseWeights::of(cage.size(), weights.num_points(), [&](Index p) {
+      return (is_solid[p] ? few : result).weights.at(p);
+    });
+    return result;
+  }
   // \param part  a binding or a ModelPart
   const auto reduce = [&](const auto& part, Index at_most) {
     auto few = limits;
@@ -229,7 +260,9 @@ Binding<Dim> Binding<Dim>::transferred(const PointList<Dim>& to, EdgeList to_edg
   BindOptions options;
   options.outside = outside_policy;
   options.coordinates = value_named<Coordinates>(report.method);
-  options.masks = masks_near<Dim>(*this, {rest(), elements_of(edges, weights.num_points())}, to);
+  const ModelElements<Dim> from{rest(), elements_of(edges, weights.num_points())};
+  options.masks = masks_near<Dim>(masks, cage.size(), from, to);
+  options.solid = solid_near<Dim>(solid, from, to);
   if (mirror) options.mirror_axis = mirror->axis;
   Rig<Dim> rig(cage, MadeDomain<Dim>{domain}, to, std::move(to_edges), options);
   rig.set_solution({domain_weights, report.solve});
@@ -245,7 +278,7 @@ Binding<Dim> Binding<Dim>::transferred(const FacetList<3>& corners, const PointL
   validate(to_edges, to.cols());
   require_no_joint(held, "transferred");
   const ModelElements<Dim> from{rest(), corners};
-  const auto is_masked = masks_near(*this, from, to);
+  const auto is_masked = masks_near<Dim>(masks, cage.size(), from, to);
   const auto placed = [&](const PointList<Dim>& places) {
     if (cage.facets.cols() > 0) return place_points(cage, places, without_failure(policy));
     Placement<Dim> all;
@@ -285,6 +318,9 @@ Binding<Dim> Binding<Dim>::transferred(const FacetList<3>& corners, const PointL
       return transfer(images, placed(images), {}, nullptr);
     });
   }
+  result.solid = solid_near<Dim>(solid, from, to);
+  if (!result.solid.empty()) require_solid(result);
+  make_solid(result);
   return result;
 }
 
@@ -342,7 +378,7 @@ void Binding<Dim>::require_points(const PointList<Dim>& given) const {
 
 template <int Dim>
 void validate(const Binding<Dim>& binding) {
-  const auto& [cage, weights, points, offsets, edges, masks, mirror, policy, outside, domain,
+  const auto& [cage, weights, points, offsets, edges, masks, solid, mirror, policy, outside, domain,
                domain_weights, report, held] = binding;
   const Index n = cage.size(), count = weights.num_points();
   check_size(weights, n, points.cols());
@@ -356,7 +392,12 @@ void validate(const Binding<Dim>& binding) {
   }
   validate(edges, count);
   PointMasks(masks, n, count);
-  for (const Index p : outside) {
+  auto named = outside;
+  for (const auto& region : solid) {
+    if (region.empty()) throw InputError("a solid region has no points");
+    named.insert(named.end(), region.begin(), region.end());
+  }
+  for (const Index p : named) {
     if (p < 0 || p >= count) throw InputError("there is no point " + std::to_string(p));
   }
   for (const Index i : held) {

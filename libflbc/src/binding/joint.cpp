@@ -46,6 +46,10 @@ Binding<Dim> Binding<Dim>::joined(const Joint& joint) const {
   if (!(joint.mass > 0 && joint.mass <= 1)) {
     throw OptionError("joint: the mass must be above 0 and at most 1");
   }
+  if (!solid.empty()) {
+    throw InputError(
+        "joint: the binding has solid regions, which a joint would bend; bind without");
+  }
   if (cage.facets.cols() == 0) {
     throw InputError("joint: the binding does not know the facets of its cage; set Binding::cage");
   }

@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/shape_checks.h"
 #include "base/stopwatch.h"
+#include "binding/solid.h"
 #include "flbc/cage_facts.h"
 #include "flbc/coordinates.h"
 #include "flbc/errors.h"
@@ -222,12 +223,32 @@ void Rig<Dim>::constrain(Placed& placed, const Cage<Dim>& cage, const DomainMesh
     });
   }
   placed.masks = {};
-  if (options.masks.empty()) return;
   const auto& [placement, mirror, unused, seconds] = placed;
-  const auto masks = mirror ? mirror->symmetrized(options.masks) : options.masks;
-  const auto images = mirror ? mirror->images() : std::vector<Index>{};
-  placed.masks = place_masks(cage, mesh, placement, masks, images);
-  if (mirror) mirror->keep_common(masks, placed.masks);
+  if (!options.solid.empty() && points.cols() == 0) {
+    throw OptionError("solid regions are for weights of a model");
+  }
+  if (!options.masks.empty()) {
+    const auto masks = mirror ? mirror->symmetrized(options.masks) : options.masks;
+    const auto images = mirror ? mirror->images() : std::vector<Index>{};
+    placed.masks = place_masks(cage, mesh, placement, masks, images);
+    if (mirror) mirror->keep_common(masks, placed.masks);
+  }
+  if (!options.solid.empty()) require_solid(frame(cage, placed, options));
+}
+
+template <int Dim>
+Binding<Dim> Rig<Dim>::frame(const Cage<Dim>& cage, const Placed& placed,
+                             const BindOptions& options) {
+  Binding<Dim> binding;
+  const auto& [placement, mirror, masks, seconds] = placed;
+  binding.cage = cage;
+  binding.points = placement.points;
+  binding.masks = masks.of_all();
+  binding.solid = options.solid;
+  if (mirror) binding.mirror = mirror->mirror();
+  binding.policy = placement.policy;
+  for (const auto& vertex : placement.outside) binding.outside.push_back(vertex.point);
+  return binding;
 }
 
 template <int Dim>
@@ -353,7 +374,8 @@ void Rig<Dim>::set_options(const BindOptions& options) {
   const bool has_other_mirror = options.mirror_axis != options_.mirror_axis;
   if (options.outside != options_.outside || (has_other_mirror && placed_.mirror)) {
     changed = place(cage(), mesh(), points_, edges_, options);
-  } else if (has_other_mirror || options.masks != options_.masks) {
+  } else if (has_other_mirror || options.masks != options_.masks ||
+             options.solid != options_.solid) {
     changed = placed_;
     constrain(*changed, cage(), mesh(), points_, options);
   }
@@ -414,6 +436,13 @@ const SparseWeights& Rig<Dim>::weights_of_points() {
       weights = enforce_masks(cage(), placement, weights, mirror->of_single_points(masks));
     }
   }
+  if (!options_.solid.empty()) {
+    auto whole = frame(cage(), placed_, options_);
+    whole.edges = edges_;
+    whole.weights = std::move(weights);
+    make_solid(whole);
+    weights = std::move(whole.weights);
+  }
   weights_ = std::move(weights);
   report_.evaluate_seconds = seconds + watch.seconds();
   return weights_;
@@ -422,18 +451,11 @@ const SparseWeights& Rig<Dim>::weights_of_points() {
 template <int Dim>
 Binding<Dim> Rig<Dim>::binding() {
   const ThreadScope threads(options_.solver.threads);
-  Binding<Dim> binding;
+  auto binding = frame(cage(), placed_, options_);
   binding.weights = weights_of_points();
-  const auto& [placement, mirror, masks, seconds] = placed_;
-  const bool has_model = points_.cols() > 0;
-  binding.cage = cage();
-  binding.points = placement.points;
+  const auto& placement = placed_.placement;
   binding.offsets = offsets_of(points_, placement);
-  binding.edges = has_model ? edges_ : edges_of_cells(mesh());
-  binding.masks = masks.of_all();
-  if (mirror) binding.mirror = mirror->mirror();
-  binding.policy = placement.policy;
-  for (const auto& vertex : placement.outside) binding.outside.push_back(vertex.point);
+  binding.edges = points_.cols() > 0 ? edges_ : edges_of_cells(mesh());
   binding.domain = mesh();
   binding.domain_weights = solution().weights;
   auto& report = binding.report = report_;
@@ -451,6 +473,7 @@ template <int Dim>
 std::string Rig<Dim>::note() const {
   auto text = placed_.masks.note();
   if (placed_.mirror) add_note(text, placed_.mirror->note());
+  add_note(text, note_on_solid(options_.solid));
   return text;
 }
 

@@ -53,7 +53,7 @@ Index control_points_in(const NpzReader& file) {
   return static_cast<Index>(shape[1]);
 }
 
-void add_masks(NpzWriter& file, const std::vector<Mask>& masks) {
+void add_masks(NpzWriter& file, const std::string& name, const std::vector<Mask>& masks) {
   std::vector<std::int32_t> sizes, control_points, points;
   for (const auto& mask : masks) {
     sizes.push_back(static_cast<std::int32_t>(mask.control_points.size()));
@@ -62,15 +62,15 @@ void add_masks(NpzWriter& file, const std::vector<Mask>& masks) {
                           mask.control_points.end());
     points.insert(points.end(), mask.points.begin(), mask.points.end());
   }
-  file.add("mask_sizes", sizes.data(), {static_cast<std::int64_t>(masks.size()), 2});
-  file.add_list("mask_control_points", control_points);
-  file.add_list("mask_points", points);
+  file.add(name + "_sizes", sizes.data(), {static_cast<std::int64_t>(masks.size()), 2});
+  file.add_list(name + "_control_points", control_points);
+  file.add_list(name + "_points", points);
 }
 
-std::vector<Mask> masks_in(const NpzReader& file) {
-  const auto sizes = file.numbers<std::int32_t>("mask_sizes", 2);
-  const auto control_points = file.numbers<std::int32_t>("mask_control_points");
-  const auto points = file.numbers<std::int32_t>("mask_points");
+std::vector<Mask> masks_in(const NpzReader& file, const std::string& name) {
+  const auto sizes = file.numbers<std::int32_t>(name + "_sizes", 2);
+  const auto control_points = file.numbers<std::int32_t>(name + "_control_points");
+  const auto points = file.numbers<std::int32_t>(name + "_points");
   std::vector<Mask> masks;
   std::size_t i = 0, p = 0;
   for (std::size_t k = 0; k + 1 < sizes.size(); k += 2) {
@@ -97,7 +97,10 @@ Binding<Dim> read(const NpzReader& file, const nlohmann::json& info) {
   const auto ends = file.columns<FacetList<2>>("edges");
   for (const auto& edge : ends.colwise()) binding.edges.ends.push_back({edge[0], edge[1]});
   binding.edges.weights = file.numbers<double>("edge_weights");
-  binding.masks = masks_in(file);
+  binding.masks = masks_in(file, "mask");
+  if (file.has("solid_sizes")) {
+    for (auto& region : masks_in(file, "solid")) binding.solid.push_back(region.points);
+  }
   binding.outside = file.numbers<std::int32_t>("outside");
   if (file.has("held")) binding.held = file.numbers<std::int32_t>("held");
   if (file.has("mirror_images")) {
@@ -150,7 +153,12 @@ void write(const std::string& path, std::ostream& out, const Binding<Dim>& bindi
   file.add("edges", ends.empty() ? nullptr : ends.front().data(),
            {static_cast<std::int64_t>(ends.size()), 2});
   file.add_list("edge_weights", binding.edges.weights);
-  add_masks(file, binding.masks);
+  add_masks(file, "mask", binding.masks);
+  if (!binding.solid.empty()) {
+    std::vector<Mask> solid;
+    for (const auto& region : binding.solid) solid.push_back({{}, region});
+    add_masks(file, "solid", solid);
+  }
   file.add_list("outside", binding.outside);
   if (!binding.held.empty()) file.add_list("held", binding.held);
   if (binding.mirror) {

@@ -16,6 +16,7 @@ using AnyBinding = std::variant<Binding<2>, Binding<3>>;
 //! - format, shape, indptr, indices, data: the weights, P x n, as SciPy stores them
 //! - cage (n x Dim), facets, points (P x Dim), offsets, edges, edge_weights, outside
 //! - mask_sizes (M x 2), mask_control_points, mask_points: the M masks, one after the other
+//! - solid_sizes, solid_points: the same for solid regions, if there are any
 //! - mirror_images (n), mirror_partners (P)
 //! - domain (V x Dim), cells, domain_indptr, domain_indices, domain_data
 //! - info: JSON of the rest: version, policy for points outside, method
