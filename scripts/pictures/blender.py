@@ -16,7 +16,8 @@ import scene  # noqa: E402
 PROGRAM, MESHES, KIND, PICTURE = scene.arguments()
 # Clay and ink of the program's pictures, as linear light.
 SKIN, WIRE = (0.67, 0.54, 0.42, 1), (0.015, 0.02, 0.03, 1)
-MOVED = (0.75, 0.16, 0.02, 1)
+MOVED, HELD = (0.75, 0.16, 0.02, 1), (0.6, 0.01, 0.02, 1)
+TURN = Euler((0.9, 0, 0.2)).to_matrix()  # of the camera
 
 
 def smooth(item):
@@ -103,8 +104,11 @@ def take_moved():
             color.color = MOVED if is_moved else SKIN
         both[0].data.materials.append(skin)
         smooth(both[0])
+        bpy.ops.mesh.primitive_uv_sphere_add(radius=0.02 * scene.size(rest), location=base[33])
+        both += (bpy.context.object,)
+        both[2].data.materials.append(material(HELD, 0.4))
         for part in both:
-            part.location.x = len(items) * 0.55 * scene.size(rest)
+            part.location += TURN @ Vector((len(items) / 3 * 1.08 * scene.size(rest), 0, 0))
         items += both
         item.hide_render = True
     wire.hide_render = True
@@ -113,16 +117,15 @@ def take_moved():
 
 def render(items):
     middle, size = center(items)
-    turn = Euler((0.9, 0, 0.2)).to_matrix()
     camera = bpy.data.objects.new('camera', bpy.data.cameras.new('camera'))
     camera.data.type = 'ORTHO'
     camera.data.ortho_scale = 1.02 * size
-    camera.data.shift_y = -0.04
-    place = middle + turn @ Vector((0, 0, 2 * size))
-    camera.matrix_world = Matrix.Translation(place) @ turn.to_4x4()
+    camera.data.shift_y = 0.02
+    place = middle + TURN @ Vector((0, 0, 2 * size))
+    camera.matrix_world = Matrix.Translation(place) @ TURN.to_4x4()
     sun = bpy.data.objects.new('sun', bpy.data.lights.new('sun', 'SUN'))
     sun.data.energy = 3
-    sun.matrix_world = (turn @ Euler((-0.6, 0.5, 0)).to_matrix()).to_4x4()
+    sun.matrix_world = (TURN @ Euler((-0.6, 0.5, 0)).to_matrix()).to_4x4()
     for item in (camera, sun):
         bpy.context.collection.objects.link(item)
     view = bpy.context.scene
@@ -136,7 +139,7 @@ def render(items):
     view.cycles.use_denoising = False  # Debian's Blender cannot
     view.view_settings.view_transform = 'Standard'
     view.render.film_transparent = True
-    view.render.resolution_x, view.render.resolution_y = 1200, 430
+    view.render.resolution_x, view.render.resolution_y = 1200, 400
     view.render.resolution_percentage = 100
     view.render.filepath = PICTURE
     bpy.ops.render.render(write_still=True)

@@ -20,5 +20,8 @@ for picture; do
 picture = common.Image.open(sys.argv[1]).convert("RGBA")
 white = common.page(*picture.size)[0]
 white.alpha_composite(picture)
-common.save(white.convert("RGB"), sys.argv[2], 128)' "$work/$picture.png" "blender_$picture.png"
+draw = common.ImageDraw.Draw(white)
+for x, title in ((300, "Mesh Deform"), (900, "Local Barycentric Cage")) * (sys.argv[2] == "blender_moved.png"):
+    common.write(draw, (x, 22), title, 24, color=(33, 38, 48))
+common.save(white.convert("RGB"), sys.argv[2], 256)' "$work/$picture.png" "blender_$picture.png"
 done
