@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes docs/images/hero.png: a character that bends, and one drag by harmonic and by local coordinates."""
 import numpy as np
-from common import GRAY, MESHES, Image, flbc, page, read_obj, save, working_folder, write, write_moved
+from common import MESHES, Image, flbc, page, read_obj, save, working_folder, write, write_moved
 
 WIDTH, HEIGHT, TITLE, FINER = 520, 540, 96, 3
 CAGE, HELD, MOVED, GHOST = (37, 99, 235), (214, 16, 28), np.array((240, 128, 24)), (150, 156, 166)

@@ -130,7 +130,7 @@ flbc view model.obj --weights w.npy --cage square.obj -k 16 -o p.html
 # to make a cage around a model, leave out --repair
 0 flbc cage --repair 3d/limb_model.obj -o c.obj
 flbc cage 3d/limb_model.obj -o c.obj
-# the cage is 2D, but this file is 3D
+# so this is 3D; a 2D cage needs a 2D model, with the same z everywhere
 2 flbc solve square.obj --model 3d/limb_model.obj $V -o x.npy
 flbc solve 3d/limb_cage.obj --model 3d/limb_model.obj $V -o x.npy
 # use --reduction quadratic

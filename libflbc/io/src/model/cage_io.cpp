@@ -138,10 +138,10 @@ PointList<Dim> to_points(const PolygonSoup& soup, const std::string& name) {
   PointList<Dim> points(Dim, soup.points.size());
   for (std::size_t v = 0; v < soup.points.size(); ++v) {
     if (Dim == 2 && soup.points[v].z() != soup.points[0].z()) {
-      throw InputError(name + ": the cage is 2D, but this file is 3D: vertex " + std::to_string(v) +
-                       " at " + format_point(soup.points[v]) +
-                       " is not in the plane of vertex 0; a 2D cage and its model have the same z "
-                       "everywhere" +
+      throw InputError(name + ": vertex " + std::to_string(v) + " at " +
+                       format_point(soup.points[v]) +
+                       " is not in the plane of vertex 0, so this is 3D; a 2D cage needs a 2D "
+                       "model, with the same z everywhere" +
                        plane_hint(soup));
     }
     points.col(v) = soup.points[v].template head<Dim>();
