@@ -62,6 +62,11 @@ void repair(const Cage<Dim>& cage, std::vector<std::string> changes,
   if (arguments.quiet) return;
   changes.insert(changes.end(), repaired.changes.begin(), repaired.changes.end());
   if (changes.empty()) changes.emplace_back("no defects found");
+  const auto note =
+      note_many_vertices(arguments.defective, static_cast<std::size_t>(repaired.cage.size()));
+  if (!note.empty()) {
+    std::cerr << "flbc: " << note << "; to make a cage around a model, leave out --repair\n";
+  }
   for (const auto& change : changes) std::cerr << arguments.defective << ": " << change << '\n';
   std::cerr << arguments.output << ": " << repaired.cage.size() << " control points, "
             << repaired.cage.facets.cols() << (Dim == 2 ? " edges" : " triangles")
@@ -86,7 +91,7 @@ void repair_file(const CageArguments& arguments) {
 
 void check_arguments(const CageArguments& arguments) {
   if (arguments.model.empty() == arguments.defective.empty()) {
-    throw OptionError("give either a MODEL to enclose, or a cage with --repair");
+    throw OptionError("MODEL to enclose is missing, or a cage with --repair");
   }
   require_distinct({arguments.model, arguments.defective}, {arguments.output});
 }

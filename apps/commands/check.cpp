@@ -30,7 +30,8 @@ struct CheckArguments {
 
 void check_arguments(const CheckArguments& arguments) {
   if (!arguments.weights.empty() && arguments.model.empty() && arguments.domain.empty()) {
-    throw OptionError("--weights needs --model or --domain, whose vertices have these weights");
+    throw OptionError(
+        "--weights: --model or --domain is missing, whose vertices have these weights");
   }
   if (arguments.json != "-") require_writable(arguments.json, "json");
   require_distinct({arguments.cage, arguments.model, arguments.weights, arguments.domain},

@@ -68,10 +68,10 @@ void check_arguments(const DeformArguments& arguments) {
                       " has the domain mesh; leave out this option");
   }
   if (arguments.poses.empty()) {
-    throw OptionError("no pose given; add --pose");
+    throw OptionError("--pose is missing");
   }
   if (arguments.files.weights.empty() && arguments.method.empty()) {
-    throw OptionError("no weights given; add --weights, or --method green");
+    throw OptionError("--weights is missing, or --method green");
   }
   const std::pair<const char*, bool> of_rest[] = {
       {"--method", !arguments.method.empty()},
@@ -82,7 +82,7 @@ void check_arguments(const DeformArguments& arguments) {
       {"--domain", !arguments.files.domain.empty()}};
   for (const auto& [option, is_given] : of_rest) {
     if (is_given && !arguments.files.has_cage()) {
-      throw OptionError(option + std::string(" needs --rest, the rest cage of the weights"));
+      throw OptionError(option + std::string(": --rest is missing, the rest cage of the weights"));
     }
   }
   if (!evaluates(arguments) && !arguments.files.is_one() && arguments.normals == kJacobian) {

@@ -33,7 +33,7 @@ void check_arguments(DrawArguments& arguments) {
   draw::validate(arguments.options);
   arguments.options.format = draw::picture_format(arguments.output);
   require_writable(arguments.output, io::extension_of(arguments.output).c_str());
-  if (arguments.model.empty()) throw OptionError("give MODEL, a model or a domain mesh");
+  if (arguments.model.empty()) throw OptionError("MODEL is missing, a model or a domain mesh");
 }
 
 // A model at rest and, with a pose, also there.

@@ -184,16 +184,16 @@ int run_cage(const Cage<Dim>& cage, const RunArguments& arguments,
 
 // A model is easily taken for a cage, and then keeps the solver busy for long.
 void refuse_model_as_cage(const io::PolygonSoup& soup, const SolveSettings& settings) {
-  constexpr std::size_t kMost = 2000;
-  if (soup.points.size() <= kMost || !settings.model.empty()) return;
-  throw OptionError(settings.cage + ": has " + std::to_string(soup.points.size()) +
-                    " vertices, more than cages usually have; did you mean --auto-cage? Otherwise "
-                    "name the model inside this cage, or use flbc solve");
+  const auto note = note_many_vertices(settings.cage, soup.points.size());
+  if (note.empty() || !settings.model.empty()) return;
+  throw OptionError(note +
+                    "; did you mean --auto-cage? Otherwise name the model inside this cage, "
+                    "or use flbc solve");
 }
 
 void require_model_to_embed(const SolveSettings& settings) {
   if (!settings.embed || !settings.model.empty()) return;
-  throw OptionError("--embed requires MODEL");
+  throw OptionError("--embed: MODEL is missing");
 }
 
 // An axis that was named applies to the weights of a model as well.

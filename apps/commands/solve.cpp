@@ -60,7 +60,7 @@ void print_summary(const SolveArguments& arguments, const CageSolver<Dim>& solve
   std::cerr << report.seconds.solve << " s; minimum weight " << delivered.min_weight
             << ", reproduction error " << delivered.max_reproduction_error;
   if (is_certified(report)) {
-    std::cerr << ", within " << 100 * report.certificate.relative_gap << "% of the optimum";
+    std::cerr << ", " << describe_proof(report);
   }
   std::cerr << '\n';
 }

@@ -143,7 +143,7 @@ void add_sparsify_command(CLI::App& app, int&) {
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments, count, threshold] {
     if (count->count() + threshold->count() == 0) {
-      throw OptionError("give -k (maximum influences per vertex), --threshold, or both");
+      throw OptionError("-k (maximum influences per vertex) or --threshold is missing");
     }
     check_files(*arguments);
     require_cage(arguments->files);

@@ -31,7 +31,7 @@ struct TransferArguments {
 void check_arguments(const TransferArguments& arguments) {
   require_cage(arguments.files);
   if (arguments.from.empty() && arguments.files.domain.empty() && !arguments.files.is_one()) {
-    throw OptionError("give --from (a model that has these weights) or --domain (a mesh)");
+    throw OptionError("--from (a model that has these weights) or --domain (a mesh) is missing");
   }
   require_writable(arguments.output, {io::Content::kWeights});
   require_distinct({arguments.files.weights, arguments.files.cage, arguments.files.domain,

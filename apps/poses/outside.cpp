@@ -138,10 +138,10 @@ template <int Dim>
 void warn_border(const Binding<Dim>& binding, const std::string& file,
                  const std::vector<Pose<Dim>>& poses) {
   if (count_without_weights(binding.weights) == 0) return;
-  if (binding.edges.ends.empty()) {
+  if (binding.edges.ends.empty() && !poses.empty()) {
     std::cerr << "flbc: " << file
-              << ": the deformation jumps where a moved facet passes through a mesh of these "
-                 "points; this is not checked, because points have no edges\n";
+              << ": points have no edges, so jumps where a moved facet passes through them are "
+                 "not checked; give a mesh, or keep the control points there at rest\n";
     return;
   }
   const auto border = border_json(binding, poses);

@@ -5,6 +5,7 @@
 
 #include "flbc/report.h"
 #include "flbc/version.h"
+#include "front/facts.h"
 
 namespace flbc::app {
 
@@ -63,6 +64,14 @@ void add_certificate(const SolveReport& report, nlohmann::ordered_json& json) {
 
 bool is_certified(const SolveReport& report) {
   return report.certificate.objective > 0;
+}
+
+std::string describe_proof(const SolveReport& report) {
+  Facts facts;
+  facts << "proven to be at most " << 100 * report.certificate.relative_gap
+        << "% above the minimum";
+  if (report.criterion != Criterion::kGap) facts << " (a smaller --tolerance tightens the proof)";
+  return facts.text();
 }
 
 std::string describe_iterations(const SolveReport& report, const SolveSettings& settings) {

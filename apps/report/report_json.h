@@ -29,6 +29,9 @@ nlohmann::ordered_json part_json(const SolveReport& report, Index first_control_
 //! Whether the report has a certificate: asked for, or what ended the iteration.
 bool is_certified(const SolveReport& report);
 
+//! What the certificate proves, in words.
+std::string describe_proof(const SolveReport& report);
+
 //! "1100 iterations", and by which criterion they ended if it is not the usual one.
 std::string describe_iterations(const SolveReport& report, const SolveSettings& settings);
 

@@ -90,7 +90,7 @@ void compute_weights(Run<Dim>& run) {
           << report.mesh_error / 10 << ")";
   }
   if (is_certified(report)) {
-    facts << ", within " << 100 * report.certificate.relative_gap << "% of the optimum";
+    facts << ", " << describe_proof(report);
   }
   run.folder.add(kWeights, facts.text(),
                  [&](const std::string& path) { io::write_weights(path, run.weights()); });

@@ -26,6 +26,7 @@
 #include "front/make_domain.h"
 #include "front/model_facets.h"
 #include "report/report_json.h"
+#include "solve/make_cage.h"
 #include "solve/progress_bar.h"
 
 namespace flbc::app {
@@ -221,8 +222,13 @@ void CageSolver<Dim>::load_masks(bool quiet) {
 template <int Dim>
 void CageSolver<Dim>::announce() const {
   if (is_ambiguous(settings_)) {
-    std::cerr << "flbc: without smoothness the optimum does not determine the weights; the "
-                 "certified gap bounds the objective\n";
+    std::cerr
+        << "flbc: smoothness 0: several weights may be optimal, for example near slits; leave "
+           "out --smoothness for unique ones\n";
+  }
+  const auto note = note_many_vertices(settings_.cage, static_cast<std::size_t>(cage_.size()));
+  if (!note.empty()) {
+    std::cerr << "flbc: " << note << "; to make a cage around a model, use flbc cage\n";
   }
   const auto& options = settings_.options;
   const auto estimate = estimate_solve(Dim, cage_.size(), domain().num_vertices(), options);

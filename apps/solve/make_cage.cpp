@@ -21,6 +21,13 @@ CLI::Option* add_symmetric_option(CLI::App& command, CageSymmetry& symmetry,
       "make the cage symmetric across this axis (default: auto, if the model is symmetric)" + more);
 }
 
+std::string note_many_vertices(const std::string& file, std::size_t vertices) {
+  constexpr std::size_t kMost = 2000;
+  return vertices <= kMost ? ""
+                           : file + ": has " + std::to_string(vertices) +
+                                 " vertices, more than cages usually have";
+}
+
 template <int Dim>
 ModelCage<Dim> make_cage([[maybe_unused]] const std::string& file,
                          [[maybe_unused]] const ModelFacets<Dim>& model,

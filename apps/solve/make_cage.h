@@ -18,6 +18,9 @@ namespace flbc::app {
 CLI::Option* add_symmetric_option(CLI::App& command, CageSymmetry& symmetry,
                                   const std::string& more = "");
 
+//! "FILE: has N vertices, more than cages usually have", which a model has; empty for fewer.
+std::string note_many_vertices(const std::string& file, std::size_t vertices);
+
 //! Shows the progress of each stage, and says which vertices and limits the cage leaves out, and
 //! whether points became several parts.
 //! \param file  the model's, for messages \throws InputError; OptionError, also where the program

@@ -151,5 +151,6 @@ if __name__ == "__main__":
         sys.exit(check())
     status = take_over(pathlib.Path(sys.argv[1]))
     import plots
-    print(plots.draw_race(STORED, ROOT / "docs" / "images"))
+    for draw in (plots.draw_race, plots.draw_errors):
+        print(draw(STORED, ROOT / "docs" / "images"))
     sys.exit(status)

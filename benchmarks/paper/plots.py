@@ -5,6 +5,7 @@
     plots.py OUT_FOLDER
 """
 
+import hashlib
 import math
 import pathlib
 import sys
@@ -13,9 +14,8 @@ import results
 import tables
 from results import value
 
-# Methods of the race, as in the table of README.md.
-RACE = {"paper": "2019 gradient ADMM, as published", "lbc2014-tuned": "2014 splitting, penalty tuned by us",
-        "weights": "libflbc, default method"}
+# Methods of the race.
+RACE = ("paper", "lbc2014-tuned", "weights")
 
 
 def write_tables(out):
@@ -26,29 +26,58 @@ def write_tables(out):
     return path
 
 
-def draw_race(stored, folder):
-    """Seconds to the error of the race, 900 x 400 pixels; no mark where a method did not reach it.
-    Marks and not bars, because a logarithmic axis has no zero."""
+def axes_of(rows, columns, size):
+    """A figure and its axes."""
     import matplotlib
-    from matplotlib import ticker
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     plt.rcParams.update({
         "font.family": ["Lato", "DejaVu Sans"], "font.size": 10, "axes.titlesize": 11, "axes.grid": True,
         "axes.spines.top": False, "axes.spines.right": False, "grid.color": "#e4e4e4", "grid.linewidth": 0.7,
         "axes.axisbelow": True, "legend.frameon": False, "legend.fontsize": 8.5})
+    return plt.subplots(rows, columns, figsize=size, dpi=100, layout="constrained")
+
+
+def save(figure, path, stored, *names):
+    """Saves a chart with the check sums of its results, which tests compare."""
+    sums = " ".join(hashlib.sha256((stored / f"{name}.csv").read_bytes()).hexdigest() for name in names)
+    figure.savefig(path, dpi=figure.dpi, metadata={"Source": sums})
+    return path
+
+
+def draw_errors(stored, folder):
+    """Error against time of figures 5 and 6."""
+    figure, axes = axes_of(2, 2, (9, 7))
+    cases = [case for name in ("figure5", "figure6") for case in results.by(results.read(stored, name)[0], "model")]
+    for axis, rows in zip(axes.flat, cases):
+        for method, label, color, marker in results.METHODS:
+            mine = [row for row in rows if row["method"] == method]
+            axis.loglog([value(row, "total_seconds") for row in mine], [value(row, "error") for row in mine], color=color,
+                        marker=marker, markersize=4, linewidth=1.2, label=label if mine and axis is axes[1, 0] else None)
+        axis.axhline(1e-5, color="#999999", linestyle="--", linewidth=0.8)
+        axis.set_title(f"{rows[0]['model']}: {rows[0]['control_points']} control points, {int(rows[0]['vertices']):,} vertices")
+    axes[1, 0].legend(loc="lower left")
+    figure.supxlabel("seconds of setup, solve, and recovery")
+    figure.supylabel("mean squared error")
+    return save(figure, folder / "error_against_time.png", stored, "figure5", "figure6")
+
+
+def draw_race(stored, folder):
+    """Seconds to the error of the race, 900 x 400 pixels; no mark where a method did not reach it.
+    Marks and not bars, because a logarithmic axis has no zero."""
+    from matplotlib import ticker
     rows, comments = results.read(stored, "race")
     if not rows:
         return "no results of the race"
     models = results.by(rows, "model")
-    figure, axis = plt.subplots(figsize=(9, 4), dpi=100, layout="constrained")
+    figure, axis = axes_of(1, 1, (9, 4))
     reached = {(row["model"], row["method"]): value(row, "total_seconds") for row in rows if row["converged"] == "1"}
     for method, _, color, marker in results.METHODS:
         for place, model in enumerate(mine[0]["model"] for mine in models):
             if method not in RACE or (model, method) not in reached:
                 continue
             seconds = reached[model, method]
-            axis.plot(place, seconds, marker, color=color, markersize=8, label=RACE[method] if place == 0 else None)
+            axis.plot(place, seconds, marker, color=color, markersize=8, label=results.LABELS[method] if place == 0 else None)
             ratio = seconds / reached.get((model, "weights"), math.nan)
             text = f"{seconds:.2f} s" if method == "weights" else f"{ratio:.{0 if ratio >= 10 else 1}f}\u00d7"
             left = method == "lbc2014-tuned"  # on the other side, because the two are close
@@ -67,10 +96,9 @@ def draw_race(stored, folder):
     axis.set_title("Seconds to a true mean squared error of 1e-5, setup included")
     axis.legend(loc="upper center", ncol=len(RACE))
     machine = comments[1].split("; compiler")[0] if len(comments) > 1 else ""
-    figure.supxlabel("n: control points. \u00d7: time relative to libflbc. We implemented the 2014 and 2019 methods. "
+    figure.supxlabel("n: control points. \u00d7: time relative to the default method. We implemented the 2014 and 2019 methods. "
                      f"{machine}.", fontsize=8, color="#666666")
-    figure.savefig(folder / "seconds_to_error.png", dpi=figure.dpi)
-    return folder / "seconds_to_error.png"
+    return save(figure, folder / "seconds_to_error.png", stored, "race")
 
 
 def main(out):

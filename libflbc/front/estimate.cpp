@@ -9,18 +9,18 @@
 namespace flbc::app {
 namespace {
 
-// Seconds are 0.7 to 8 times, and bytes 0.7 to 2.5 times those of docs/results: models.csv,
-// speed.csv, and many.csv.
-constexpr double kSecondsPerPair2D = 0.8e-6, kSecondsPerPair3D = 2e-6;
-constexpr double kBytesPerPair2D = 80, kBytesPerPair3D = 180;
+// Least squares of logarithms on docs/results: seconds are 0.4 to 2 times, and bytes 0.7 to 1.4
+// times those of models.csv, speed.csv, and many.csv.
+constexpr double kSecondsPerPair2D = 4.4e-7, kSecondsPerPair3D = 3.4e-7;
+constexpr double kBytesPerPair2D = 83, kBytesPerPair3D = 105;
 // On an active set, of the pairs in it.
-constexpr double kSecondsPerActivePair = 6e-6, kBytesPerActivePair = 570;
-constexpr double kSecondsPerDistance = 4e-7, kBytesPerDistance = 8;  // of all pairs
-constexpr double kBase = 25e6;                                       // bytes of the program itself
+constexpr double kSecondsPerActivePair = 1.6e-6, kBytesPerActivePair = 213;
+constexpr double kSecondsPerDistance = 2.6e-8, kBytesPerDistance = 8;  // of all pairs
+constexpr double kBase = 25e6;  // bytes of the program itself
 
-// Share of the pairs in an active set: 15% for 110 control points, 3.5% for 1,000.
+// Share of the pairs in an active set: 16% for 110 control points, 6% for 1,000.
 double active_share(double control_points) {
-  return 0.15 * std::pow(110 / control_points, 0.65);
+  return 0.16 * std::pow(110 / control_points, 0.43);
 }
 
 // "0.25", "1.3", "120".
@@ -38,11 +38,14 @@ Estimate estimate_solve(int dim, Index control_points, Index vertices,
   const double pairs = static_cast<double>(control_points) * vertices;
   const Estimate all = {(dim == 2 ? kSecondsPerPair2D : kSecondsPerPair3D) * pairs,
                         kBase + (dim == 2 ? kBytesPerPair2D : kBytesPerPair3D) * pairs};
-  if (!tries_active_set(dim, control_points, vertices, options)) return all;
-  const double active = active_share(control_points) * pairs;
-  const Estimate some = {kSecondsPerActivePair * active + kSecondsPerDistance * pairs,
-                         kBase + kBytesPerActivePair * active + kBytesPerDistance * pairs};
-  return some.seconds < all.seconds ? some : all;
+  constexpr double kActiveDensity = 0.3;  // above which the solver takes all pairs
+  const double share = active_share(control_points);
+  if (share > kActiveDensity || !tries_active_set(dim, control_points, vertices, options)) {
+    return all;
+  }
+  const double active = share * pairs;
+  return {kSecondsPerActivePair * active + kSecondsPerDistance * pairs,
+          kBase + kBytesPerActivePair * active + kBytesPerDistance * pairs};
 }
 
 std::string describe(const Estimate& estimate) {

@@ -23,6 +23,8 @@ namespace {
 
 using LocalityJson = nlohmann::json;
 
+constexpr const char* kExample = R"([{"control_points": [3], "region": {"vertices": [0, 1]}}])";
+
 // A misspelled key would mean another mask.
 void require_keys(const LocalityJson& object, const std::set<std::string>& known) {
   if (!object.is_object()) throw InputError(object.dump() + " is not an object with keys");
@@ -51,7 +53,8 @@ std::vector<Index> vertices_of_group(const std::string& model, const std::string
   std::istringstream file(joined_lines(io::read_file(model)));
   std::vector<Index> vertices;
   Index count = 0;  // of the vertices so far, to which negative numbers refer
-  bool is_inside = false, is_known = false;
+  bool is_inside = false;
+  std::set<std::string> groups;
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line.substr(0, line.find('#')));
     std::string word;
@@ -59,8 +62,10 @@ std::vector<Index> vertices_of_group(const std::string& model, const std::string
     if (word == "v") ++count;
     if (word == "g") {
       is_inside = false;
-      while (words >> word) is_inside = is_inside || word == name;
-      is_known = is_known || is_inside;
+      while (words >> word) {
+        groups.insert(word);
+        is_inside = is_inside || word == name;
+      }
     } else if (is_inside && (word == "f" || word == "l" || word == "p")) {
       while (words >> word) {
         const auto number = static_cast<Index>(std::strtol(word.c_str(), nullptr, 10));
@@ -68,7 +73,10 @@ std::vector<Index> vertices_of_group(const std::string& model, const std::string
       }
     }
   }
-  if (!is_known) throw InputError("group \"" + name + "\" is not in " + model);
+  if (groups.count(name) == 0) {
+    throw InputError("group \"" + name + "\" is not in " + model + "; it has " +
+                     (groups.empty() ? "no groups" : joined(groups)));
+  }
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
@@ -104,7 +112,7 @@ std::vector<Index> points_in_box(const LocalityJson& box, const PointList<Dim>& 
 // Numbers are not rounded and do not wrap around: that would be another mask.
 std::vector<Index> indices_in(const LocalityJson& list) {
   std::vector<Index> indices;
-  if (!list.is_array()) throw InputError(list.dump() + " is not a list of indices");
+  if (!list.is_array()) throw InputError(list.dump() + " is not a list of indices such as [0, 1]");
   for (const auto& number : list) {
     const auto index = number.is_number_integer() ? number.get<std::int64_t>() : -1;
     if (index < 0 || index > std::numeric_limits<Index>::max()) {
@@ -141,7 +149,8 @@ std::vector<double> reach_in(const LocalityJson& json, const PointList<Dim>& con
   auto& reach = options.reach;
   reach.assign(control_points.cols(), 1);
   for (std::size_t k = 0; k < json["reach"].size(); ++k) {
-    if (!json["reach"].is_array()) throw InputError("reach is not a list");
+    if (!json["reach"].is_array())
+      throw InputError("reach is not a list such as [{\"control_points\": [3], \"factor\": 2}]");
     const auto& entry = json["reach"][k];
     require_keys(entry, {"control_points", "factor"});
     if (!entry.contains("control_points") || !entry.contains("factor") ||
@@ -222,9 +231,11 @@ Locality load_locality(const std::string& path, const Cage<Dim>& cage, const Poi
     const auto list = json.is_array() ? json
                       : needs_masks   ? json.at("masks")
                                       : json.value("masks", LocalityJson::array());
-    if (!list.is_array()) throw InputError("masks is not a list");
+    if (!list.is_array()) {
+      throw InputError(std::string("masks is not a list such as ") + kExample);
+    }
     for (const auto& mask : list) {
-      entry = "entry " + std::to_string(masks.size()) + ": ";
+      entry = "mask " + std::to_string(masks.size()) + ": ";
       require_keys(mask, {"control_points", "region"});
       masks.push_back({indices_of<Dim>(mask.at("control_points"), cage.points, ""),
                        indices_of<Dim>(mask.at("region"), points, model)});
@@ -238,9 +249,7 @@ Locality load_locality(const std::string& path, const Cage<Dim>& cage, const Poi
   } catch (const LocalityJson::parse_error& error) {
     throw InputError(path + ": not JSON, at byte " + std::to_string(error.byte));
   } catch (const LocalityJson::exception&) {
-    throw InputError(path + ": " + entry +
-                     "not a list of masks such as [{\"control_points\": [3], \"region\": "
-                     "{\"vertices\": [0, 1]}}]");
+    throw InputError(path + ": " + entry + "not a list of masks such as " + kExample);
   } catch (const InputError& error) {
     throw InputError(path + ": " + entry + error.what());
   } catch (const OptionError& error) {

@@ -25,6 +25,10 @@ Meshers<Dim> meshers_for(const std::string& asked_for) {
             all.end());
   if (!all.empty()) return meshers;
   const std::string wanted = !is_any ? asked_for : Dim == 2 ? "CGAL" : "TetGen or Netgen";
+  if (!linked_meshers<Dim>().in_order.empty()) {
+    throw OptionError("--mesher " + asked_for +
+                      ": this flbc was built without it; leave out this option");
+  }
   throw OptionError("this flbc was built without " + wanted + " and cannot mesh " +
                     std::to_string(Dim) + "D cages; give a mesh with --domain");
 }

@@ -206,9 +206,9 @@ Json to_json(const PageContent<Dim>& content) {
 template <int Dim>
 SparseWeights limit_influences(const Binding<Dim>& binding, Index most) {
   if (most < Dim + 1 || most > kMostInfluences) {
-    throw OptionError("a page holds from " + std::to_string(Dim + 1) + " to " +
-                      std::to_string(kMostInfluences) + " influences per vertex, not " +
-                      std::to_string(most));
+    throw OptionError("-k " + std::to_string(most) + ": a page holds from " +
+                      std::to_string(Dim + 1) + " to " + std::to_string(kMostInfluences) +
+                      " influences per vertex");
   }
   if (!binding.solid.empty()) return binding.reduced({most}, {}, Reduction::kQuadratic).weights;
   const auto& weights = binding.weights;

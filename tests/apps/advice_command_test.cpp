@@ -14,7 +14,7 @@ flbc --help
 # ; see
 1 flbc solve
 flbc solve --help
-# give either a MODEL to enclose, or a cage with --repair
+# MODEL to enclose is missing, or a cage with --repair
 1 flbc cage -o c.obj
 flbc cage model.obj -o c.obj
 flbc cage --repair slit.obj -o c.obj
@@ -92,35 +92,47 @@ flbc solve square.obj $V --max-iterations 500 --gap 0.5 -o x.npy
 )";
 
 const char* const kFiles = R"(
-# give --from (a model that has these weights) or --domain (a mesh)
+# --from (a model that has these weights) or --domain (a mesh) is missing
 1 flbc transfer w.npy --to model.obj --cage square.obj -o x.npy
 flbc transfer w.npy --to model.obj --cage square.obj --from model.obj -o x.npy
 flbc transfer dw.npy --to model.obj --cage square.obj --domain d.obj -o x.npy
-# give MODEL, a model or a domain mesh
+# MODEL is missing, a model or a domain mesh
 1 flbc draw --weights w.npy --cage square.obj -o p.png
 flbc draw model.obj --weights w.npy --cage square.obj --control-point 0 -o p.png
 flbc draw d.obj --weights dw.npy --cage square.obj --control-point 0 -o p.png
-# --weights needs --model or --domain
+# --weights: --model or --domain is missing
 1 flbc check square.obj --weights w.npy
 flbc check square.obj --weights w.npy --model model.obj
 flbc check square.obj --weights dw.npy --domain d.obj
-# add --pose
+# --pose is missing
 1 flbc deform model.obj --weights w.npy -o y.obj
 flbc deform model.obj --weights w.npy --pose pose.obj -o y.obj
 # add %d to this name, as in out_%03d.obj
 1 flbc deform model.obj --weights w.npy --pose square.obj pose.obj -o y.obj
 flbc deform model.obj --weights w.npy --pose square.obj pose.obj -o out_%03d.obj
-# --displacement needs --rest
+# --displacement: --rest is missing
 1 flbc deform model.obj --weights w.npy --pose pose.obj --displacement x.npy -o y.obj
 flbc deform model.obj --weights w.npy --pose pose.obj --rest square.obj --displacement x.npy -o y.obj
-# --show-displacement needs --rest
+# --show-displacement: --rest is missing
 1 flbc deform model.obj --weights w.npy --pose pose.obj --show-displacement -o y.ply
 flbc deform model.obj --weights w.npy --pose pose.obj --rest square.obj --show-displacement -o y.ply
-# give -k (maximum influences per vertex), --threshold, or both
+# -k (maximum influences per vertex) or --threshold is missing
 1 flbc sparsify w.npy --cage square.obj --points model.obj -o x.npy
 flbc sparsify w.npy --cage square.obj --points model.obj -k 3 -o x.npy
 flbc sparsify w.npy --cage square.obj --points model.obj --threshold 0.1 -o x.npy
 flbc sparsify w.npy --cage square.obj --points model.obj -k 3 --threshold 0.1 -o x.npy
+# -k must be at least 3 in 2D
+1 flbc sparsify w.npy --cage square.obj --points model.obj -k 2 -o x.npy
+flbc sparsify w.npy --cage square.obj --points model.obj -k 3 -o x.npy
+# -k 20: a page holds from 3 to 16
+1 flbc view model.obj --weights w.npy --cage square.obj -k 20 -o p.html
+flbc view model.obj --weights w.npy --cage square.obj -k 16 -o p.html
+# to make a cage around a model, leave out --repair
+0 flbc cage --repair 3d/limb_model.obj -o c.obj
+flbc cage 3d/limb_model.obj -o c.obj
+# so this is 3D; a 2D cage needs a 2D model, with the same z everywhere
+2 flbc solve square.obj --model 3d/limb_model.obj $V -o x.npy
+flbc solve 3d/limb_cage.obj --model 3d/limb_model.obj $V -o x.npy
 # use --reduction quadratic
 2 flbc sparsify w.npy --cage square.obj --points points.obj -k 3 --reduction poisson -o x.npy
 flbc sparsify w.npy --cage square.obj --points model.obj -k 3 --reduction poisson -o x.npy
@@ -152,6 +164,13 @@ flbc solve square.obj $V -o x.npy
 # ; leave out this option
 1 flbc solve square.obj --domain d.obj --mesh-timeout 10 -o x.npy
 flbc solve square.obj --domain d.obj -o x.npy
+# proven to be at most
+0 flbc solve square.obj $V --gap 1e-9 --tolerance 1e-2 -o x.npy
+flbc solve square.obj $V --tolerance 1e-2 -o x.npy
+# make a symmetric cage with flbc cage --symmetric, or leave out --symmetric
+2 flbc run pose.obj model.obj $V --symmetric x -o out
+flbc run pose.obj model.obj $V -o out
+flbc cage model.obj --symmetric x -o c.obj && flbc run c.obj model.obj $V --symmetric x -o out
 # --gap does not apply to weights that may be negative; choose --non-negative constraint or project
 1 flbc solve square.obj $V --gap 1e-3 --non-negative off -o x.npy
 flbc solve square.obj $V --gap 1e-3 --non-negative constraint -o x.npy

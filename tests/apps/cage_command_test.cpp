@@ -111,7 +111,7 @@ TEST_F(CageCommand, BridgedGapsAreReported) {
 
 TEST_F(CageCommand, RefusesWithReason) {
   const std::string out = " -o out.obj";
-  expect("cage" + out, 1, "give either a MODEL");
+  expect("cage" + out, 1, "MODEL to enclose is missing");
   expect("cage " + square() + out + " --control-points 2", 1, "at least 3");
   expect("cage " + square() + out + " --offset -1", 1, "offset");
   expect("cage " + square() + out + " --symmetric z", 1, "symmetric across z");

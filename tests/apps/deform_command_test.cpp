@@ -34,7 +34,7 @@ TEST_F(DeformCommand, NormalsOfAnAffineImageAreTheImagesOfNormals) {
   const std::string command =
       "model.obj --weights v.npy --pose affine.obj --normals jacobian -q -o o.obj";
   expect_deform(command, 1, "--normals jacobian needs a binding");
-  expect_deform(command + " --domain d.mesh", 1, "--domain needs --rest");
+  expect_deform(command + " --domain d.mesh", 1, "--domain: --rest is missing");
   expect_deform(command + " --rest 3d/limb_cage.obj --domain d.mesh");
   const io::ModelFile result("o.obj");
   const auto& normals = result.model().attributes.normals;

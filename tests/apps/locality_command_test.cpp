@@ -96,23 +96,25 @@ TEST_F(LocalityCommand, DefectiveFilesAreRefused) {
                file("bad.json", content),
            2, words);
   };
-  refused(R"([{"control_points": [0]}])", "bad.json: entry 0: not a list of masks");
-  refused(R"([{"control_points": [0], "region": [-1]}])", "entry 0: -1 is not an index");
+  refused(R"([{"control_points": [0]}])", "bad.json: mask 0: not a list of masks");
+  refused(R"([{"control_points": [0], "region": [-1]}])", "mask 0: -1 is not an index");
   refused(R"([{"control_points": [0], "region": {"vertices": [22.9]}}])", "22.9 is not an index");
   refused(R"([{"control_points": [4294967298], "region": [0]}])", "4294967298 is not an index");
   refused(R"([{"control_points": [0], "region": [99999]}])", "mask 0 names vertex 99999");
-  refused(R"([{"control_points": [0], "region": {"group": "arm"}}])", "group \"arm\" is not in");
+  refused(R"([{"control_points": [0], "region": {"group": "arm"}}])",
+          "group \"arm\" is not in 3d/limb_model.obj; it has no groups");
   refused(R"([{"control_points": [0], "region": {"box": [[0], [1]]}}])",
           "a box needs corners of 3");
   refused(R"([{"control_points": [], "region": [0]}])", "no control points or no vertices");
   refused(R"([{"control_points": [0], "region": [0]}, {"control_points": [0], "regoin": [0]}])",
-          "entry 1: unknown key \"regoin\"");
+          "mask 1: unknown key \"regoin\"");
   refused(R"([{"control_points": [0], "region": {"verts": [0]}}])",
           "unknown key \"verts\"; choose from attribute");
   refused(R"([{"control_points": [0], "region": {"vertices": [0], "group": "arm"}}])",
           "give one choice");
   refused(R"([{"control_points": [0], "region": {"vertices": {"a": 1}}}])",
-          "not a list of indices");
+          "not a list of indices such as [0, 1]");
+  refused(R"({"masks": 3})", "masks is not a list such as [{\"control_points\": [3]");
   refused(R"({"masks": [], "conflicts": "no"})", "invalid value \"no\"; choose from fail");
   refused(R"({"mask": []})", "unknown key \"mask\"; choose from conflicts");
   refused(R"({"masks": [], "falloff": "wide"})", "falloff is not a number");
@@ -123,7 +125,8 @@ TEST_F(LocalityCommand, DefectiveFilesAreRefused) {
   refused(R"({"reach": [{"control_points": [0], "factor": 2, "region": [0]}]})",
           "unknown key \"region\"");
   refused(R"({"reach": [{"control_points": [0], "factor": "2"}]})", "reach 0: give control_points");
-  refused(R"({"reach": {"a": 1}})", "reach is not a list");
+  refused(R"({"reach": {"a": 1}})",
+          "reach is not a list such as [{\"control_points\": [3], \"factor\": 2}]");
   refused(R"({"reach": [{"control_points": {"box": [[8, 8, 8], [9, 9, 9]]}, "factor": 2}]})",
           "reach 0: no control");
 }
@@ -143,6 +146,9 @@ TEST_F(LocalityCommand, GroupsOfAnObjModelAreRegions) {
       "--locality masks.json");
   const auto weights = io::read_weights("w.npy").dense();
   for (const Index p : {1, 2, 3}) EXPECT_EQ(weights(0, p), 0);
+  file("masks.json", R"([{"control_points": [0], "region": {"group": "blet"}}])");
+  expect("solve 2d/figure_cage.obj --model model.obj -o w.npy --locality masks.json", 2,
+         "masks.json: mask 0: group \"blet\" is not in model.obj; it has belt, body, other");
 }
 
 TEST_F(LocalityCommand, AttributesOfPlyAndGltfModelsAreRegions) {

@@ -242,7 +242,7 @@ TEST_F(RunCommand, RefusesBeforeAnyWorkIsDone) {
   expect_run("out", cage + " -k 2", 1, "at least 3 are needed");
   expect_run("out", cage + " --control-point 40", 1, "--control-point must be in [0, 39]");
   expect_run("out", cage + " --fps 0.5", 1, "--fps requires --pose");
-  expect_run("out", cage + " --embed", 1, "--embed requires MODEL");
+  expect_run("out", cage + " --embed", 1, "--embed: MODEL is missing");
   expect_run("out", "3d/limb_model.obj", 1, "did you mean --auto-cage?");
   expect_run("out", cage + " --pose 2d/letter_cage.obj", 2, "has 24 vertices, but");
   expect_run("out", cage + " --pose no_%d.obj", 4, "there is neither");

@@ -368,7 +368,14 @@ TEST_F(GltfDocumentTest, OtherVersionsAndMissingChunksAreNamed) {
   expect_error<InputError>([&] { ModelFile(path("bad.glb")); }, {"version 4.29497e+09 is not"});
   std::uint32_t size = 0;
   std::memcpy(&size, whole.data() + 12, sizeof size);
-  make("bad.glb", whole.substr(0, 20 + size));
+  auto cut = whole.substr(0, 20 + size);
+  make("bad.glb", cut);
+  expect_error<InputError>([&] { ModelFile(path("bad.glb")); },
+                           {"it has " + std::to_string(cut.size()) + " of " +
+                            std::to_string(whole.size()) + " bytes; copy or export it again"});
+  size += 20;
+  std::memcpy(cut.data() + 8, &size, sizeof size);
+  make("bad.glb", cut);
   expect_error<InputError>([&] { ModelFile(path("bad.glb")); }, {"the binary chunk is missing"});
 }
 

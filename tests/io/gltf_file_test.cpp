@@ -207,11 +207,13 @@ TEST_F(GltfFileTest, DamageEndsInMessages) {
   refuse(with("/accessors/0/count", 1000), "accessor 0 ends outside its buffer view");
   refuse(with("/accessors/3/count", std::uint64_t{1} << 62), "accessor 3 ends outside");
   refuse(with("/accessors/0/byteOffset", 10000), "ends outside its buffer");
-  refuse(with("/accessors/0/type", "VEC2"), "another type");
+  refuse(with("/accessors/0/type", "VEC2"),
+         "damaged glTF, mesh 0, primitive 0: accessor 0 does not have numbers");
   refuse(with("/accessors/0/sparse", Json::object()), "damaged");
   refuse(with("/nodes/1/children", Json::array({0})), "");
   refuse(with("/nodes/1/scale", Json::array({0, 1, 1})), "but no triangles");
-  refuse(with("/meshes/0/primitives/0/material", 7), "material");
+  refuse(with("/meshes/0/primitives/0/material", 7),
+         "mesh 0, primitive 0: a material is out of range; export the model again");
   refuse(with("/extensionsRequired", Json::array({"KHR_draco_mesh_compression"})), "uncompressed");
   refuse(Square({0, 1, 2, 3, 6, 5}), "the vertex 6, which is out of range");
 }

@@ -146,9 +146,8 @@ void require_solid(const Binding<Dim>& binding) {
 }
 
 // In the band of a region, at distance d from it along the mesh, weights are (1 - s) w + s e, with
-// the original weights w, those of the region extended e, and the smooth s(1 - d / L), s(t) = t^2
-// (3
-// - 2 t). Sums and reproduction of w and e hold for their mean, and it is >= 0 where e >= 0.
+// the original weights w, those of the region extended e, and the smooth s(t) = t^2 (3 - 2 t) of t
+// = 1 - d / L. Sums and reproduction of w and e hold for their mean, and it is >= 0 where e >= 0.
 // Elsewhere, project_non_negative() takes the nearest feasible weights; it is continuous and leaves
 // feasible weights as they are, so weights are continuous up to the region. L is half the size of
 // the region, over which the deformation differs from an affine map about as much as in the region,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/meshing_common.h"
 
+#include <cstdio>
 #include <string>
 
 #include "base/instantiate.h"
@@ -137,6 +138,17 @@ std::string describe_failure(const ProcessOutcome& outcome, double time_limit) {
       return "was stopped at the time limit of " + format_number(time_limit) + " s (time_limit)";
   }
   return {};
+}
+
+std::string describe_thinnest(const Cage<3>& cage) {
+  const auto place = thinnest_place(cage);
+  const double size = bounding_box_diagonal(cage.points);
+  if (place.facet < 0 || place.distance > kThin * size) return "";
+  char part[32];
+  std::snprintf(part, sizeof(part), "%.2g", place.distance / size);
+  return "; the cage is thinnest between control point " + std::to_string(place.control_point) +
+         " at " + format_point(cage.points.col(place.control_point)) + " and facet " +
+         std::to_string(place.facet) + ": " + part + " of its size";
 }
 
 template <int Dim>

@@ -49,6 +49,9 @@ void check_vertex_count(Index wanted, Index minimum, double tolerance);
 //! time limit of 60 s (--mesh-timeout)". \return empty if it finished
 std::string describe_failure(const ProcessOutcome& outcome, double time_limit);
 
+//! "; the cage is thinnest between ...", for messages; empty if the cage is not thin.
+std::string describe_thinnest(const Cage<3>& cage);
+
 //! Sum of the areas or volumes of the cells.
 template <int Dim>
 double total_measure(const DomainMesh<Dim>& mesh);

@@ -97,10 +97,12 @@ MirroredModel<Dim>::MirroredModel(const Cage<Dim>& cage, int axis, const PointLi
   image_ = find_partners<Dim>(cage.points, mirrored(cage.points), tolerance);
   const auto alone = std::find(image_.begin(), image_.end(), -1);
   if (alone != image_.end()) {
-    throw InputError(
-        describe_control_point(cage.points, static_cast<Index>(alone - image_.begin())) +
-        " has no mirror image across " + plane_ +
-        "; make a symmetric cage, or leave out the mirror");
+    const auto i = static_cast<Index>(alone - image_.begin());
+    const Vector<Dim> image = mirrored(cage.points).col(i);
+    const double distance = (cage.points.colwise() - image).colwise().norm().minCoeff();
+    throw InputError(describe_control_point(cage.points, i) + " has no mirror image across " +
+                     plane_ + ": the nearest control point is " + format_number(distance) +
+                     " away from it; make a symmetric cage, or leave out the mirror");
   }
   require_mirrored_facets<Dim>(cage, mirrored(cage.points), plane_);
   partner_ = find_partners<Dim>(points, mirrored(points), tolerance);

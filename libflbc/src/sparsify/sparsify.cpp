@@ -18,9 +18,9 @@ namespace flbc {
 template <int Dim>
 void validate(const SparsifyOptions& options) {
   if (options.max_influences < Dim + 1) {
-    throw OptionError("at most " + std::to_string(options.max_influences) +
-                      " influences per vertex are too few; in " + std::to_string(Dim) +
-                      "D, at least " + std::to_string(Dim + 1) + " are needed to reproduce it");
+    throw OptionError("max_influences must be at least " + std::to_string(Dim + 1) + " in " +
+                      std::to_string(Dim) + "D, because fewer cannot reproduce a vertex, not " +
+                      std::to_string(options.max_influences));
   }
   if (!(options.threshold >= 0 && options.threshold < 1)) {
     throw OptionError("the threshold must be at least 0 and below 1, not " +

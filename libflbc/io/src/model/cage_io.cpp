@@ -140,8 +140,8 @@ PointList<Dim> to_points(const PolygonSoup& soup, const std::string& name) {
     if (Dim == 2 && soup.points[v].z() != soup.points[0].z()) {
       throw InputError(name + ": vertex " + std::to_string(v) + " at " +
                        format_point(soup.points[v]) +
-                       " is not in the plane of vertex 0; a 2D cage, and a shape in it, must have "
-                       "the same z everywhere" +
+                       " is not in the plane of vertex 0, so this is 3D; a 2D cage needs a 2D "
+                       "model, with the same z everywhere" +
                        plane_hint(soup));
     }
     points.col(v) = soup.points[v].template head<Dim>();

@@ -35,14 +35,21 @@ void require_version(const std::string& path, double version) {
 std::array<Chunk, 2> chunks_of(const std::string& path, const std::string& bytes) {
   std::array<Chunk, 2> chunks{};
   if (bytes.size() >= kGlbHeader) require_version(path, number_at<std::uint32_t>(bytes.data() + 4));
+  if (bytes.size() >= kGlbHeader) {
+    const auto whole = number_at<std::uint32_t>(bytes.data() + 8);
+    if (whole > bytes.size()) {
+      throw InputError(path + ": the file is cut off: it has " + std::to_string(bytes.size()) +
+                       " of " + std::to_string(whole) + " bytes; copy or export it again");
+    }
+  }
   std::size_t begin = kGlbHeader;
   for (auto& chunk : chunks) {
     if (bytes.size() < begin + kChunkHead) break;
     const auto size = number_at<std::uint32_t>(bytes.data() + begin);
     begin += kChunkHead;
     if (size > bytes.size() - begin) {
-      throw InputError(path + ": the file ends within the chunk at byte " +
-                       std::to_string(begin - kChunkHead));
+      throw InputError(path + ": the chunk at byte " + std::to_string(begin - kChunkHead) +
+                       " is longer than the file; export the model again");
     }
     chunk = {begin, begin + size};
     begin += size;
@@ -192,7 +199,7 @@ GltfDocument::GltfDocument(std::string path, const std::string& bytes) : path_(s
   } else {
     json = GltfJson::parse(bytes);
   }
-  if (!json.is_object()) fail("not a glTF file, or damaged");
+  if (!json.is_object()) fail("not a glTF file, or damaged; export the model again");
   const auto asset = json.value("asset", GltfJson::object());
   if (asset.contains("version")) {
     require_version(path_, std::atof(asset["version"].get<std::string>().c_str()));
@@ -226,7 +233,7 @@ void GltfDocument::merge_buffers(std::string binary_chunk) {
                                           : std::string();
     const auto length = whole(buffer, "byteLength", content.size());
     if (is_first && content.empty() && length > 0) {
-      fail("buffer 0 has no data; the binary chunk is missing");
+      damaged("buffer 0 has no data; the binary chunk is missing");
     }
     content.resize(std::min(length, content.size()));  // without what fills up a chunk
     binary_.resize(aligned(binary_.size()));
@@ -256,7 +263,7 @@ std::string GltfDocument::content_of(const std::string& uri) const {
     return is_base64 ? from_base64(content) : content;
   }
   constexpr std::size_t kLongest = 1024;
-  if (uri.size() > kLongest) fail("the address " + in_quotes(uri) + " is no file");
+  if (uri.size() > kLongest) damaged("the address " + in_quotes(uri) + " is no file");
   try {
     return read_file(file_of(uri));
   } catch (const IoError& error) {
@@ -268,7 +275,7 @@ std::string_view GltfDocument::view(std::size_t number) const {
   const auto& view = json.at("bufferViews").at(number);
   const auto begin = whole(view, "byteOffset", 0), length = whole(view.at("byteLength"));
   if (begin > binary_.size() || length > binary_.size() - begin) {
-    fail("buffer view " + std::to_string(number) + " ends outside its buffer");
+    damaged("buffer view " + std::to_string(number) + " ends outside its buffer");
   }
   return std::string_view(binary_).substr(begin, length);
 }
@@ -284,7 +291,7 @@ GltfDocument::Place GltfDocument::place(const GltfJson& description, std::size_t
   const auto left = offset <= bytes.size() ? bytes.size() - offset : 0;
   if (offset > bytes.size() || (count > 0 && (stride < element || left < element ||
                                               (count - 1) > (left - element) / stride))) {
-    fail(owner + " ends outside its buffer view");
+    damaged(owner + " ends outside its buffer view");
   }
   return {bytes.data() + offset, stride};
 }
@@ -297,7 +304,8 @@ Eigen::MatrixXd GltfDocument::numbers(std::size_t accessor, int rows) const {
   const auto size = component_size(type);
   const int all_rows = rows_of(description.at("type"));
   const bool is_signed = type % 2 == 0, is_float = type == kGltfFloat;
-  if (size == 0 || all_rows < rows) fail(name + " has another type than its use needs");
+  if (size == 0 || all_rows < rows)
+    damaged(name + " does not have numbers of the type that is needed");
   const bool is_scaled = description.value("normalized", false) && !is_float;
   const double unit =
       is_scaled ? std::ldexp(1.0, static_cast<int>(8 * size - (is_signed ? 1 : 0))) - 1 : 1;
@@ -315,7 +323,7 @@ Eigen::MatrixXd GltfDocument::numbers(std::size_t accessor, int rows) const {
     for (std::size_t k = 0; k < count; ++k) read(data + k * stride, columns.col(k));
   } else {
     constexpr std::size_t kMostZeros = 1 << 22;  // a damaged file may ask for any number
-    if (count > kMostZeros) fail(name + " has no data for its elements");
+    if (count > kMostZeros) damaged(name + " has no data for its elements");
     columns.setZero(rows, static_cast<Eigen::Index>(count));
   }
   if (!description.contains("sparse")) return columns;
@@ -323,13 +331,13 @@ Eigen::MatrixXd GltfDocument::numbers(std::size_t accessor, int rows) const {
   const auto changes = whole(sparse.at("count"));
   const auto& indices = sparse.at("indices");
   const auto index_size = component_size(whole(indices.at("componentType")));
-  if (index_size == 0) fail(name + " has sparse indices of an unknown type");
+  if (index_size == 0) damaged(name + " has sparse indices of an unknown type");
   const auto where = place(indices, index_size, changes, name);
   const auto values = place(sparse.at("values"), element, changes, name);
   for (std::size_t k = 0; k < changes; ++k) {
     const auto index =
         to_whole(decode_number(where.data + k * where.stride, index_size, false, false));
-    if (index >= count) fail(name + " has a sparse index that is out of range");
+    if (index >= count) damaged(name + " has a sparse index that is out of range");
     read(values.data + k * values.stride, columns.col(static_cast<Eigen::Index>(index)));
   }
   return columns;
@@ -374,7 +382,7 @@ Eigen::MatrixXd GltfDocument::morphed(const GltfJson& node, const GltfJson& prim
   for (std::size_t t = 0; t < std::min(weights.size(), targets.size()); ++t) {
     if (weights[t] == 0 || !targets[t].contains(attribute)) continue;
     const auto target = numbers(whole(targets[t][attribute]), 3);
-    if (target.cols() != columns.cols()) fail("a morph target has another number of vertices");
+    if (target.cols() != columns.cols()) damaged("a morph target has another number of vertices");
     columns.topRows(3) += weights[t] * target;
   }
   return columns;

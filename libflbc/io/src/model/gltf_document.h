@@ -77,6 +77,11 @@ class GltfDocument {
   //! \throws InputError, IoError
   GltfDocument(std::string path, const std::string& bytes);
 
+  //! The part of the file that is read, for damaged().
+  std::string part;
+  [[noreturn]] void damaged(const std::string& message) const {
+    fail("damaged glTF, " + part + message + "; export the model again");
+  }
   [[noreturn]] void fail(const std::string& message) const {
     throw InputError(path_ + (path_.empty() ? "" : ": ") + message);
   }
@@ -188,11 +193,11 @@ auto refusing_damage(const std::string& path, const Action& action) {
   } catch (const GltfJson::out_of_range& error) {
     const std::string_view reason = error.what();
     throw InputError(path + ": not a glTF file, or damaged:" +
-                     std::string(reason.substr(reason.find(']') + 1)) + "; export it again");
+                     std::string(reason.substr(reason.find(']') + 1)) + "; export the model again");
   } catch (const GltfJson::exception&) {
-    throw InputError(path + ": not a glTF file, or damaged");
+    throw InputError(path + ": not a glTF file, or damaged; export the model again");
   } catch (const std::out_of_range&) {
-    throw InputError(path + ": not a glTF file, or damaged");
+    throw InputError(path + ": not a glTF file, or damaged; export the model again");
   }
 }
 

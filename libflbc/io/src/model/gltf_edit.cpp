@@ -77,8 +77,9 @@ GltfMotion motion_of(GltfEdit& edit, const GltfPart& part, const Model& model,
     if (!moves) continue;
     const Eigen::Affine3d to_file = part.frame(k).inverse();
     if (!to_file.matrix().allFinite()) {
-      edit.document.fail("joints press vertex " + std::to_string(v) +
-                         " flat, so it cannot move; write another format");
+      edit.document.fail("joints with a scale of 0 flatten vertex " + std::to_string(v) +
+                         ", in the mesh of node " + std::to_string(part.node) +
+                         ", so it cannot move; write .obj");
     }
     motion.places.col(column) = to_file * model.soup.points[v];
     motion.turns.back() += to_file.linear() * changes[v] * local;
@@ -162,7 +163,7 @@ Eigen::MatrixXd GltfEdit::places(const GltfPart& part) {
   auto columns =
       document.morphed(node(part.node), primitive(part, part.primitives[0]), "POSITION", 3);
   if (columns.cols() != static_cast<Eigen::Index>(part.points.size())) {
-    document.fail("the file has changed since it was read");
+    document.fail("the file has changed since it was read; run the command again");
   }
   return columns;
 }
@@ -232,7 +233,8 @@ void GltfEdit::move(const GltfPart& part, const GltfMotion& motion) {
     const auto& list = attributes(part, part.primitives[0], kBase);
     if (!list.contains(name)) return Eigen::MatrixXd();
     auto columns = document.numbers(whole(list[name]), rows);
-    if (columns.cols() < count) document.fail(std::string("a mesh has too few numbers in ") + name);
+    if (columns.cols() < count)
+      document.damaged(std::string("a mesh has too few numbers in ") + name);
     return columns;
   };
   auto positions = base("POSITION", 3), normals = base("NORMAL", 3), tangents = base("TANGENT", 4);
@@ -268,7 +270,8 @@ void GltfEdit::move(const GltfPart& part, const GltfMotion& motion) {
     for (const char* name : {"POSITION", "NORMAL", "TANGENT"}) {
       if (!targets[t].contains(name)) continue;
       auto columns = document.numbers(whole(targets[t][name]), 3);
-      if (columns.cols() != count) document.fail("a morph target has another number of vertices");
+      if (columns.cols() != count)
+        document.damaged("a morph target has another number of vertices");
       for (Eigen::Index k = 0; k < count; ++k) {
         if (!moving(k)) continue;
         const Vector<3> offset = columns.col(k);

@@ -81,6 +81,7 @@ class GltfScanner {
 
  private:
   [[noreturn]] void fail(const std::string& message) const { document_.fail(message); }
+  [[noreturn]] void damaged(const std::string& message) const { document_.damaged(message); }
 
   const Json& json() const { return document_.json; }
 
@@ -172,7 +173,7 @@ class GltfScanner {
     parents_.assign(nodes.size(), -1);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       for (const auto child : wholes(nodes[k], "children")) {
-        if (parents_.at(child) >= 0) fail("node " + std::to_string(child) + " has two parents");
+        if (parents_.at(child) >= 0) damaged("node " + std::to_string(child) + " has two parents");
         parents_[child] = static_cast<std::ptrdiff_t>(k);
       }
     }
@@ -213,7 +214,7 @@ class GltfScanner {
     std::size_t depth = 0;
     for (auto parent = parents_.at(node); parent >= 0;
          parent = parents_[static_cast<std::size_t>(parent)]) {
-      if (++depth > nodes.size()) fail("nodes form a circle");
+      if (++depth > nodes.size()) damaged("nodes form a circle");
       transform = transform_of(nodes[static_cast<std::size_t>(parent)]) * transform;
     }
     return transform;
@@ -228,12 +229,17 @@ class GltfScanner {
     if (nodes[k].contains("skin")) {
       read_skin(nodes, whole(nodes[k].at("skin")));
     } else if (!frame_.matrix().allFinite()) {
-      fail("the transform of a node is not finite");
+      damaged("the transform of a node is not finite");
     } else if (std::abs(frame_.linear().determinant()) < 1e-300) {
       return note_unread("meshes that a scale of 0 flattens");
     }
-    const auto& primitives = json().at("meshes").at(whole(nodes[k].at("mesh"))).at("primitives");
-    for (std::size_t p = 0; p < primitives.size(); ++p) add_primitive(primitives[p], p);
+    const auto mesh = whole(nodes[k].at("mesh"));
+    const auto& primitives = json().at("meshes").at(mesh).at("primitives");
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      document_.part = "mesh " + std::to_string(mesh) + ", primitive " + std::to_string(p) + ": ";
+      add_primitive(primitives[p], p);
+    }
+    document_.part.clear();
     if (!joints_.empty() && !known_.empty()) add_posed_others(primitives);
   }
 
@@ -248,12 +254,12 @@ class GltfScanner {
   void read_skin(const Json& nodes, std::size_t number) {
     const auto& skin = json().at("skins").at(number);
     const auto joints = wholes(skin, "joints");
-    if (joints.empty()) fail("skin " + std::to_string(number) + " has no joints");
+    if (joints.empty()) damaged("skin " + std::to_string(number) + " has no joints");
     Eigen::MatrixXd inverses;
     if (skin.contains("inverseBindMatrices")) {
       inverses = document_.numbers(whole(skin["inverseBindMatrices"]), 16);
       if (inverses.cols() < static_cast<Eigen::Index>(joints.size())) {
-        fail("skin " + std::to_string(number) + " has fewer inverse bind matrices than joints");
+        damaged("skin " + std::to_string(number) + " has fewer inverse bind matrices than joints");
       }
     }
     for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -298,7 +304,7 @@ class GltfScanner {
   void check_weight(double weight, Eigen::Index vertex) {
     if (weight >= 0 && std::isfinite(weight)) return;
     const auto name = "vertex " + std::to_string(vertex) + " of a mesh has a ";
-    if (!std::isfinite(weight)) fail(name + "weight that is not finite");
+    if (!std::isfinite(weight)) damaged(name + "weight that is not finite");
     if (!std::exchange(has_negative_, true)) model_.notes.push_back(name + "negative weight");
   }
 
@@ -309,11 +315,11 @@ class GltfScanner {
     for (const auto& influence : influences) sum += influence.second;
     Eigen::Affine3d frame(Eigen::Matrix4d::Zero());
     for (const auto& [joint, weight] : influences) {
-      if (joint >= joints_.size()) fail("a vertex has a joint that is out of range");
+      if (joint >= joints_.size()) damaged("a vertex has a joint that is out of range");
       frame.matrix() += weight / sum * joints_[joint].matrix();
     }
     frame.makeAffine();
-    if (!frame.matrix().allFinite()) fail("the transform of a joint is not finite");
+    if (!frame.matrix().allFinite()) damaged("the transform of a joint is not finite");
     if (influences.size() > 1) snap_to_identity(frame, 1);
     return frame;
   }
@@ -324,7 +330,7 @@ class GltfScanner {
     const auto& attributes = primitive.at("attributes");
     const bool has_material = primitive.contains("material");
     const auto material = whole(primitive, "material", 0);
-    if (has_material && material >= model_.materials.size()) fail("a material is out of range");
+    if (has_material && material >= model_.materials.size()) damaged("a material is out of range");
     const std::string coordinates = has_material ? coordinate_sets_[material] : "TEXCOORD_0";
     auto& part = part_of(primitive, coordinates);
     part.primitives.push_back(number);
@@ -371,7 +377,7 @@ class GltfScanner {
                     const std::array<bool, 2>& has, Index material) {
     for (const auto corner : corners) {
       if (corner >= part.points.size())
-        fail("a triangle has the vertex " + std::to_string(corner) + ", which is out of range");
+        damaged("a triangle has the vertex " + std::to_string(corner) + ", which is out of range");
     }
     if (part.is_mirrored) std::swap(corners[1], corners[2]);
     std::vector<Index> polygon;
@@ -432,7 +438,7 @@ class GltfScanner {
   }
 
   Index add_point(const Vector<3>& point, Eigen::Index k) {
-    if (!point.allFinite()) fail("vertex " + std::to_string(k) + " of a mesh is not finite");
+    if (!point.allFinite()) damaged("vertex " + std::to_string(k) + " of a mesh is not finite");
     const auto next = static_cast<Index>(model_.soup.points.size());
     const auto [entry, is_new] =
         number_of_.emplace(std::tuple(point.x(), point.y(), point.z()), next);
@@ -450,7 +456,7 @@ class GltfScanner {
   void require_all(const Eigen::MatrixXd& columns, Eigen::Index vertices,
                    const char* things) const {
     if (columns.cols() < vertices)
-      fail("a mesh has fewer " + std::string(things) + " than vertices");
+      damaged("a mesh has fewer " + std::string(things) + " than vertices");
   }
 
   void add_normals(const GltfPart& part, const Eigen::MatrixXd& normals, const Json& attributes) {

@@ -290,7 +290,11 @@ DomainMesh<3> tetrahedralize_by_netgen(const Cage<3>& cage, const MeshingOptions
   }
   const Task task{
       orient(cage), bounding_box_diagonal(cage.points), {options.time_limit, options.poll}};
-  return fill_with(task, options.vertices);
+  try {
+    return fill_with(task, options.vertices);
+  } catch (const InputError& error) {
+    throw InputError(error.what() + describe_thinnest(cage));
+  }
 }
 
 }  // namespace flbc

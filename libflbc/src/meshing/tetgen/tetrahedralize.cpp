@@ -145,18 +145,6 @@ DomainMesh<3> refine_to_count(const VertexCountGoal<3>& goal, double first_bound
 // Without a limit, well-shaped cells in a thin wall exhaust memory.
 constexpr Index kMostPoints = 1000000;
 
-// Hint about the thinnest place; empty if the cage is not thin.
-std::string describe_thinnest(const Cage<3>& cage) {
-  const auto place = thinnest_place(cage);
-  const double size = bounding_box_diagonal(cage.points);
-  if (place.facet < 0 || place.distance > kThin * size) return "";
-  char part[32];
-  std::snprintf(part, sizeof(part), "%.2g", place.distance / size);
-  return "; the cage is thinnest between control point " + std::to_string(place.control_point) +
-         " at " + format_point(cage.points.col(place.control_point)) + " and facet " +
-         std::to_string(place.facet) + ": " + part + " of its size";
-}
-
 // The cage to fill.
 struct Task {
   const Cage<3>& cage;

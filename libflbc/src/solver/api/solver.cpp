@@ -120,10 +120,10 @@ Certificate certify(const LbcProblem<Dim>& problem, const MethodRun<Dim>& run,
   return certificate;
 }
 
-// Whether to certify the solution. Without smoothness a small change may be far from the optimum,
-// so the gap tells more than the estimate by which the run ended.
+// Whether to certify the solution: a gap was asked for, or a small change may be far from the
+// optimum, as without smoothness.
 bool certifies(const plan::Settings& settings, const SolveReport& report) {
-  if (settings.certify || report.criterion == Criterion::kGap) return true;
+  if (settings.certify || *settings.gap > 0) return true;
   return report.criterion == Criterion::kTolerance && *settings.smoothness == 0 &&
          settings.non_negative != NonNegative::kOff;
 }
