@@ -2,6 +2,7 @@
 // The steps of flbc run that make what engines take: few influences, and a skin.
 #include "flbc/bounding_box.h"
 #include "flbc/cage.h"
+#include "flbc/errors.h"
 #include "flbc/io/binding_file.h"
 #include "flbc/io/files.h"
 #include "flbc/io/weights_io.h"
@@ -139,7 +140,13 @@ void export_shape(Run<Dim>& run) {
     run.folder.print(kSkin, "left out: " + reason);
     return;
   }
-  run.report["export"] = write_skin(run, kSkin, kFewJoints);
+  try {
+    run.report["export"] = write_skin(run, kSkin, kFewJoints);
+  } catch (const InputError& error) {
+    if (run.reduced.solid.empty()) throw;  // so few joints may not surround a region
+    run.report["export"] = {{"left_out", error.what()}};
+    run.folder.print(kSkin, std::string("left out: ") + error.what());
+  }
   if (run.arguments.max_influences <= kFewJoints) return;
   run.report["export"]["full"] = write_skin(run, kFullSkin, kManyJoints);
 }
