@@ -543,8 +543,8 @@ test("a region is painted on the front of the model, and weights obey the latest
   assert.deepEqual(asked.at(-2), protector.masks());
   assert.deepEqual(protector.masks().map((mask) => mask.control_points), [[3, 5]]);
   const { vertices } = protector.masks()[0].region;
-  assert.deepEqual(protector.renumbered([0, 1, 2, 9, 4, 9, 6, 7]), { masks: [{ control_points: [9], region: { vertices } }], reach: [], falloff: 0 });
-  assert.deepEqual(protector.renumbered([]), { masks: [], reach: [], falloff: 0 });
+  assert.deepEqual(protector.renumbered([0, 1, 2, 9, 4, 9, 6, 7]), { masks: [{ control_points: [9], region: { vertices } }], reach: [], falloff: 0, solid: [] });
+  assert.deepEqual(protector.renumbered([]), { masks: [], reach: [], falloff: 0, solid: [] });
 
   // Regions of other control points overlap; erasing takes away those of the selection only.
   const before = protector.masked.size;
@@ -612,6 +612,24 @@ test("a region is painted on the front of the model, and weights obey the latest
   await protector.load(saved);
   await settled();
   assert.deepEqual(protector.locality(), saved);
+
+  // A solid region grows from stroke to stroke; one that meets none is another region.
+  protector.paintsSolid = true;
+  viewer.editor.select([]);
+  stroke(false, [-0.8, 0, 0.5]);
+  stroke(false, [-0.75, 0, 0.5]);
+  stroke(false, [0.8, 0, 0.5]);
+  await settled();
+  const regions = protector.regions();
+  assert.equal(regions.length, 2);
+  for (const { region: { vertices: own } } of regions) assert.equal(new Set(own.map((k) => place(k)[0] > 0)).size, 1);
+  assert.deepEqual(asked.at(-2).solid, regions);
+  stroke(true, [0.8, 0, 0.5]);
+  await settled();
+  assert.deepEqual(protector.regions(), regions.slice(0, 1));
+  protector.undo();
+  await settled();
+  assert.deepEqual(protector.regions(), regions);
 });
 
 test("an edge of a cage is split, and control points are merged", () => {

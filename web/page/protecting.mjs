@@ -78,7 +78,10 @@ export class Protector {
 
   regions() {
     const regions = new Map();
-    for (const [vertex, number] of this.solid) regions.set(number, [...regions.get(number) ?? [], vertex]);
+    for (const [vertex, number] of this.solid) {
+      if (!regions.has(number)) regions.set(number, []);
+      regions.get(number).push(vertex);
+    }
     return [...regions.values()].map((vertices) => ({ region: { vertices } }));
   }
 
