@@ -120,7 +120,7 @@ TEST_F(DeformPoints, FailuresLeaveNoFile) {
     const auto name = entry.path().filename().string();
     EXPECT_TRUE(name[0] != 'q' && name[0] != '.') << name;
   }
-  expect(deform("out.npy", "q.npy") + "--outside keep", 0, "this is not checked");
+  expect(deform("out.npy", "q.npy") + "--outside keep", 0, "are not checked");
   expect(deform("out.npy", "q.npy") + "--outside nearest");
   EXPECT_NEAR(io::read_weights("q.npy").dense()(2, 299), 2 + 4.0 / 3 - 1.0 / 3, 1e-12);
 }

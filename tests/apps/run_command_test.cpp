@@ -239,7 +239,7 @@ TEST_F(RunCommand, StepsThatFailAreNamedAndLeaveWhatWasDone) {
 
 TEST_F(RunCommand, RefusesBeforeAnyWorkIsDone) {
   const std::string cage = "2d/figure_cage.obj";
-  expect_run("out", cage + " -k 2", 1, "at least 3 are needed");
+  expect_run("out", cage + " -k 2", 1, "must be at least 3 in 2D");
   expect_run("out", cage + " --control-point 40", 1, "--control-point must be in [0, 39]");
   expect_run("out", cage + " --fps 0.5", 1, "--fps requires --pose");
   expect_run("out", cage + " --embed", 1, "--embed: MODEL is missing");

@@ -37,8 +37,8 @@ TEST_F(SparsifyCommand, PoissonNeedsNeighbours) {
 
 TEST_F(SparsifyCommand, RefusesWhatCannotBe) {
   const auto arguments = square();
-  expect_refusal(arguments, 1, "give -k");
-  expect_refusal(arguments + " -k 2", 1, "at least 3 are needed");
+  expect_refusal(arguments, 1, "or --threshold is missing");
+  expect_refusal(arguments + " -k 2", 1, "must be at least 3 in 2D");
   expect_refusal(arguments + " -k 3 --threshold 2", 1, "threshold");
   expect_refusal(arguments + " -k 3 --pose " + file("p.obj", "v 0 0 0\n"), 2,
                  "p.obj: has 1 vertices, but");

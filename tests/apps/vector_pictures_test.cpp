@@ -129,7 +129,7 @@ TEST_F(VectorPictures, ShowWhatPngShows) {
     if (plane) expect("draw " + of_model + " --all -o p.png");
     expect("draw " + of_model + " --control-point 3 -o p.png");
     expect("draw " + of_model + " --control-point 1000 -o none.png", 1, "must be in [0, ");
-    expect("draw --weights m.npy -o none.png --cage " + cage, 1, "give MODEL");
+    expect("draw --weights m.npy -o none.png --cage " + cage, 1, "MODEL is missing");
     const std::string other = plane ? "2d/letter_cage.obj" : "3d/star_cage.obj";
     expect("draw " + of_model + " -o none.png --pose " + other, 2, other);
   }

@@ -97,7 +97,7 @@ TEST_IN_2D_AND_3D(BindTest, RefusesWhatItCannotBind) {
   refused("edge 0 ends at point 40", model<Dim>(false), {{{0, 40}}}, {});
   BindOptions few;
   few.max_influences = Dim;
-  refused("too few", model<Dim>(false), {}, few);
+  refused("fewer cannot reproduce", model<Dim>(false), {}, few);
   few.max_influences = -1;
   refused("max_influences", model<Dim>(false), {}, few);
 }

@@ -181,9 +181,8 @@ const char* const kDrawing =
     "width='1' height='1'/></svg></g></svg>";
 
 const char* const kSu2 =
-    "% a\nNDIME= 2\nNELEM=2\n5 0 1 2 0\n9 1 3 4 2\nNPOIN= 5 5\n0 0 0\n1 0 1\n0.5 1 2\n2 0 3\n2 1 "
-    "4\n"
-    "NMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= 1\n3 0 1\n";
+    "% a\nNDIME= 3\nNELEM=2\n10 0 1 2 3 0\n5 1 3 4 2\nNPOIN= 5 5\n0 0 0 0\n1 0 0.5 1\n0.5 1 2 2\n"
+    "2 0 3 3\n2 1 4 4\nNMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= 2\n3 0 1\n9 0 1 2 3\n";
 
 const char* const kStlText =
     "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"

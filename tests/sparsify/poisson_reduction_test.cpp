@@ -195,7 +195,7 @@ TEST_IN_2D_AND_3D(PoissonReductionTest, RefusesWhatCannotBe) {
   Numbers numbers(27);
   const auto problem = problem_on_a_curve<Dim>(numbers.matrix(Dim, 10, -1, 1), 8, 0.1);
   EXPECT_NO_THROW(problem.reduce(at_most(Dim + 1)));
-  expect_error<OptionError>([&] { problem.reduce(at_most(Dim)); }, {"are needed to reproduce it"});
+  expect_error<OptionError>([&] { problem.reduce(at_most(Dim)); }, {"fewer cannot reproduce"});
   auto wrong = problem;
   wrong.edges.ends.push_back({2, 8});
   expect_error<InputError>([&] { wrong.reduce(at_most(8)); }, {"ends at point 8"});

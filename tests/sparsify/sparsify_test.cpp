@@ -168,7 +168,7 @@ TEST_IN_2D_AND_3D(SparsifyTest, RefusesWhatCannotBe) {
   };
   EXPECT_NO_THROW(run(at_most(Dim + 1), weights));
   expect_error<OptionError>([&] { run(at_most(Dim), weights); },
-                            {"at least " + std::to_string(Dim + 1) + " are needed"});
+                            {"at least " + std::to_string(Dim + 1) + " in "});
   expect_error<OptionError>([&] { run(at_most(8, 1), weights); }, {"threshold"});
   expect_error<OptionError>([&] { run(at_most(8, std::nan("")), weights); }, {"threshold"});
   expect_error<InputError>([&] { run(at_most(8), numbers.matrix(9, 3, 0, 1)); },
