@@ -117,9 +117,9 @@ struct SolverOptions {
   //! converts values from the literature.
   std::optional<double> penalty{};
 
-  //! Whether to compute a lower bound of the optimal objective, and keep its proof. A run that ends
-  //! by the gap, or by the tolerance with neither gap nor smoothness, computes the bound anyway, if
-  //! it has the duals of all pairs.
+  //! Whether to compute a lower bound of the optimal objective, and keep its proof. A run with a
+  //! gap, or that ends by the tolerance without smoothness, computes the bound anyway, if it has
+  //! the duals of all pairs.
   bool certify = false;
 
   //! Masks of the V vertices of the mesh; see BindOptions::masks for those of a model. Weights are
