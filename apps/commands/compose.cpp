@@ -34,8 +34,9 @@ void compose_files(const ComposeArguments& arguments) {
   };
   SparseWeights composed;
   if (io::is_binding_file(arguments.output)) {
-    if (arguments.cage.empty())
+    if (arguments.cage.empty()) {
       throw OptionError("--cage is missing, the outer cage of the binding");
+    }
     composed = std::visit(compose_binding, arguments.files.content());
   } else {
     const auto weights = io::read_weights(arguments.files.weights);

@@ -283,6 +283,12 @@ def problems(model):
     return found
 
 
+def require_valid(model):
+    """Raises Refusal with the first of the problems."""
+    for problem in problems(model):
+        raise Refusal(f'{model.name}: {problem}')
+
+
 def unbind(model):
     """Removes the modifier and everything that was stored."""
     model.modifiers.remove(nodes.modifier_of(model))

@@ -3,15 +3,13 @@
 import numpy as np
 
 from . import binding, mesh, nodes
-from .program import Refusal
 
 _STIFFNESS = 1e-5  # as in flbc fit
 
 
 def _weights(model):
     """All weights of a bound model, (V, control points). Raises Refusal."""
-    for problem in binding.problems(model):
-        raise Refusal(f'{model.name}: {problem}')
+    binding.require_valid(model)
     found = np.zeros((len(model.data.vertices), len(nodes.cage_of(model).data.vertices)))
     for index, weight in mesh.read_binding(model.data):
         found[np.arange(len(found)), index] += weight
@@ -20,17 +18,10 @@ def _weights(model):
 
 def _laplacian(cage):
     """The graph Laplacian of the edges of a cage."""
-    edges = np.empty(2 * len(cage.data.edges), np.int32)
-    cage.data.edges.foreach_get('vertices', edges)
+    edges = mesh.numbers(cage.data.edges, 'vertices', np.int32, 2)
     found = np.zeros((len(cage.data.vertices),) * 2)
     np.add.at(found, (edges, edges.reshape(-1, 2)[:, ::-1].ravel()), -1)
     return found - np.diag(found.sum(1))
-
-
-def _places(key):
-    places = np.empty(3 * len(key.data), np.float32)
-    key.data.foreach_get('co', places)
-    return places.reshape(-1, 3).astype(float)
 
 
 def _write(model, name, moves):
@@ -39,7 +30,8 @@ def _write(model, name, moves):
         model.shape_key_add(name='Basis', from_mix=False)
     keys = model.data.shape_keys
     key = keys.key_blocks.get(name) or model.shape_key_add(name=name, from_mix=False)
-    key.data.foreach_set('co', (_places(keys.reference_key) + moves).astype(np.float32).ravel())
+    places = mesh.places_of(keys.reference_key.data) + moves
+    key.data.foreach_set('co', places.astype(np.float32).ravel())
 
 
 def transfer(body, followers):
@@ -57,10 +49,11 @@ def transfer(body, followers):
     moving = [key for key in keys.key_blocks if key != keys.reference_key]
     farthest = 0
     for key in moving:
-        moves = (_places(key) - _places(key.relative_key)) @ to_cage
+        moves = mesh.places_of(key.data) - mesh.places_of(key.relative_key.data)
+        moves = moves @ to_cage
         # Of the solutions the shortest: a part of the cage may move no vertex of the body.
         pose = np.linalg.lstsq(equations, weights.T @ moves, rcond=None)[0]
         farthest = max(farthest, np.linalg.norm(weights @ pose - moves, axis=1).max())
         for model, own in zip(followers, others):
             _write(model, key.name, own @ pose @ binding.rest_matrix(model, cage)[:3, :3].T)
-    return len(moving), farthest / np.linalg.norm(np.ptp(mesh.points_of(cage.data), axis=0))
+    return len(moving), farthest / np.linalg.norm(np.ptp(mesh.places_of(cage.data.vertices), axis=0))

@@ -25,25 +25,26 @@ class Shape(NamedTuple):
     counts: np.ndarray   # number of corners of each face
 
 
-def _numbers(items, name, dtype, width=1):
+def numbers(items, name, dtype, width=1):
+    """A property of all items, one after another."""
     flat = np.empty(width * len(items), dtype)
     items.foreach_get(name, flat)
     return flat
 
 
-def points_of(mesh):
-    """Positions of the vertices, (V, 3)."""
-    return _numbers(mesh.vertices, 'co', np.float32, 3).reshape(-1, 3)
+def places_of(items):
+    """Positions of the vertices of a mesh, or of the points of a shape key, (V, 3)."""
+    return numbers(items, 'co', np.float32, 3).reshape(-1, 3).astype(float)
 
 
 def shape_of(mesh):
     """The rest shape of a mesh that is not in Edit Mode."""
     keys = mesh.shape_keys
     vertices = keys.reference_key.data if keys else mesh.vertices
-    return Shape(_numbers(vertices, 'co', np.float32, 3).reshape(-1, 3).astype(float),
-                 _numbers(mesh.loops, 'vertex_index', np.int32),
-                 _numbers(mesh.polygons, 'loop_start', np.int32),
-                 _numbers(mesh.polygons, 'loop_total', np.int32))
+    return Shape(places_of(vertices),
+                 numbers(mesh.loops, 'vertex_index', np.int32),
+                 numbers(mesh.polygons, 'loop_start', np.int32),
+                 numbers(mesh.polygons, 'loop_total', np.int32))
 
 
 def members(item, group):
@@ -118,8 +119,8 @@ def read_binding(mesh):
     """Yields pairs of indices (V) and weights (V) of a binding."""
     k = 0
     while index_name(k) in mesh.attributes:
-        yield (_numbers(mesh.attributes[index_name(k)].data, 'value', np.int32),
-               _numbers(mesh.attributes[weight_name(k)].data, 'value', np.float32))
+        yield (numbers(mesh.attributes[index_name(k)].data, 'value', np.int32),
+               numbers(mesh.attributes[weight_name(k)].data, 'value', np.float32))
         k += 1
 
 

@@ -51,12 +51,15 @@ class _AtOnce:
 
     def execute(self, context):
         try:
-            for model in bound_models(context):
-                self.change(model)
+            self.change_models(context)
         except Refusal as refusal:
             self.report({'ERROR'}, str(refusal))
             return {'CANCELLED'}
         return {'FINISHED'}
+
+    def change_models(self, context):
+        for model in bound_models(context):
+            self.change(model)
 
 
 class _InBackground:
@@ -182,23 +185,18 @@ class FLBC_OT_skin(_AtOnce, bpy.types.Operator):
         items=(('REPLACE', 'Replace', 'Vertices get new weights in vertex groups named like bones'),
                ('KEEP', 'Keep', 'Vertices with weights in such vertex groups keep them')))
 
-    def execute(self, context):
+    def change_models(self, context):
         cages = {nodes.cage_of(model) for model in bound_models(context)} - {None}
         models = [item for item in context.view_layer.objects
                   if item.type == 'MESH' and nodes.cage_of(item) in cages]
-        try:
-            bones = {cage: skin.bones_of(cage) for cage in cages}
-            weights = [skin.weights_of(model, bones[nodes.cage_of(model)][1],
-                                       int(context.scene.flbc.influences)) for model in models]
-        except Refusal as refusal:
-            self.report({'ERROR'}, str(refusal))
-            return {'CANCELLED'}
+        bones = {cage: skin.bones_of(cage) for cage in cages}
+        weights = [skin.weights_of(model, bones[nodes.cage_of(model)][1],
+                                   int(context.scene.flbc.influences)) for model in models]
         for model, found in zip(models, weights):
             names = bones[nodes.cage_of(model)][0]
             difference = skin.write(model, names, found, self.existing == 'REPLACE')
             self.report({'INFO'}, f'{model.name}: {len(names)} bones. Largest difference from the '
                                   f'pose of the cage: {difference:.2%} of the size')
-        return {'FINISHED'}
 
 
 class FLBC_OT_transfer_keys(_AtOnce, bpy.types.Operator):
@@ -214,20 +212,15 @@ class FLBC_OT_transfer_keys(_AtOnce, bpy.types.Operator):
         return (super().poll(context) and body in bound_models(context)
                 and body.data.shape_keys is not None)
 
-    def execute(self, context):
+    def change_models(self, context):
         body = context.active_object
         others = [model for model in bound_models(context) if model != body]
-        try:
-            if not others or {nodes.cage_of(model) for model in others} != {nodes.cage_of(body)}:
-                raise Refusal(f'Select models of the same cage, and {body.name} last: they get its '
-                              'shape keys')
-            count, distance = keys.transfer(body, others)
-        except Refusal as refusal:
-            self.report({'ERROR'}, str(refusal))
-            return {'CANCELLED'}
+        if not others or {nodes.cage_of(model) for model in others} != {nodes.cage_of(body)}:
+            raise Refusal(f'Select models of the same cage, and {body.name} last: they get its '
+                          'shape keys')
+        count, distance = keys.transfer(body, others)
         self.report({'INFO'}, f'{count} shape keys, {len(others)} models. The cage fits those of '
                               f'{body.name} up to {distance:.2%} of the size')
-        return {'FINISHED'}
 
 
 class FLBC_OT_unbind(_AtOnce, bpy.types.Operator):

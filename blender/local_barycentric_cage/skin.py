@@ -49,8 +49,7 @@ def bones_of(cage):
 
 def weights_of(model, shares, influences):
     """The weights of a bound model for the bones, (V, bones), with sum 1. Raises Refusal."""
-    for problem in binding.problems(model):
-        raise Refusal(f'{model.name}: {problem}')
+    binding.require_valid(model)
     found = sum(weight[:, None] * shares[index] for index, weight in mesh.read_binding(model.data))
     np.put_along_axis(found, np.argsort(-found, 1, kind='stable')[:, influences:], 0, 1)
     return found / found.sum(1, keepdims=True)
@@ -61,7 +60,7 @@ def _shown(model, modifier):
     before = [(each, each.show_viewport) for each in model.modifiers]
     for each, _ in before:
         each.show_viewport = each == modifier
-    found = mesh.points_of(model.evaluated_get(bpy.context.evaluated_depsgraph_get()).data)
+    found = mesh.places_of(model.evaluated_get(bpy.context.evaluated_depsgraph_get()).data.vertices)
     for each, was_shown in before:
         each.show_viewport = was_shown
     return found

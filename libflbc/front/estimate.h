@@ -9,7 +9,7 @@
 
 namespace flbc::app {
 
-//! Rough: times measured on two cores (docs/results) are a seventh of it to 1.5 times as long.
+//! Rough: times measured on two cores (docs/results) are half of it to 2.6 times as long.
 struct Estimate {
   double seconds = 0;
   double bytes = 0;

@@ -197,7 +197,7 @@ export class Protector {
     if (this.paintsSolid) {
       const { solid, stroke } = this;
       if (stroke.erases) solid.delete(vertex);
-      else solid.set(vertex, solid.get(vertex) ?? (stroke.region ??= Math.max(-1, ...solid.values()) + 1));
+      else solid.set(vertex, solid.get(vertex) ?? (stroke.region ??= 1 + [...solid.values()].reduce((a, b) => Math.max(a, b), -1)));
       stroke.region ??= solid.get(vertex);
       return;
     }

@@ -39,24 +39,24 @@ struct Region {
                      ", or mark fewer vertices as solid");
   }
 
-  // The control points that may move all of the region. \param masked  output: the others
-  std::vector<Index> movers(std::vector<Index>& masked) const {
+  // The control points that are masked nowhere in the region, or those that are.
+  std::vector<Index> control_points(bool are_masked) const {
     const PointMasks masks(binding.masks, binding.cage.size(),
                            static_cast<Index>(binding.points.cols()));
-    std::vector<Index> allowed;
+    std::vector<Index> found;
     for (Index i = 0; i < binding.cage.size(); ++i) {
       const bool is_masked =
           std::any_of(points.begin(), points.end(), [&](Index p) { return masks.forbids(p, i); });
-      (is_masked ? masked : allowed).push_back(i);
+      if (is_masked == are_masked) found.push_back(i);
     }
-    return allowed;
+    return found;
   }
 
   // Columns become the nearest feasible ones.
   void project() {
-    std::vector<Index> masked;
     const auto given = columns;
-    if (affine.project(movers(masked), given, columns)) return;
+    if (affine.project(control_points(false), given, columns)) return;
+    const auto masked = control_points(true);
     refuse(masked.empty() ? "the cage does not surround it far enough; enlarge the cage there"
                           : "masks leave too few control points around it; mask fewer than " +
                                 describe_list(masked) + " there, enlarge the cage");
@@ -220,9 +220,8 @@ template <int Dim>
 SparseWeights with_few_in_solid(const Binding<Dim>& binding, Index most) {
   auto regions = regions_of(binding);
   for (auto& region : regions) {
-    std::vector<Index> masked;
     const auto given = region.columns;
-    if (region.affine.reduce(region.movers(masked), most, given, region.columns)) continue;
+    if (region.affine.reduce(region.control_points(false), most, given, region.columns)) continue;
     region.refuse("no " + std::to_string(most) + " control points surround it" +
                   "; allow more influences");
   }

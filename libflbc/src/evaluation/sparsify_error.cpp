@@ -34,10 +34,11 @@ class Displacements {
  public:
   Displacements(const std::vector<PointList<Dim>>& poses, const SparseWeights& before,
                 const SparseWeights& after)
-      : before_(before), after_(after), control_points_(Dim * poses.size(), 0) {
+      : before_(before),
+        after_(after),
+        control_points_(Dim * poses.size(), before.num_control_points()) {
     check_size(before, after.num_control_points(), after.num_points());
     check_poses<Dim>(poses, before.num_control_points());
-    control_points_.resize(Eigen::NoChange, before.num_control_points());
     for (std::size_t k = 0; k < poses.size(); ++k) {
       control_points_.middleRows(static_cast<Eigen::Index>(Dim * k), Dim) = poses[k];
     }
