@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #ifdef FLBC_LINKS_JPEG
@@ -67,6 +68,9 @@ std::string without_remarks(const std::string& path, const std::string& png,
   }
   return kept;
 }
+
+// PNG files are big-endian.
+constexpr bool kIsLittleEndian = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
 
 // Why libpng or libjpeg cannot go on.
 struct Failure {
@@ -138,25 +142,22 @@ Bitmap decode_png(const std::string& path, const std::string& content) {
   trying(path, failure, [&] {
     png_set_expand(png.it);
     png_set_add_alpha(png.it, 0xffff, PNG_FILLER_AFTER);
+    if (kIsLittleEndian) png_set_swap(png.it);
     png_set_interlace_handling(png.it);
     png_read_update_info(png.it, png.info);
   });
   picture.channels = png_get_channels(png.it, png.info);
-  Bytes bytes(png_get_rowbytes(png.it, png.info) * picture.height);
-  std::vector<png_bytep> rows;
-  for (Index y = 0; y < picture.height; ++y) {
-    rows.push_back(&bytes[png_get_rowbytes(png.it, png.info) * y]);
-  }
-  trying(path, failure, [&] { png_read_image(png.it, rows.data()); });
-  if (png_get_bit_depth(png.it, png.info) == 8) {
-    picture.samples.assign(bytes.begin(), bytes.end());
-    return picture;
-  }
-  picture.largest = 65535;
-  picture.samples.resize(bytes.size() / 2);
-  for (std::size_t k = 0; k < picture.samples.size(); ++k) {
-    picture.samples[k] = png_get_uint_16(&bytes[2 * k]);
-  }
+  if (png_get_bit_depth(png.it, png.info) == 16) picture.samples = std::vector<std::uint16_t>();
+  const auto read = [&](auto& samples) {
+    const auto length = std::size_t(picture.width) * picture.channels;
+    samples.resize(length * picture.height);
+    std::vector<png_bytep> rows;
+    for (Index y = 0; y < picture.height; ++y) {
+      rows.push_back(reinterpret_cast<png_bytep>(&samples[length * y]));
+    }
+    trying(path, failure, [&] { png_read_image(png.it, rows.data()); });
+  };
+  std::visit(read, picture.samples);
   return picture;
 }
 
@@ -176,14 +177,15 @@ Bitmap turned(const Bitmap& picture, int orientation) {
   const bool flips_rows = k == 2 || k == 3 || k == 5 || k == 6;
   Bitmap result = picture;
   if (is_transposed) std::swap(result.width, result.height);
-  auto sample = result.samples.begin();
+  const auto& samples = std::get<Bytes>(picture.samples);
+  auto sample = std::get<Bytes>(result.samples).begin();
   for (Index y = 0; y < result.height; ++y) {
     for (Index x = 0; x < result.width; ++x) {
       auto [column, row] = is_transposed ? std::pair(y, x) : std::pair(x, y);
       if (flips_columns) column = picture.width - 1 - column;
       if (flips_rows) row = picture.height - 1 - row;
       const auto from = (std::ptrdiff_t(row) * picture.width + column) * picture.channels;
-      sample = std::copy_n(picture.samples.begin() + from, picture.channels, sample);
+      sample = std::copy_n(samples.begin() + from, picture.channels, sample);
     }
   }
   return result;
@@ -217,10 +219,11 @@ Bitmap decode_jpeg(const std::string& path, const std::string& content) {
   trying(path, failure, [&] { jpeg_start_decompress(&jpeg); });
   const int colors = jpeg.output_components;
   Bitmap picture{Index(jpeg.output_width), Index(jpeg.output_height), colors + 1};
-  picture.samples.resize(std::size_t(picture.width) * picture.height * picture.channels, 255);
+  auto& samples = std::get<Bytes>(picture.samples);
+  samples.resize(std::size_t(picture.width) * picture.height * picture.channels, 255);
   Bytes row(std::size_t(picture.width) * colors);
   auto* to = row.data();
-  for (auto sample = picture.samples.begin(); jpeg.output_scanline < jpeg.output_height;) {
+  for (auto sample = samples.begin(); jpeg.output_scanline < jpeg.output_height;) {
     trying(path, failure, [&] { jpeg_read_scanlines(&jpeg, &to, 1); });
     for (auto from = row.begin(); from != row.end(); from += colors, ++sample) {
       sample = std::copy_n(from, colors, sample);
@@ -258,8 +261,6 @@ Bitmap read_picture(const std::string& path) {
 }
 
 void write_picture(const std::string& path, const Bitmap& picture) {
-  const bool is_deep = picture.largest > 255;
-  Bytes row(std::size_t(picture.width) * picture.channels * (is_deep ? 2 : 1));
   const auto encode = [&](std::ostream& file) {
     constexpr int kFast = 3;
     Failure failure;
@@ -272,7 +273,8 @@ void write_picture(const std::string& path, const Bitmap& picture) {
         },
         [](png_structp) {});
     trying(path, failure, [&] {
-      png_set_IHDR(png.it, png.info, picture.width, picture.height, is_deep ? 16 : 8,
+      png_set_IHDR(png.it, png.info, picture.width, picture.height,
+                   picture.largest() > 255 ? 16 : 8,
                    picture.channels == 2 ? PNG_COLOR_TYPE_GRAY_ALPHA : PNG_COLOR_TYPE_RGB_ALPHA,
                    PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
       png_set_compression_level(png.it, kFast);
@@ -284,14 +286,14 @@ void write_picture(const std::string& path, const Bitmap& picture) {
         png_write_chunk(png.it, reinterpret_cast<png_const_bytep>(type.data()),
                         reinterpret_cast<png_const_bytep>(data.data()), data.size());
       }
-      const auto* sample = picture.samples.data();
-      for (Index y = 0; y < picture.height; ++y) {
-        for (auto byte = row.begin(); byte != row.end(); ++sample) {
-          if (is_deep) *byte++ = static_cast<png_byte>(*sample >> 8);
-          *byte++ = static_cast<png_byte>(*sample & 255);
+      if (kIsLittleEndian && picture.largest() > 255) png_set_swap(png.it);
+      const auto write = [&](const auto& samples) {
+        const auto length = std::size_t(picture.width) * picture.channels;
+        for (Index y = 0; y < picture.height; ++y) {
+          png_write_row(png.it, reinterpret_cast<png_const_bytep>(&samples[length * y]));
         }
-        png_write_row(png.it, row.data());
-      }
+      };
+      std::visit(write, picture.samples);
       png_write_end(png.it, png.info);
     });
   };
@@ -316,13 +318,13 @@ void warn_staying(std::size_t staying, const std::string& file) {
 ModelFacets<2> load_silhouette(const std::string& path) {
   const auto picture = read_picture(path);
   constexpr int kHaze = 32;  // nobody sees a pixel with less than this part of the highest alpha
-  int lowest = picture.largest, highest = 0;
+  int lowest = picture.largest(), highest = 0;
   const auto count = std::size_t(picture.width) * picture.height;
   for (std::size_t k = 0; k < count; ++k) {
-    lowest = std::min<int>(lowest, picture.alpha(k));
-    highest = std::max<int>(highest, picture.alpha(k));
+    lowest = std::min(lowest, picture.alpha(k));
+    highest = std::max(highest, picture.alpha(k));
   }
-  Mask mask{picture.width, picture.height, lowest * 255 / picture.largest};
+  Mask mask{picture.width, picture.height, lowest * 255 / picture.largest()};
   for (Index y = mask.height - 1; y >= 0; --y) {
     for (Index x = 0; x < mask.width; ++x) {
       const int alpha = picture.alpha(std::size_t(y) * mask.width + x);

@@ -233,12 +233,11 @@ class Binding:
         ):
             raise InputError(f"picture has shape {array.shape} and type {array.dtype}, but needs "
                              "(height, width, 1 to 4 channels) and uint8 or uint16")
-        largest = int(np.iinfo(array.dtype).max)
         if samples.shape[2] % 2:
-            samples = np.concatenate([samples, np.full_like(samples[..., :1], largest)], axis=2)
-        moved, offset = self._any.deform_picture(
-            samples.astype(np.uint16), largest, self._pose(control_points), scale, size or (0, 0))
-        return moved.astype(array.dtype), offset
+            opaque = np.full_like(samples[..., :1], np.iinfo(array.dtype).max)
+            samples = np.concatenate([samples, opaque], axis=2)
+        return self._any.deform_picture(
+            np.ascontiguousarray(samples), self._pose(control_points), scale, size or (0, 0))
 
     def jacobians(self, control_points: CageLike) -> Floats:
         """The Jacobians of a deformation at the vertices, shape (P, d, d), from smooth gradients on

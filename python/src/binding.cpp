@@ -172,22 +172,23 @@ py::tuple deform_drawing(const AnyBinding& self, const std::string& svg, const D
   return py::make_tuple(moved, notes);
 }
 
-using Samples = py::array_t<std::uint16_t, py::array::c_style>;
-
 // The moved picture, and its place. \param size  in units of the model
-py::tuple deform_picture(const AnyBinding& self, const Samples& picture, int largest,
+template <class Sample>
+py::tuple deform_picture(const AnyBinding& self,
+                         const py::array_t<Sample, py::array::c_style>& picture,
                          const Doubles& pose, double scale, const std::array<double, 2>& size) {
   const auto& binding = in_plane(self);
   const auto extent = [&](int axis) { return static_cast<Index>(picture.shape(axis)); };
-  const io::Bitmap bitmap{
-      extent(1), extent(0), extent(2), largest, {picture.data(), picture.data() + picture.size()}};
+  using Samples = std::vector<Sample>;
+  const io::Bitmap bitmap{extent(1), extent(0), static_cast<int>(extent(2)),
+                          Samples(picture.data(), picture.data() + picture.size())};
   io::Bitmap moved;
   without_gil([&, points = points_of<2>(pose)] {
     return io::warp(bitmap, binding, {points}, scale, {size[0], size[1]},
                     [&](std::size_t, io::Bitmap result) { moved = std::move(result); });
   });
   const std::vector<py::ssize_t> shape{moved.height, moved.width, moved.channels};
-  return py::make_tuple(Samples(shape, moved.samples.data()),
+  return py::make_tuple(py::array_t<Sample>(shape, std::get<Samples>(moved.samples).data()),
                         py::make_tuple(moved.left, moved.top));
 }
 
@@ -224,7 +225,8 @@ void bind_bindings(py::module_& module) {
       .def("adjoint", &adjoint)
       .def("fit", &fit)
       .def("deform_drawing", &deform_drawing)
-      .def("deform_picture", &deform_picture)
+      .def("deform_picture", &deform_picture<std::uint8_t>)
+      .def("deform_picture", &deform_picture<std::uint16_t>)
       .def("save", &save)
       .def("content", &content);
   module.def("load_binding", &load);

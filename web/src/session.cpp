@@ -614,8 +614,8 @@ class Work {
     } else {
       const auto pixels = given["pixels"];
       const io::Bitmap source{
-          pixels["width"].template as<Index>(), pixels["height"].template as<Index>(), 4, 255,
-          emscripten::convertJSArrayToNumberVector<std::uint16_t>(pixels["data"])};
+          pixels["width"].template as<Index>(), pixels["height"].template as<Index>(), 4,
+          emscripten::convertJSArrayToNumberVector<std::uint8_t>(pixels["data"])};
       std::vector<PointList<2>> poses;
       for (const auto& pose : emscripten::vecFromJSArray<val>(given["poses"])) {
         poses.push_back(pose_in(pose));
@@ -631,8 +631,7 @@ class Work {
                                  {"height", moved.height},
                                  {"left", moved.left},
                                  {"top", moved.top}});
-        result.set("data",
-                   array_of(std::vector<std::uint8_t>(moved.samples.begin(), moved.samples.end())));
+        result.set("data", array_of(std::get<std::vector<std::uint8_t>>(moved.samples)));
         return result;
       };
       const auto sheet = has("sheet") ? given["sheet"].template as<std::string>() : "";

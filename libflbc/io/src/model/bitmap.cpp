@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <tuple>
+#include <type_traits>
 
 #include <Eigen/Geometry>
 
@@ -109,15 +111,19 @@ void for_each_row(const Corners& corners, const Box& canvas, const Act& act) {
 }
 
 // The pixels of a picture that stay or move.
+template <class Sample>
 struct Source {
   const Bitmap& picture;
+  const Sample* samples;
   std::vector<bool> is_moving;                 // none: all
   std::vector<Eigen::AlignedBox2d> visible{};  // pixels of each triangle at rest
   std::size_t staying = 0;
 
   // \param rest  triangles in the picture
-  Source(const Bitmap& of, const std::vector<Triangle>& rest)
-      : picture(of), is_moving(static_cast<std::size_t>(of.width) * of.height, false) {
+  Source(const Bitmap& of, const std::vector<Sample>& samples_of, const std::vector<Triangle>& rest)
+      : picture(of),
+        samples(samples_of.data()),
+        is_moving(static_cast<std::size_t>(of.width) * of.height, false) {
     const Box canvas(Pixel(0, 0), Pixel(of.width, of.height));
     for (const auto& triangle : rest) {
       auto& box = visible.emplace_back();
@@ -125,16 +131,16 @@ struct Source {
         for (Index x = begin; x < end; ++x) {
           const auto pixel = static_cast<std::size_t>(y) * of.width + x;
           is_moving[pixel] = true;
-          if (of.alpha(pixel) > 0) box.extend(Vector<2>(x, y)).extend(Vector<2>(x + 1, y + 1));
+          if (alpha(pixel) > 0) box.extend(Vector<2>(x, y)).extend(Vector<2>(x + 1, y + 1));
         }
       });
     }
     constexpr int kHaze = 32;
     bool all_move = true;
     for (std::size_t k = 0; k < is_moving.size(); ++k) {
-      if (is_moving[k] || of.alpha(k) == 0) continue;
+      if (is_moving[k] || alpha(k) == 0) continue;
       all_move = false;
-      if (kHaze * of.alpha(k) >= of.largest) ++staying;
+      if (kHaze * alpha(k) >= of.largest()) ++staying;
     }
     if (all_move) is_moving.clear();
   }
@@ -155,25 +161,28 @@ struct Source {
   }
 
  private:
+  int alpha(std::size_t pixel) const { return samples[(pixel + 1) * picture.channels - 1]; }
+
   void add(Index x, Index y, float share, bool moving, std::array<float, 4>& sum) const {
     if (share == 0 || x < 0 || y < 0 || x >= picture.width || y >= picture.height) return;
     const auto pixel = static_cast<std::size_t>(y) * picture.width + x;
     if (!is_moving.empty() && is_moving[pixel] != moving) return;
-    const auto* samples = &picture.samples[pixel * picture.channels];
+    const auto* own = &samples[pixel * picture.channels];
     const int last = picture.channels - 1;
-    const float weight = share * static_cast<float>(samples[last]);
-    for (int c = 0; c < last; ++c) sum[c] += weight * static_cast<float>(samples[c]);
+    const float weight = share * static_cast<float>(own[last]);
+    for (int c = 0; c < last; ++c) sum[c] += weight * static_cast<float>(own[c]);
     sum[last] += weight;
   }
 };
 
 // Puts part of a row of a triangle over what is there. \param first  its corner on the canvas
 // \param covered  whether the pixels have a part of the mesh
-void paint(const Source& source, const Triangle& triangle, const Vector<2>& first, Index count,
-           std::uint16_t* pixel, char* covered) {
+template <class Sample>
+void paint(const Source<Sample>& source, const Triangle& triangle, const Vector<2>& first,
+           Index count, Sample* pixel, char* covered) {
   constexpr int kMost = 8;  // samples of a pixel along an axis, where the picture shrinks
   const int channels = source.picture.channels, last = channels - 1;
-  const auto largest = static_cast<float>(source.picture.largest);
+  const auto largest = static_cast<float>(std::numeric_limits<Sample>::max());
   const double shrink = triangle.to_picture.colwise().norm().maxCoeff();
   const auto n = static_cast<int>(std::lround(std::clamp<double>(shrink, 1, kMost)));
   const auto share = 1 / static_cast<float>(n * n);
@@ -192,7 +201,7 @@ void paint(const Source& source, const Triangle& triangle, const Vector<2>& firs
     const float alpha = share * sum[last];
     if (alpha == 0) continue;
     const float below = static_cast<float>(pixel[last]) * (1 - alpha / largest);
-    const auto rounded = [](float sample) { return static_cast<std::uint16_t>(sample + 0.5F); };
+    const auto rounded = [](float sample) { return static_cast<Sample>(sample + 0.5F); };
     for (int c = 0; c < last; ++c) {
       pixel[c] = rounded((share * sum[c] + below * static_cast<float>(pixel[c])) / (alpha + below));
     }
@@ -209,16 +218,20 @@ void require_possible(const Vector<2>& sides) {
   throw InputError(text.str());
 }
 
+template <class Sample>
 Bitmap blank(const Bitmap& like, const Box& canvas) {
   const auto [left, top] = std::pair(canvas.min().x(), canvas.min().y());
   const Index width = canvas.sizes().x(), height = canvas.sizes().y();
-  std::vector<std::uint16_t> samples(static_cast<std::size_t>(width) * height * like.channels);
-  return {width, height, like.channels, like.largest, std::move(samples), left, top, like.chunks};
+  std::vector<Sample> samples(static_cast<std::size_t>(width) * height * like.channels);
+  return {width, height, like.channels, std::move(samples), left, top, like.chunks};
 }
 
-Bitmap render(const Source& source, const std::vector<Triangle>& triangles, const Box& canvas) {
+template <class Sample>
+Bitmap render(const Source<Sample>& source, const std::vector<Triangle>& triangles,
+              const Box& canvas) {
   constexpr Index kRows = 32;  // that one thread paints
-  auto result = blank(source.picture, canvas);
+  auto result = blank<Sample>(source.picture, canvas);
+  auto& samples = std::get<std::vector<Sample>>(result.samples);
   const auto width = static_cast<std::size_t>(result.width);
   parallel_for((result.height + kRows - 1) / kRows, [&](Index block) {
     const Index top = canvas.min().y() + kRows * block;
@@ -231,19 +244,18 @@ Bitmap render(const Source& source, const std::vector<Triangle>& triangles, cons
       for_each_row(triangle.corners, part, [&](Index y, Index begin, Index end) {
         const auto pixel = width * (y - top) + (begin - result.left);
         paint(source, triangle, Vector<2>(begin, y), end - begin,
-              &result.samples[(pixel + width * (top - result.top)) * result.channels],
-              &covered[pixel]);
+              &samples[(pixel + width * (top - result.top)) * result.channels], &covered[pixel]);
       });
     }
   });
   return result;
 }
 
-}  // namespace
-
-std::size_t warp(const Bitmap& picture, const Binding<2>& binding,
-                 const std::vector<PointList<2>>& poses, double scale, const Vector<2>& size,
-                 const std::function<void(std::size_t, Bitmap)>& take) {
+template <class Sample>
+std::size_t warp_samples(const Bitmap& picture, const std::vector<Sample>& samples,
+                         const Binding<2>& binding, const std::vector<PointList<2>>& poses,
+                         double scale, const Vector<2>& size,
+                         const std::function<void(std::size_t, Bitmap)>& take) {
   // Widths of the strip, in pixels: of those that move, and of those that show how these fade out.
   constexpr double kMoving = 1.5, kShown = 3;
   if (!(scale > 0) || !std::isfinite(scale)) throw OptionError("scale must be positive");
@@ -259,7 +271,7 @@ std::size_t warp(const Bitmap& picture, const Binding<2>& binding,
   // Masks hold for it as well.
   const auto moving = binding.transferred(binding.domain.points, {}, OutsidePoints::kNearest);
   const DomainMesh<2> mesh{in_pixels(binding.domain.points), binding.domain.cells};
-  const Source source(picture, triangles_of(mesh, mesh.points, 1, kMoving));
+  const Source<Sample> source(picture, samples, triangles_of(mesh, mesh.points, 1, kMoving));
   const auto in_pose = [&](const PointList<2>& pose) {
     return triangles_of(mesh, scale * in_pixels(moving.deform(pose)), scale, kShown);
   };
@@ -296,6 +308,18 @@ std::size_t warp(const Bitmap& picture, const Binding<2>& binding,
   return source.staying;
 }
 
+}  // namespace
+
+std::size_t warp(const Bitmap& picture, const Binding<2>& binding,
+                 const std::vector<PointList<2>>& poses, double scale, const Vector<2>& size,
+                 const std::function<void(std::size_t, Bitmap)>& take) {
+  return std::visit(
+      [&](const auto& samples) {
+        return warp_samples(picture, samples, binding, poses, scale, size, take);
+      },
+      picture.samples);
+}
+
 Bitmap sprite_sheet(const std::vector<Bitmap>& cells, const std::vector<std::string>& names,
                     const std::string& file, double seconds, std::string& json) {
   const auto& first = cells.front();
@@ -305,18 +329,29 @@ Bitmap sprite_sheet(const std::vector<Bitmap>& cells, const std::vector<std::str
   const auto columns = static_cast<Index>(std::clamp<double>(std::round(square), 1, count));
   const Index rows = (count + columns - 1) / columns;
   require_possible({1.0 * columns * width, 1.0 * rows * height});
-  auto sheet = blank(first, {Pixel(0, 0), Pixel(columns * width, rows * height)});
   const auto box = [](Index x, Index y, Index w, Index h) {
     return nlohmann::ordered_json{{"x", x}, {"y", y}, {"w", w}, {"h", h}};
   };
+  const auto draw = [&](const auto& like) {
+    using Samples = std::decay_t<decltype(like)>;
+    auto sheet = blank<typename Samples::value_type>(
+        first, {Pixel(0, 0), Pixel(columns * width, rows * height)});
+    auto& samples = std::get<Samples>(sheet.samples);
+    const std::ptrdiff_t row = std::ptrdiff_t(width) * first.channels;
+    for (Index k = 0; k < count; ++k) {
+      auto from = std::get<Samples>(cells[k].samples).begin();
+      auto to = samples.begin() + std::ptrdiff_t(k / columns) * height * row * columns +
+                k % columns * row;
+      for (Index y = 0; y < height; ++y, from += row, to += row * columns) {
+        std::copy_n(from, row, to);
+      }
+    }
+    return sheet;
+  };
+  auto sheet = std::visit(draw, first.samples);
   nlohmann::ordered_json frames;
   for (Index k = 0; k < count; ++k) {
     const Index left = k % columns * width, top = k / columns * height;
-    const std::ptrdiff_t row = std::ptrdiff_t(width) * first.channels;
-    for (Index y = 0; y < height; ++y) {
-      const auto at = (std::ptrdiff_t(top + y) * sheet.width + left) * first.channels;
-      std::copy_n(cells[k].samples.begin() + y * row, row, sheet.samples.begin() + at);
-    }
     frames[names[k]] = {{"frame", box(left, top, width, height)},
                         {"rotated", false},
                         {"trimmed", false},

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "flbc/binding.h"
@@ -15,16 +16,19 @@ namespace flbc::io {
 //! Pixels row by row from the top. Colors are not premultiplied by alpha, the last channel.
 struct Bitmap {
   Index width = 0, height = 0;
-  int channels = 4;   //!< 2: gray and alpha; 4: red, green, blue, and alpha
-  int largest = 255;  //!< sample of full intensity: 255 or 65535
-  std::vector<std::uint16_t> samples{};
+  int channels = 4;  //!< 2: gray and alpha; 4: red, green, blue, and alpha
+  std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>> samples{};
   //! Upper left corner, in pixels of this picture from that of the picture that it was made of.
   Index left = 0, top = 0;
   //! Type and content of the chunks of a PNG file that say what the pixels mean.
   std::vector<std::pair<std::string, std::string>> chunks{};
 
+  //! Sample of full intensity: 255 or 65535.
+  int largest() const { return samples.index() == 0 ? 255 : 65535; }
   //! Alpha of a pixel, counted row by row.
-  std::uint16_t alpha(std::size_t pixel) const { return samples[(pixel + 1) * channels - 1]; }
+  int alpha(std::size_t pixel) const {
+    return std::visit([&](const auto& of) { return int{of[(pixel + 1) * channels - 1]}; }, samples);
+  }
 };
 
 //! Moves pixels with the domain mesh of a binding. What moves farther is in front. Pixels outside

@@ -248,8 +248,7 @@ struct SvgDocument::Content {
     Path path{};          // in units of the points; empty: the element moves by a map
     bool is_similarity = false;
     std::vector<Vector<2>> corners{};  // of an element that moves by a map, in units of the points
-    std::vector<PathSamples> samples{};                     // of the path
-    std::size_t begin = 0, count = 0;                       // of its points
+    std::size_t begin = 0, count = 0;  // of its points
     std::vector<std::pair<xml_node, Affine2>> gradients{};  // with their transform at rest
   };
   // An element that is to be visited.
@@ -510,27 +509,25 @@ struct SvgDocument::Content {
       }
     }
     drawing_size = box.isEmpty() ? 1 : std::max(box.sizes().maxCoeff(), 1e-300);
-    std::size_t count = 0;
+    std::vector<Vector<2>> all;
     for (auto& target : targets) {
-      if (!target.path.empty()) target.samples.emplace_back(target.path, drawing_size);
-      target.begin = count;
-      target.count = target.path.empty() ? target.corners.size() : target.samples[0].size();
-      count += target.count;
-    }
-    points.resize(2, static_cast<Eigen::Index>(count));
-    for (const auto& target : targets) {
-      const auto& own = target.path.empty() ? target.corners : target.samples[0].points();
-      for (std::size_t k = 0; k < own.size(); ++k) {
-        points.col(static_cast<Eigen::Index>(target.begin + k)) = own[k];
-      }
+      const auto own = points_of(target);
+      target.begin = all.size();
+      target.count = own.size();
       constexpr double kMost = 1e15;
-      const auto places = points.middleCols(static_cast<Eigen::Index>(target.begin),
-                                            static_cast<Eigen::Index>(target.count));
-      if (!(places.cwiseAbs().maxCoeff() < kMost)) {
+      for (const auto& point : own) {
+        if ((point.array().abs() < kMost).all()) continue;
         throw InputError(name + ": the coordinates of " + name_in_words(target.element) +
                          " are out of range");
       }
+      all.insert(all.end(), own.begin(), own.end());
     }
+    points = Eigen::Map<PointList<2>>(all.front().data(), 2, static_cast<Eigen::Index>(all.size()));
+  }
+
+  // Samples are not kept, because those of a large drawing fill the memory.
+  std::vector<Vector<2>> points_of(const Target& target) const {
+    return target.path.empty() ? target.corners : PathSamples(target.path, drawing_size).points();
   }
 
   void move(Target& target, const PointList<2>& moved) const {
@@ -545,7 +542,8 @@ struct SvgDocument::Content {
     }
     constexpr double kTolerance = 5e-4, kDigits = 1e-6;  // of the size of the drawing
     const Affine2 to_root = target.parent * target.own, back = to_root.inverse();
-    auto path = target.samples[0].fitted(to, kTolerance * drawing_size);
+    const PathSamples samples(target.path, drawing_size);
+    auto path = samples.fitted(to, kTolerance * drawing_size);
     for (auto& part : path) {
       for (auto& cubic : part.cubics) cubic.points = back * cubic.points;
     }
@@ -553,7 +551,7 @@ struct SvgDocument::Content {
         kDigits * drawing_size / std::sqrt(std::abs(to_root.linear().determinant()));
     const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(unit))), 0, 12);
     set_attribute(target.element, "d", io::to_text(path, decimals));
-    const auto& from = target.samples[0].points();
+    const auto& from = samples.points();
     for (auto& [gradient, rest] : target.gradients) {
       const Affine2 map = back * fitted_map(from, to, false) * to_root;
       set_attribute(gradient, "gradientTransform", to_text(map * rest));

@@ -59,7 +59,7 @@ Affine2 fitted_map(const std::vector<Vector<2>>& from, const std::vector<Vector<
 //! parameter, more on longer ones. The ends of a cubic are among them.
 class PathSamples {
  public:
-  //! \param size  of the drawing, in the units of the path
+  //! \param path  must outlive them \param size  of the drawing, in the units of the path
   PathSamples(const Path& path, double size);
 
   std::size_t size() const { return points_.size(); }
@@ -72,7 +72,7 @@ class PathSamples {
   Path fitted(const std::vector<Vector<2>>& moved, double tolerance) const;
 
  private:
-  Path path_;
+  const Path& path_;
   std::vector<Vector<2>> points_{};
   std::vector<std::size_t> begins_{};  // of the samples of each cubic, over all subpaths
 };
