@@ -50,6 +50,14 @@ def box(low, high, counts):
     return flbc.Cage(np.array(low) + (np.array(high) - low) * points[used], faces.reshape(-1, 4))
 
 
+def moves_of(cage):
+    """Control points behind the wall, not those at the edge of the box, move into the duct."""
+    x, y, z = cage.points.T
+    moves = np.zeros_like(cage.points)
+    moves[(z == z.min()) & (x > x.min()) & (x < x.max()) & (y > y.min()) & (y < y.max()), 2] = 1
+    return moves
+
+
 def write_su2(path, points, cells, wall):
     rows = [f"12 {' '.join(map(str, cell))} {k}" for k, cell in enumerate(cells)]
     places = [f"{x!r} {y!r} {z!r} {k}" for k, (x, y, z) in enumerate(points.tolist())]
@@ -76,10 +84,7 @@ def main(out):
     # The cage goes through the duct above the wall, and continues behind the wall and the sides.
     cage = box([0.75, -0.2, -0.3], [2.25, 1.2, 0.7], (6, 4, 3))
     binding = flbc.bind(points, cells[:, SIDES].reshape(-1, 4), cage, outside="keep").joined("smooth")
-    # Control points behind the wall, not those at the edge of the box, move into the duct.
-    x, y, z = cage.points.T
-    moves = np.zeros_like(cage.points)
-    moves[(z == z.min()) & (x > x.min()) & (x < x.max()) & (y > y.min()) & (y < y.max()), 2] = 1
+    moves = moves_of(cage)
     out.mkdir(exist_ok=True)
     write_su2(out / "duct.su2", points, cells, wall)
     shapes = [points]
@@ -96,4 +101,5 @@ def main(out):
     draw(out / "duct.svg", [shapes[0], shapes[3], shapes[5]])
 
 
-main(pathlib.Path(sys.argv[1]))
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]))

@@ -1,6 +1,10 @@
 """cageMotion and cageDeformMesh agree with flbc deform, on any number of ranks."""
 
+import os
+import pathlib
+import re
 import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -174,6 +178,28 @@ class OpenFoamTest(unittest.TestCase):
         arrays["domain_data"] = arrays["domain_data"][::-1]
         np.savez(self.case.path("wrong.npz"), **arrays)
         self.refused("the weights do not put vertex", binding="wrong.npz")
+
+    def test_the_table_of_the_how_to_is_what_the_example_prints(self):
+        source = pathlib.Path(__file__).parents[2]
+        example = source / "examples/duct_openfoam.py"
+        path = os.pathsep.join([os.path.dirname(UTILITY), os.environ["PATH"]])
+        done = subprocess.run(
+            ["/usr/bin/python3", example, self.folder + "/duct"], text=True, capture_output=True,
+            check=False, env={**channel.ENVIRONMENT, **os.environ, "PATH": path})
+        if "No module named" in done.stderr:
+            self.skipTest(done.stderr)
+        printed = [re.split("  +", line.strip()) for line in done.stdout.splitlines()[2:]]
+        written = (source / "docs/how-to/engineers.md").read_text()
+        rows = [line.strip("| ").split(" | ") for line in written.splitlines() if line.startswith("| 0.")]
+        self.assertEqual(len(printed), len(rows), done.stderr)
+        for own, other in zip(printed, rows):
+            for value, expected in zip(own, other, strict=True):
+                np.testing.assert_allclose(numbers_of(value), numbers_of(expected), rtol=0.05)
+
+
+def numbers_of(text):
+    """Of a cell of the table; none if it has words."""
+    return [float(number) for number in text.split(", ")] if text[0].isdigit() else []
 
 
 if __name__ == "__main__":
