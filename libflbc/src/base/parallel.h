@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/team_size.h"
 #include "flbc/types.h"
 
 namespace flbc {
@@ -46,14 +47,15 @@ constexpr int kFewestInParallel = 256;
 
 //! Calls body(thread, number of threads) once in each thread of a team. When all are done, rethrows
 //! the exception of the first thread that threw one. \param several  false: the calling thread
-//! only. Teams do not differ in size otherwise, since OpenMP would end and start threads each time
+//! only. Teams seldom differ in size otherwise, since OpenMP ends and starts threads each time
 template <class Body>
 void in_threads(bool several, const Body& body) {
   // Even a region of one thread creates and closes semaphores on Windows. They are slow under Wine.
-  if ((!several || omp_get_max_threads() == 1) && omp_get_thread_num() == 0) return body(0, 1);
+  const int threads = several ? team_size() : 1;
+  if (threads == 1 && omp_get_thread_num() == 0) return body(0, 1);
   std::exception_ptr error;
-  int first = omp_get_max_threads();
-#pragma omp parallel if (several)
+  int first = threads;
+#pragma omp parallel num_threads(threads)
   {
     const int thread = omp_get_thread_num();
     try {

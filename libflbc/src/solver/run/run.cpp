@@ -7,10 +7,8 @@
 #include <string>
 
 #include "base/instantiate.h"
-#include "base/parallel.h"
 #include "flbc/errors.h"
 #include "flbc/quality.h"
-#include "solver/run/thread_choice.h"
 
 namespace flbc {
 namespace {
@@ -66,14 +64,12 @@ void run(Iteration<Dim>& iteration, RunState& state, const RunContext<Dim>& cont
   const int before = state.made;
   const int limit =
       before + std::min(context.settings.max_iterations, std::numeric_limits<int>::max() - before);
-  ThreadChoice choice(omp_get_max_threads());
   report.status = SolveStatus::kIterationLimit;
   report.criterion = Criterion::kNone;
   while (state.made < limit && (state.made == before || !context.reporter.is_late())) {
     context.reporter.poll();
     const int count = std::min(interval - state.made % interval, limit - state.made);
-    const auto step =
-        choice.with_threads(count, [&] { return iteration.iterate(state.made, count); });
+    const auto step = iteration.iterate(state.made, count);
     state.made += count;
     report.iterations = state.made - before;
     const bool evaluates = state.made % interval == 0;

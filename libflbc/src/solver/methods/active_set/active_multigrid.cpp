@@ -9,6 +9,7 @@
 #include "base/flush_denormals.h"
 #include "base/instantiate.h"
 #include "base/padded_rows.h"
+#include "base/team_size.h"
 #include "linear/aggregation.h"
 
 namespace flbc::active_set {
@@ -230,7 +231,7 @@ template <class Scalar, int Dim>
 void ActiveMultigrid<Scalar, Dim>::cycle(Scalar* rows) {
   // The threads wait for each other, so none of them may throw.
   AlignedArray<Scalar> works(2 * work_size_ * static_cast<std::size_t>(omp_get_max_threads()));
-#pragma omp parallel
+#pragma omp parallel num_threads(team_size())
   {
     const FlushDenormals flush;
     Scalar* const work = works.data() + 2 * work_size_ * omp_get_thread_num();
