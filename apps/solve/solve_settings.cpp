@@ -121,8 +121,8 @@ void add_solver_options(CLI::App& command, SolveSettings& settings) {
                      "problem of the papers) to 0.03 (default: 0.003; 0 for paper and lbc2014)");
   command.add_option("--tolerance", options.tolerance,
                      "target for the estimated mean squared error of the weights, or for the "
-                     "residuals of paper and lbc2014 (default: 1e-6; 1e-7 for paper and lbc2014; "
-                     "none with --smoothness 0, see --gap)");
+                     "residuals of paper and lbc2014 (default: 1e-6; 1e-8 with --certify; 1e-7 for "
+                     "paper and lbc2014; none with --smoothness 0, see --gap)");
   command.add_flag("--certify", options.certify,
                    "prove by how much the objective can exceed its minimum");
   command.add_option("--threads", options.threads, "number of threads (default: all cores)");

@@ -206,7 +206,7 @@ NUMBERS = {
     "influences.local": lambda rows: span((value(r, "local") for r in rows), factor),
     "influences.harmonic": lambda rows: span((value(r, "harmonic") for r in rows), factor),
     "influences.share": lambda rows: span((100 * ratio(r, "local", "harmonic") for r in rows), factor),
-    "gaps.default": lambda rows: span((value(r, "gap") for r in rows if r["tolerance"] == "1e-6"), factor),
+    "gaps.default": lambda rows: short(max(value(r, "gap") for r in rows if r["tolerance"] == "1e-8")),
     "models.horse.vertices": lambda rows: thousands(smallest(rows, "horse")["vertices"]),
     "models.horse.seconds": lambda rows: short(value(smallest(rows, "horse"), "total_seconds")),
     "models.ratio.bind": lambda rows: span(map(with_mesh, rows), factor),

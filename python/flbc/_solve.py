@@ -73,8 +73,8 @@ OPTIONS = """\
         weighted displacements to them.
     tolerance : float, optional
         Target for the estimated mean squared error of the weights, or for the residuals of
-        "paper" and "lbc2014". Default: 1e-6, 1e-7 for "paper" and "lbc2014", and none with
-        smoothness 0.
+        "paper" and "lbc2014". Default: 1e-6, 1e-8 with certify, 1e-7 for "paper" and "lbc2014",
+        and none with smoothness 0.
     gap : float, optional
         Certified relative gap of the objective that also ends a solve; 0 for none. Default: 0,
         and 1e-3 with smoothness 0 and without tolerance.

@@ -12,8 +12,9 @@ const glue = {
   wasmModule: compiled,
   instantiateWasm(imports, done) {
     glue.wasmImports = imports;
-    done(new WebAssembly.Instance(compiled, imports));
-    return {};
+    const instance = new WebAssembly.Instance(compiled, imports);
+    done(instance);
+    return instance.exports;  // newer versions of Emscripten take these
   },
 };
 process.exitCode = 1;

@@ -90,7 +90,8 @@ struct SolverOptions {
 
   //! Tolerance, > 0.
   //! - kWeights: estimated mean squared error of the weights (equation (5) of the paper). The
-  //!   estimate extrapolates how changes shrink from iteration to iteration. Default: 1e-6.
+  //!   estimate extrapolates how changes shrink from iteration to iteration. Default: 1e-6, and
+  //!   1e-8 with `certify`, whose bound is loose otherwise.
   //! - kGradient: the same, relative to the optimum without non-negativity. Default: 1e-6.
   //! - kPaper, kLbc2014: section 5 of the paper: residual norms at most N_p * tolerance and 10 *
   //!   N_d * tolerance. Default: 1e-7, as in the paper.

@@ -41,7 +41,8 @@ EM_JS(int, flbc_run_in_copy, (int entry, std::uintptr_t stack, const void* data_
   if (old) bytes.fill(0, heap_end);
   const use = (memory) => {
     wasmMemory = memory;
-    updateGlobalBufferAndViews(memory.buffer);
+    if (typeof updateMemoryViews == "function") updateMemoryViews();
+    else updateGlobalBufferAndViews(memory.buffer);  // of older versions of Emscripten
   };
   Module["sentParts"] = [];
   use(copy);

@@ -33,6 +33,12 @@ double choose_relaxation(Method method, bool has_penalty) {
   }
 }
 
+double default_tolerance(const SolverOptions& options) {
+  if (!plan::smooths(options.method)) return plan::kPublishedTolerance;
+  const bool certifies = options.certify && options.method == Method::kWeights;
+  return certifies ? plan::kCertifiedTolerance : plan::kTolerance;
+}
+
 }  // namespace
 
 plan::Settings plan::settings_of(const SolverOptions& options) {
@@ -41,7 +47,7 @@ plan::Settings plan::settings_of(const SolverOptions& options) {
   const bool smooths = plan::smooths(method);
   settings.smoothness = options.smoothness.value_or(smooths ? kSmoothness : 0);
   settings.non_negative = choose_non_negative(method, options.non_negative);
-  settings.tolerance = options.tolerance.value_or(smooths ? kTolerance : kPublishedTolerance);
+  settings.tolerance = options.tolerance.value_or(default_tolerance(options));
   const bool needs_gap = smooths && *settings.smoothness == 0 && !options.tolerance &&
                          settings.non_negative != NonNegative::kOff &&
                          options.active_set != ActiveSet::kOn;
