@@ -274,11 +274,20 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
   Binding<Dim> binding;
   Motion<Dim> moved = [&](const PointList<Dim>& pose) { return binding.deform(pose); };
   std::optional<PointJacobians<Dim>> jacobians;
-  if (arguments.method.empty()) {
+  const bool is_drawing = model.drawing() != nullptr;
+  if (is_drawing && arguments.joint.empty()) {
+    binding = load_domain_binding<Dim>(arguments.files);
+    const auto at = drawing_by_mesh(binding, model, arguments.file.model, arguments.outside);
+    // The displacement is measured before the result is written.
+    moved = [at, pose = PointList<Dim>(), points = PointList<Dim>()](const auto& next) mutable {
+      if (pose.size() == 0 || pose != next) points = at(pose = next);
+      return points;
+    };
+  } else if (arguments.method.empty()) {
     binding = bind_model(model, poses.front(), arguments);
     join(binding, arguments.joint, arguments.file.model, arguments.quiet ? nullptr : &poses);
     if (needs_jacobians(arguments)) jacobians = binding.point_jacobians();
-    if (!arguments.quiet && !arguments.is_relative && model.drawing() == nullptr) {
+    if (!arguments.quiet && !arguments.is_relative && !is_drawing) {
       warn_outside(binding, arguments.file.model);
     }
   } else {
@@ -298,8 +307,7 @@ void deform_model(const DeformArguments& arguments, const CageFiles& cages) {
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   if (arguments.quiet) return;
   print_summary(model, poses, displacement, seconds.count(), arguments);
-  if (arguments.files.has_cage() && model.drawing() == nullptr)
-    warn_border(binding, arguments.file.model, poses);
+  if (arguments.files.has_cage() && !is_drawing) warn_border(binding, arguments.file.model, poses);
 }
 
 void deform_picture(const DeformArguments& arguments, const CageFiles& cages) {

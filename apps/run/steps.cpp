@@ -64,10 +64,14 @@ void compute_weights(Run<Dim>& run) {
   if (!arguments.quiet) warn_outside(solver.binding(), arguments.settings.model);
   if (run.inputs.follower) {
     const auto& follower = *run.inputs.follower;
-    run.follower =
-        bind_by_mesh(solver.binding(), follower, arguments.follower, arguments.settings.outside);
-    const bool is_drawing = follower.drawing() != nullptr;
-    if (!arguments.quiet && !is_drawing) warn_outside(run.follower, arguments.follower);
+    const auto& file = arguments.follower;
+    const auto outside = arguments.settings.outside;
+    if (follower.drawing() != nullptr) {
+      run.drawing = drawing_by_mesh(solver.binding(), follower, file, outside);
+    } else {
+      run.follower = bind_by_mesh(solver.binding(), follower, file, outside);
+      if (!arguments.quiet) warn_outside(run.follower, file);
+    }
   }
   const auto delivered = measure_quality(run.cage.points, run.attached(), run.weights());
   run.report["solve"] = solver.json(delivered);
@@ -112,14 +116,16 @@ template <int Dim>
 void deform_follower(Run<Dim>& run) {
   const auto& follower = *run.inputs.follower;
   std::optional<PointJacobians<Dim>> jacobians;
-  if (follower.drawing() == nullptr) jacobians = run.follower.point_jacobians();
+  if (!run.drawing) jacobians = run.follower.point_jacobians();
   for (const auto& pose : run.poses()) {
     const auto name = name_of_follower(pose.number, run.poses().size(), run.arguments);
     Facts facts;
-    facts << run.follower.points.cols() << (jacobians ? " splats" : " points of curves");
+    facts << follower.points().cols() << (jacobians ? " splats" : " points of curves");
     run.folder.add(name, facts.text(), [&](const std::string& path) {
       naming(path, [&] {
-        follower.write(path, run.follower.deform(pose.points), {}, 0,
+        const auto moved =
+            run.drawing ? run.drawing(pose.points) : run.follower.deform(pose.points);
+        follower.write(path, moved, {}, 0,
                        jacobians ? jacobians->at(pose.points) : Eigen::MatrixXd());
       });
     });

@@ -26,6 +26,7 @@ struct Run {
   Binding<Dim> reduced{};       //!< of the shape's points, at most so many influences of each
   Displacement displacement{};  //!< in the poses
   Binding<Dim> follower{};      //!< of RunInputs::follower
+  Motion<Dim> drawing{};        //!< of RunInputs::follower, if it is one
 
   const std::vector<Pose<Dim>>& poses() const { return inputs.poses; }
   const Shape<Dim>& shape() const { return inputs.shape; }

@@ -47,6 +47,18 @@ void require_reproduction(const SparseWeights& weights, const Cage<Dim>& rest,
   throw InputError(text.str());
 }
 
+template <int Dim>
+OutsidePoints policy_by_mesh(const Binding<Dim>& bound, const MovableModel<Dim>& model,
+                             const std::string& file, OutsidePoints outside) {
+  if (outside == OutsidePoints::kFail) outside = bound.policy;
+  if (model.drawing() == nullptr || outside != OutsidePoints::kFail) return outside;
+  const auto beyond = points_outside(bound.cage, model.points());
+  if (beyond.empty()) return outside;
+  std::cerr << "flbc: " << file << ": " << model.drawing()->element_of(beyond.front())
+            << " is outside the cage, and stays there; --outside nearest lets it follow\n";
+  return OutsidePoints::kKeep;
+}
+
 }  // namespace
 
 bool BindingFiles::is_one() const {
@@ -177,24 +189,27 @@ Index count_without_weights(const SparseWeights& weights) {
 }
 
 template <int Dim>
+Motion<Dim> drawing_by_mesh(const Binding<Dim>& bound, const MovableModel<Dim>& model,
+                            const std::string& file, OutsidePoints outside) {
+  outside = policy_by_mesh(bound, model, file, outside);
+  if (outside == OutsidePoints::kFail) outside = OutsidePoints::kKeep;  // none is outside
+  return [&bound, &points = model.points(), file, outside](const PointList<Dim>& pose) {
+    return naming(file, [&] { return bound.deform(pose, points, outside); });
+  };
+}
+
+template <int Dim>
 Binding<Dim> bind_by_mesh(const Binding<Dim>& bound, const MovableModel<Dim>& model,
                           const std::string& file, OutsidePoints outside) {
-  if (outside == OutsidePoints::kFail) outside = bound.policy;
-  const auto* drawing = model.drawing();
-  if (drawing != nullptr && outside == OutsidePoints::kFail) {
-    const auto beyond = points_outside(bound.cage, model.points());
-    if (!beyond.empty()) {
-      std::cerr << "flbc: " << file << ": " << drawing->element_of(beyond.front())
-                << " is outside the cage, and stays there; --outside nearest lets it follow\n";
-      outside = OutsidePoints::kKeep;
-    }
-  }
+  outside = policy_by_mesh(bound, model, file, outside);
   return naming(file, [&] { return bound.transferred(model.points(), model.edges(), outside); });
 }
 
 #define FLBC_INSTANTIATE(Dim)                                                            \
   template const Binding<Dim>& load_binding(const BindingFiles&);                        \
   template Binding<Dim> load_domain_binding(const BindingFiles&);                        \
+  template Motion<Dim> drawing_by_mesh(const Binding<Dim>&, const MovableModel<Dim>&,    \
+                                       const std::string&, OutsidePoints);               \
   template Binding<Dim> bind_by_mesh(const Binding<Dim>&, const MovableModel<Dim>&,      \
                                      const std::string&, OutsidePoints);                 \
   template Binding<Dim> load_binding(const BindingFiles&, const std::string&,            \

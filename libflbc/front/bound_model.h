@@ -95,4 +95,11 @@ template <int Dim>
 Binding<Dim> bind_by_mesh(const Binding<Dim>& bound, const MovableModel<Dim>& model,
                           const std::string& file, OutsidePoints outside);
 
+//! How the points of a drawing move with that mesh, without a binding of them: they may be
+//! millions.
+//! \param bound, model  must outlive it
+template <int Dim>
+Motion<Dim> drawing_by_mesh(const Binding<Dim>& bound, const MovableModel<Dim>& model,
+                            const std::string& file, OutsidePoints outside);
+
 }  // namespace flbc::app

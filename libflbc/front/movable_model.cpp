@@ -94,7 +94,15 @@ void require_formats_of(const MovedFile& file) {
 template <int Dim>
 MovableModel<Dim>::MovableModel(MovedFile file) : file_(std::move(file)) {
   read();
-  if (points_.cols() == 0) throw InputError(file_.model + ": the model has no vertices");
+  if (points().cols() == 0) throw InputError(file_.model + ": the model has no vertices");
+}
+
+template <int Dim>
+const PointList<Dim>& MovableModel<Dim>::points() const {
+  if constexpr (Dim == 2) {
+    if (drawing_) return drawing_->points();
+  }
+  return points_;
 }
 
 template <int Dim>
@@ -112,7 +120,7 @@ void MovableModel<Dim>::read() {
     if constexpr (Dim == 3) {
       throw InputError(path + ": a drawing needs a cage in 2D");
     } else {
-      points_ = drawing_.emplace(io::read_drawing(path)).points();
+      drawing_.emplace(io::read_drawing(path));
       return;
     }
   }

@@ -54,7 +54,7 @@ class MovableModel {
   explicit MovableModel(MovedFile file);
 
   //! Dim x P.
-  const PointList<Dim>& points() const { return points_; }
+  const PointList<Dim>& points() const;
 
   //! Content of a model's file; null for points and for meshes of the interior.
   const io::Model* model() const { return model_ ? &model_->model() : nullptr; }

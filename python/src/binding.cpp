@@ -166,8 +166,7 @@ py::tuple deform_drawing(const AnyBinding& self, const std::string& svg, const D
   const auto moved = without_gil([&] {
     const auto drawing = io::drawing_of(svg, "svg");
     notes = drawing.notes();
-    return drawing.moved(
-        binding.transferred(drawing.points(), {}, OutsidePoints::kKeep).deform(points));
+    return drawing.moved(binding.deform(points, drawing.points(), OutsidePoints::kKeep));
   });
   return py::make_tuple(moved, notes);
 }

@@ -43,6 +43,22 @@ Binding<Dim> bound(OutsidePoints outside, bool with_outside, Index max_influence
   return Rig<Dim>(sample.cage, sample.mesh, model<Dim>(with_outside), {}, options).bind();
 }
 
+// More points than are placed at once, some of them outside.
+TEST_IN_2D_AND_3D(BindTest, ManyPointsMoveAsThoseOfATransferredBinding) {
+  constexpr Index kMany = 70000;
+  const auto binding = bound<Dim>(OutsidePoints::kFail, false);
+  PointList<Dim> points(Dim, kMany);
+  for (Index p = 0; p < kMany; ++p) {
+    for (int d = 0; d < Dim; ++d) points(d, p) = 1.01 * std::sin(1.7 * (p + 1) * (d + 1));
+  }
+  const PointList<Dim> pose = binding.cage.points.array().sin();
+  const auto policy = OutsidePoints::kNearest;
+  EXPECT_EQ(binding.deform(pose, points, policy),
+            binding.transferred(points, {}, policy).deform(pose));
+  expect_error<InputError>([&] { binding.deform(pose, points, OutsidePoints::kFail); },
+                           {"outside"});
+}
+
 TEST_IN_2D_AND_3D(BindTest, PointsOutsideFollowTheirPolicy) {
   const auto cage = box<Dim>().cage;
   const auto points = model<Dim>(true);

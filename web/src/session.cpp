@@ -598,9 +598,9 @@ class Work {
           Eigen::RowVector3d(0, 0, 1);
       const Vector<2> page = matrix_in<PointList<2>>(placing["page"]).col(0);
       const io::SvgDocument document(text, name_, page, to_model);
-      const auto moving = binding().transferred(document.points(), {}, OutsidePoints::kKeep);
+      const auto moved = binding().deform(pose, document.points(), OutsidePoints::kKeep);
       auto result = val::object();
-      result.set("text", document.moved(moving.deform(pose)));
+      result.set("text", document.moved(moved));
       result.set("notes", from_json(Json(document.notes())));
       return result;
     }

@@ -141,6 +141,12 @@ struct Binding {
   //! \throws InputError also if moved has another size
   void deform_into(const PointList<Dim>& control_points, Eigen::Ref<PointList<Dim>> moved) const;
 
+  //! Where other points move: transferred(points, {}, outside).deform(control_points), in the
+  //! memory that a part of the points needs. Those of a mirror or of solid regions are one part.
+  //! \param points  Dim x Q, in the units of the cage \throws InputError as both
+  PointList<Dim> deform(const PointList<Dim>& control_points, const PointList<Dim>& points,
+                        OutsidePoints outside) const;
+
   //! The derivatives of a function of the points by the control points: the transpose of deform(),
   //! dJ/dc_i = sum over points of w_i dJ/dx. Those of held control points are 0.
   //! \param gradients  dJ/dx, Dim x P \return Dim x n

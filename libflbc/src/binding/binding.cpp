@@ -149,6 +149,22 @@ PointList<Dim> Binding<Dim>::deform(const PointList<Dim>& control_points) const 
 }
 
 template <int Dim>
+PointList<Dim> Binding<Dim>::deform(const PointList<Dim>& control_points,
+                                    const PointList<Dim>& points, OutsidePoints outside) const {
+  constexpr Eigen::Index kPart = 1 << 16;
+  if (outside == OutsidePoints::kFail) place_points(cage, points);
+  const bool is_one = mirror || !solid.empty();
+  PointList<Dim> moved(Dim, points.cols());
+  for (Eigen::Index begin = 0; begin < points.cols();) {
+    const Eigen::Index count = is_one ? points.cols() : std::min(kPart, points.cols() - begin);
+    const PointList<Dim> part = points.middleCols(begin, count);
+    moved.middleCols(begin, count) = transferred(part, {}, outside).deform(control_points);
+    begin += count;
+  }
+  return moved;
+}
+
+template <int Dim>
 void Binding<Dim>::deform_into(const PointList<Dim>& control_points,
                                Eigen::Ref<PointList<Dim>> moved) const {
   if (moved.cols() != weights.num_points()) {
