@@ -33,8 +33,8 @@ export class Gizmo {
 
   // What can be grabbed: kind, tool, names of axes, and its line or outline in pixels.
   handles() {
-    const { editor, camera, brush, drag, playing, showsCage, axis, tool, content: { dim } } = this.viewer;
-    if (editor.selection.size === 0 || brush || playing || !showsCage) return [];
+    const { editor, camera, brush, drag, playing, showsCage, grabsModel, axis, tool, content: { dim } } = this.viewer;
+    if (editor.selection.size === 0 || brush || playing || !showsCage || grabsModel) return [];
     const axes = drag?.named ?? this.viewer.axes;
     const middle = editor.pivot ?? centroid(editor.points, [...editor.selection]);
     const { right, up, toward } = camera.axes();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mouse, pen and fingers on the picture.
-import { pick, pointsInside, rectangle } from "./picking.mjs";
-import { ToolDrag } from "./actions.mjs";
+import { pick, pointsInside, rectangle, surfaceAt } from "./picking.mjs";
+import { ModelDrag, ToolDrag } from "./actions.mjs";
 
 const kReach = { mouse: 12, pen: 16, touch: 26 };  // pixels
 const kClick = { mouse: 2, pen: 4, touch: 8 };     // moves up to here are none
@@ -32,8 +32,8 @@ export class Interaction {
   }
 
   pickAt(spot, event) {
-    const { editor, camera, showsCage } = this.view;
-    return showsCage ? pick(editor.points, camera, spot.x, spot.y, kReach[event.pointerType] ?? 12) : -1;
+    const { editor, camera, showsCage, grabsModel } = this.view;
+    return showsCage && !grabsModel ? pick(editor.points, camera, spot.x, spot.y, kReach[event.pointerType] ?? 12) : -1;
   }
 
   down(event) {
@@ -87,6 +87,18 @@ export class Interaction {
     return "edit";
   }
 
+  // The place of the model under the pointer. \return whether there is one
+  grabModel() {
+    const { view } = this, { deformer, content, camera, editor, axis, axes } = view;
+    view.update();
+    const grip = surfaceAt(deformer.points, content.surface, camera, content.center, this.from);
+    if (!grip) return false;
+    this.beginDrag = () => {
+      view.drag = new ModelDrag(editor, camera, axis, grip.place, deformer.weightsAt(grip.shares), this.from, axes);
+    };
+    return true;
+  }
+
   newDrag(grabbed) {
     const { editor, camera, tool, axis, axes } = this.view;
     return new ToolDrag(editor, camera, tool, axis, grabbed, this.from, axes);
@@ -105,7 +117,7 @@ export class Interaction {
   type(key) {
     const { view } = this;
     const { selection } = view.editor;
-    if (view.typed === null || selection.size === 0) return false;
+    if (view.typed === null || (selection.size === 0 && !view.drag)) return false;
     if (key === "Enter" && view.typed !== "") {
       view.editor.end();
       this.finish();
@@ -125,6 +137,7 @@ export class Interaction {
   modeOfEmptySpot(event) {
     const { view } = this;
     if (event.button !== 0) return "pan";
+    if (view.grabsModel && !this.adds && this.grabModel()) return "edit";
     if (view.area || event.shiftKey || event.ctrlKey) {
       this.area = event.ctrlKey ? "lasso" : event.shiftKey ? "box" : view.area;
       this.outline = [this.from];
