@@ -10,7 +10,8 @@ const { Camera } = await load("camera");
 const { portion } = await load("colors");
 const { Deformer } = await load("deformer");
 const { Editor } = await load("editor");
-const { decodeIndices } = await load("data");
+const { curvesOf } = await load("curves");
+const { decodeIndices, inSpace } = await load("data");
 const { poseText, readPose } = await load("obj");
 const { interpolatePoses, playedTime, straightKeys } = await load("poses");
 const { edgesOf, sumNormals } = await load("surface_normals");
@@ -20,7 +21,7 @@ const { CageGraph } = await load("rings");
 const { leastMoves, ModelDrag, ToolDrag } = await load("actions");
 const { Reshaper } = await import(new URL("../../web/page/reshaping.mjs", import.meta.url));
 const { Protector } = await import(new URL("../../web/page/protecting.mjs", import.meta.url));
-const { cageToObj, mergePoints, splitEdge } = await import(new URL("../../web/page/cage_edits.mjs", import.meta.url));
+const { cageToObj, curvedCage, mergePoints, piecesOf, splitEdge, straightCage } = await import(new URL("../../web/page/cage_edits.mjs", import.meta.url));
 const { commandOf } = await load("saving");
 const { kWeightedSum } = await load("shaders");
 
@@ -749,4 +750,50 @@ test("the copied command names files where they are", () => {
   assert.equal(commandOf(viewer, "http://127.0.0.1:8000/0/"),
                "flbc deform '../in put/arm #2.ply' --weights w.mtx "
                + "--pose 'arm (2)_pose.obj' --rest cage.obj -o 'arm (2)_posed.ply'");
+});
+
+test("edges of a cage become curves: what is solved lies on them, and straight ones come back", () => {
+  // A square with a square hole.
+  const straight = { points: [0, 0, 6, 0, 6, 6, 0, 6, 2, 2, 2, 4, 4, 4, 4, 2], facets: [0, 1, 1, 2, 2, 3, 3, 0, 4, 5, 5, 6, 6, 7, 7, 4] };
+  const curved = curvedCage(straight), count = curved.points.length / 2;
+  assert.equal(count, 24);
+  assert.deepEqual(straightCage(curved), straight);
+  near(curved.points.slice(16, 20), [2, 0, 4, 0]);
+  const curves = curvesOf(curved.facets, count);
+  assert.deepEqual(curves[0], [0, 8, 9, 1]);
+  // However files order them.
+  const turned = curved.facets.map((_, k) => curved.facets[curved.facets.length - 1 - k]);
+  assert.deepEqual(curvesOf(turned, count), curves);
+
+  let seed = 3;
+  const random = () => { seed = (48271 * seed) % 2147483647; return seed / 2147483647; };
+  const posed = curved.points.map((value) => value + random());
+  const { cage, map: { starts, controlPoints, values } } = piecesOf(curved);
+  assert.equal(cage.facets.length, 2 * 8 * 8);
+  const entries = starts.slice(1).map((end, row) => controlPoints.slice(starts[row], end).map((i, k) => [i, values[starts[row] + k]]));
+  for (const row of entries) {
+    assert.ok(row.every(([i, share], k) => share > 0 && (k === 0 || i > row[k - 1][0])));
+    near([row.reduce((sum, [, share]) => sum + share, 0)], [1], 1e-15);
+  }
+  const at = (points) => entries.flatMap((row) => [0, 1].map((k) => row.reduce((sum, [i, share]) => sum + share * points[2 * i + k], 0)));
+  near(at(curved.points), cage.points, 1e-12);
+  // Along each curve by de Casteljau's construction, which starts and ends at corners.
+  const places = at(posed);
+  const between = (t, points) => (points.length === 1 ? points[0]
+    : between(t, points.slice(1).map((point, k) => point.map((value, c) => (1 - t) * points[k][c] + t * value))));
+  const next = new Map(Array.from({ length: cage.facets.length / 2 }, (_, f) => cage.facets.slice(2 * f, 2 * f + 2)));
+  for (const curve of curves) {
+    const corners = curve.map((i) => posed.slice(2 * i, 2 * i + 2));
+    let i = curve[0];
+    for (let k = 0; k <= 8; ++k, i = next.get(i)) near(places.slice(2 * i, 2 * i + 2), between(k / 8, corners), 1e-12);
+  }
+
+  // Corners take their handles along, which are reset with them; a handle goes alone.
+  const rest = inSpace(Float64Array.from(curved.points), 2);
+  const editor = new Editor(rest, 2, curved.facets, { poses: [], curves });
+  editor.select([1]);
+  assert.deepEqual([...editor.shares().keys()].sort((a, b) => a - b), [1, 9, 10]);
+  editor.select([9]);
+  assert.deepEqual([...editor.shares().keys()], [9]);
+  assert.deepEqual(editor.withHandles([1, 12]), [1, 9, 10, 12]);
 });

@@ -47,7 +47,7 @@ export class Gizmo {
     });
     const all = ["x", "y", "z"].slice(0, dim), handles = [];
     const put = (kind, names, line, does) => handles.push({ kind, names, line, tool: does, id: `${kind} ${names}` });
-    const canTurn = editor.pivot || editor.softness > 0 || editor.selection.size > 1;
+    const canTurn = editor.pivot || editor.shares().size > 1;
     const center = camera.project(middle);
     put("center", axis ?? "", [center], "move");
     for (const name of all.filter((each) => !axis || each === axis)) {

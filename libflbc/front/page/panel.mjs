@@ -108,7 +108,7 @@ export function makeCommands(viewer) {
     redo: () => { viewer.stopPlaying(); (viewer.brush ?? editor).redo(); },
     move: tool("move"), rotate: tool("rotate"), scale: tool("scale"),
     x: axis("x"), y: axis("y"), z: content.dim === 3 ? axis("z") : () => {},
-    resetSelection: () => editor.reset(selected()),
+    resetSelection: () => editor.reset(editor.withHandles(selected())),
     resetAll: () => { viewer.stopPlaying(); editor.reset(everything()); },
     selectAll: () => editor.select(editor.selection.size === editor.size ? [] : everything()),
     box: area("box"), lasso: area("lasso"),
