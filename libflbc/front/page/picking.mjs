@@ -48,23 +48,26 @@ export function surfaceAt(points, { triangles, sources }, camera, center, { x, y
   const m = camera.matrix(center);
   const right = 2 * x / camera.width - 1, up = 1 - 2 * y / camera.height;
   // In clip coordinates, from the line of sight.
-  const seen = Float64Array.from({ length: 4 * points.length / 3 });
-  for (let p = 0; p < points.length / 3; ++p) {
-    for (let r = 0; r < 4; ++r) seen[4 * p + r] = m[r] * points[3 * p] + m[4 + r] * points[3 * p + 1] + m[8 + r] * points[3 * p + 2] + m[12 + r];
-    seen[4 * p] -= right * seen[4 * p + 3];
-    seen[4 * p + 1] -= up * seen[4 * p + 3];
+  const count = points.length / 3, [xs, ys, depths, ws] = Array.from({ length: 4 }, () => new Float64Array(count));
+  for (let p = 0; p < count; ++p) {
+    const a = points[3 * p], b = points[3 * p + 1], c = points[3 * p + 2];
+    const w = m[3] * a + m[7] * b + m[11] * c + m[15];
+    xs[p] = m[0] * a + m[4] * b + m[8] * c + m[12] - right * w;
+    ys[p] = m[1] * a + m[5] * b + m[9] * c + m[13] - up * w;
+    depths[p] = m[2] * a + m[6] * b + m[10] * c + m[14];
+    ws[p] = w;
   }
-  const source = (corner) => (sources ? sources[corner] : corner);
-  let found = null, depth = Infinity;
+  let found = null, nearest = Infinity;
   for (let t = 0; t < triangles.length; t += 3) {
-    const a = source(triangles[t]), b = source(triangles[t + 1]), c = source(triangles[t + 2]);
-    const area = (i, j) => seen[4 * i] * seen[4 * j + 1] - seen[4 * i + 1] * seen[4 * j];
-    const u = area(b, c), v = area(c, a), w = area(a, b), sum = u + v + w;
+    let a = triangles[t], b = triangles[t + 1], c = triangles[t + 2];
+    if (sources) [a, b, c] = [sources[a], sources[b], sources[c]];
+    const u = xs[b] * ys[c] - xs[c] * ys[b], v = xs[c] * ys[a] - xs[a] * ys[c], w = xs[a] * ys[b] - xs[b] * ys[a];
+    const sum = u + v + w;
     if (sum === 0 || u * sum < 0 || v * sum < 0 || w * sum < 0) continue;
-    const mean = (values, width, k) => (u * values[width * a + k] + v * values[width * b + k] + w * values[width * c + k]) / sum;
-    const far = mean(seen, 4, 2) / mean(seen, 4, 3);
-    if (mean(seen, 4, 3) <= 0 || far >= depth) continue;
-    depth = far;
+    const mean = (values, width = 1, k = 0) => (u * values[width * a + k] + v * values[width * b + k] + w * values[width * c + k]) / sum;
+    const depth = mean(depths) / mean(ws);
+    if (mean(ws) <= 0 || depth >= nearest) continue;
+    nearest = depth;
     found = { place: add(center, [0, 1, 2].map((k) => mean(points, 3, k))), shares: [[a, u / sum], [b, v / sum], [c, w / sum]] };
   }
   return found;
