@@ -499,6 +499,24 @@ async function testCurves() {
   assert.ok(Math.hypot(...step(corner)) > 0);
   await app.shot("curve_corner");
 
+  // The drawing itself is dragged, by handles as well.
+  const grip = await tab.evaluate(() => {
+    const { camera, canvas } = window.flbc.viewer, { left, top } = canvas.getBoundingClientRect(), all = window.flbc.points();
+    const spots = Array.from({ length: all.length / 2 }, (_, p) => camera.project([all[2 * p], all[2 * p + 1], 0]));
+    const far = ({ x, y }) => Math.hypot(x - camera.width / 2, y - camera.height / 2);
+    const p = spots.indexOf(spots.reduce((best, spot) => (far(spot) < far(best) ? spot : best)));
+    return { p, x: left + spots[p].x, y: top + spots[p].y, pixel: camera.step([0, 0, 0], 1, 0)[0] };
+  });
+  await app.press("dragModel");
+  const places = await app.points();
+  await app.drag(grip, 30, -18);
+  const followed = (await app.points()).slice(2 * grip.p, 2 * grip.p + 2).map((value, c) => (value - places[2 * grip.p + c]) / grip.pixel);
+  assert.ok(Math.hypot(followed[0] - 30, followed[1] - 18) < 2, String(followed));
+  assert.ok((await pointsOfCage(tab)).some((value, k) => value !== taken[k] && k >= 3 * corners));
+  await app.press("undo");
+  await app.press("dragModel");
+  assert.deepEqual(await pointsOfCage(tab), taken);
+
   // What is saved does the same in the program, as a rig, as a drawing, and in a page of its own; a pose comes back.
   const pose = await app.saved("#savePose", "curved_pose.obj");
   const files = { weights: "curved_weights.npy", cage: "curved_cage.obj" };
