@@ -149,7 +149,8 @@ Json pack_cage(const ShownCage<Dim>& cage) {
   return {{"points", pack<double>(cage.points.reshaped())},
           {"facets", pack_indices(cage.facets.reshaped(), cage.points.cols())},
           {"edges", pack_indices(ends, cage.points.cols())},
-          {"text", cage.text}};
+          {"text", cage.text},
+          {"isCurved", cage.is_curved}};
 }
 
 // The colours of weights from 0 to 1, as in the pictures.

@@ -29,6 +29,9 @@ struct ShownCage {
   std::vector<std::array<Index, 2>> edges{};  //!< of its polygons, each once
   //! The file, if it is OBJ: poses are saved as this text with other coordinates.
   std::string text{};
+  //! 2D: whether each three facets, from a corner by two handles to the next corner, are a cubic
+  //! Bezier curve.
+  bool is_curved = false;
 };
 
 template <int Dim>

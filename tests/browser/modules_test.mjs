@@ -10,17 +10,18 @@ const { Camera } = await load("camera");
 const { portion } = await load("colors");
 const { Deformer } = await load("deformer");
 const { Editor } = await load("editor");
-const { decodeIndices } = await load("data");
+const { curvesOf } = await load("curves");
+const { decodeIndices, inSpace } = await load("data");
 const { poseText, readPose } = await load("obj");
 const { interpolatePoses, playedTime, straightKeys } = await load("poses");
 const { edgesOf, sumNormals } = await load("surface_normals");
 const { principalAxes, rotate, scale, translate } = await load("transforms");
-const { pick, pointsInside, rectangle } = await load("picking");
+const { pick, pointsInside, rectangle, surfaceAt } = await load("picking");
 const { CageGraph } = await load("rings");
-const { ToolDrag } = await load("actions");
+const { leastMoves, ModelDrag, ToolDrag } = await load("actions");
 const { Reshaper } = await import(new URL("../../web/page/reshaping.mjs", import.meta.url));
 const { Protector } = await import(new URL("../../web/page/protecting.mjs", import.meta.url));
-const { cageToObj, mergePoints, splitEdge } = await import(new URL("../../web/page/cage_edits.mjs", import.meta.url));
+const { cageToObj, curvedCage, mergePoints, piecesOf, splitEdge, straightCage } = await import(new URL("../../web/page/cage_edits.mjs", import.meta.url));
 const { commandOf } = await load("saving");
 const { kWeightedSum } = await load("shaders");
 
@@ -319,6 +320,85 @@ test("picking: the nearest within reach, and what an outline holds", () => {
   assert.deepEqual(pointsInside(kCube, camera, diamond), [7]);
   const arrow = [diamond[0], { x: spot.x + 3, y: spot.y }, diamond[2], diamond[3]];
   assert.deepEqual(pointsInside(kCube, camera, arrow.map(({ x, y }) => ({ x, y: y + 1 }))), [], "the notch of a lasso");
+});
+
+// Two triangles for each side of the cube.
+const kSides = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]]
+  .flatMap(([a, b, c, d]) => [a, b, c, a, c, d]);
+
+test("picking: the front of a surface, as shares of the corners of its triangle", () => {
+  const camera = cameraOf(3), center = [3, -2, 1];
+  const at = (x, y) => surfaceAt(kCube, { triangles: kSides, sources: null }, camera, center, { x, y });
+  for (const [yaw, pitch] of [[0, 0], [0.6, 0.3], [2.5, -1]]) {
+    camera.look(yaw, pitch);
+    camera.target = center;
+    let hits = 0;
+    for (let x = 5; x < 800; x += 30) {
+      for (let y = 5; y < 600; y += 30) {
+        const found = at(x, y);
+        if (!found) continue;
+        hits += 1;
+        const spot = camera.project(found.place), inside = found.place.map((value, k) => value - center[k]);
+        near([spot.x, spot.y], [x, y], 1e-3);
+        near([Math.max(...inside.map(Math.abs))], [1], 1e-6);
+        // No other side of the cube is nearer.
+        const { toward } = camera.axes();
+        const eye = inside.map((value, k) => value + 1e-3 * (toward[k] / camera.shrinking() - value));
+        assert.ok(Math.max(...eye.map(Math.abs)) > 1, `behind at ${x}, ${y}`);
+        const mean = found.shares.reduce((sum, [p, share]) => sum.map((value, k) => value + share * kCube[3 * p + k]), [0, 0, 0]);
+        near(mean, inside, 1e-6);
+      }
+    }
+    assert.ok(hits > 50, String(hits));
+    assert.equal(at(1, 1), null);
+  }
+  const doubled = surfaceAt(kCube, { triangles: kSides.map((_, k) => k), sources: kSides }, camera, center, { x: 400, y: 300 });
+  assert.deepEqual(doubled, at(400, 300), "corners of a seam");
+});
+
+test("a place of the model is moved by the smallest moves of control points", () => {
+  let seed = 5;
+  const random = () => { seed = (48271 * seed) % 2147483647; return seed / 2147483647 - 0.5; };
+  for (let trial = 0; trial < 60; ++trial) {
+    const dim = 2 + trial % 2, axis = [-1, 0, dim - 1][trial % 3];
+    // Three pairs of images, a control point in the plane of the mirror, and one without an image.
+    const rest = Float64Array.from({ length: 24 }, () => random());
+    for (const i of [0, 1, 2]) {
+      for (let k = 0; k < 3; ++k) rest[9 + 3 * i + k] = k === axis ? -rest[3 * i + k] : rest[3 * i + k];
+    }
+    rest[18 + Math.max(axis, 0)] = 0;
+    if (dim === 2) for (let i = 0; i < 8; ++i) rest[3 * i + 2] = 0;
+    const editor = new Editor(rest, dim);
+    editor.setMirror(axis);
+    if (axis >= 0) editor.pairs = [3, 4, 5, 0, 1, 2, 6, -1];
+    const weights = new Map([0, 1, 4, 6, 7].map((i) => [i, Math.abs(random())]));
+    const camera = cameraOf(dim), place = [0.1, 0.2, dim === 2 ? 0 : 0.3], spot = camera.project(place);
+    const step = camera.step(place, 37, -21);
+    new ModelDrag(editor, camera, null, place, weights, spot).to({ x: spot.x + 37, y: spot.y - 21 });
+    const moves = editor.points.map((value, k) => value - rest[k]);
+    const through = (others) => [0, 1, 2].map((k) => [...weights].reduce((sum, [i, weight]) => sum + weight * others[3 * i + k], 0));
+    near(through(moves), step, 1e-9);
+    for (const i of axis < 0 ? [2, 3, 5] : [2, 5]) near(moves.slice(3 * i, 3 * i + 3), [0, 0, 0], 0);
+    const reflect = (others) => (axis < 0 ? others : others.map((value, m) => {
+      const [i, k] = [Math.floor(m / 3), m % 3], image = editor.pairs[i];
+      return image < 0 ? value : (k === axis ? -1 : 1) * others[3 * image + k];
+    }));
+    near(reflect(moves), moves, 1e-12);
+    // Any others with the same image in the mirror that do not move the place are orthogonal: none are smaller.
+    const other = moves.map((_, k) => (dim === 2 && k % 3 === 2 ? 0 : random()));
+    const symmetric = reflect(other).map((value, k) => (value + other[k]) / 2);
+    const reached = through(symmetric), factors = leastMoves(weights, editor.pairs, axis);
+    const rested = symmetric.map((value, m) => value - (factors.get(Math.floor(m / 3))?.[m % 3] ?? 0) * reached[m % 3]);
+    near(through(rested), [0, 0, 0], 1e-12);
+    near([rested.reduce((sum, value, m) => sum + value * moves[m], 0)], [0], 1e-12);
+    editor.end();
+    editor.undo();
+    assert.deepEqual(editor.points, rest);
+  }
+  // In the plane of the mirror a place does not leave it, and nothing moves that has no weight.
+  const stays = leastMoves(new Map([[0, 0.5], [1, 0.5]]), [1, 0], 0);
+  near([...stays.get(0), ...stays.get(1)], [0, 1, 1, 0, 1, 1], 0);
+  assert.equal(leastMoves(new Map()).size, 0);
 });
 
 test("deformer: a point goes where its weights take it, and home again bit by bit", () => {
@@ -670,4 +750,50 @@ test("the copied command names files where they are", () => {
   assert.equal(commandOf(viewer, "http://127.0.0.1:8000/0/"),
                "flbc deform '../in put/arm #2.ply' --weights w.mtx "
                + "--pose 'arm (2)_pose.obj' --rest cage.obj -o 'arm (2)_posed.ply'");
+});
+
+test("edges of a cage become curves: what is solved lies on them, and straight ones come back", () => {
+  // A square with a square hole.
+  const straight = { points: [0, 0, 6, 0, 6, 6, 0, 6, 2, 2, 2, 4, 4, 4, 4, 2], facets: [0, 1, 1, 2, 2, 3, 3, 0, 4, 5, 5, 6, 6, 7, 7, 4] };
+  const curved = curvedCage(straight), count = curved.points.length / 2;
+  assert.equal(count, 24);
+  assert.deepEqual(straightCage(curved), straight);
+  near(curved.points.slice(16, 20), [2, 0, 4, 0]);
+  const curves = curvesOf(curved.facets, count);
+  assert.deepEqual(curves[0], [0, 8, 9, 1]);
+  // However files order them.
+  const turned = curved.facets.map((_, k) => curved.facets[curved.facets.length - 1 - k]);
+  assert.deepEqual(curvesOf(turned, count), curves);
+
+  let seed = 3;
+  const random = () => { seed = (48271 * seed) % 2147483647; return seed / 2147483647; };
+  const posed = curved.points.map((value) => value + random());
+  const { cage, map: { starts, controlPoints, values } } = piecesOf(curved);
+  assert.equal(cage.facets.length, 2 * 8 * 8);
+  const entries = starts.slice(1).map((end, row) => controlPoints.slice(starts[row], end).map((i, k) => [i, values[starts[row] + k]]));
+  for (const row of entries) {
+    assert.ok(row.every(([i, share], k) => share > 0 && (k === 0 || i > row[k - 1][0])));
+    near([row.reduce((sum, [, share]) => sum + share, 0)], [1], 1e-15);
+  }
+  const at = (points) => entries.flatMap((row) => [0, 1].map((k) => row.reduce((sum, [i, share]) => sum + share * points[2 * i + k], 0)));
+  near(at(curved.points), cage.points, 1e-12);
+  // Along each curve by de Casteljau's construction, which starts and ends at corners.
+  const places = at(posed);
+  const between = (t, points) => (points.length === 1 ? points[0]
+    : between(t, points.slice(1).map((point, k) => point.map((value, c) => (1 - t) * points[k][c] + t * value))));
+  const next = new Map(Array.from({ length: cage.facets.length / 2 }, (_, f) => cage.facets.slice(2 * f, 2 * f + 2)));
+  for (const curve of curves) {
+    const corners = curve.map((i) => posed.slice(2 * i, 2 * i + 2));
+    let i = curve[0];
+    for (let k = 0; k <= 8; ++k, i = next.get(i)) near(places.slice(2 * i, 2 * i + 2), between(k / 8, corners), 1e-12);
+  }
+
+  // Corners take their handles along, which are reset with them; a handle goes alone.
+  const rest = inSpace(Float64Array.from(curved.points), 2);
+  const editor = new Editor(rest, 2, curved.facets, { poses: [], curves });
+  editor.select([1]);
+  assert.deepEqual([...editor.shares().keys()].sort((a, b) => a - b), [1, 9, 10]);
+  editor.select([9]);
+  assert.deepEqual([...editor.shares().keys()], [9]);
+  assert.deepEqual(editor.withHandles([1, 12]), [1, 9, 10, 12]);
 });

@@ -259,6 +259,102 @@ async function testBend(name, dim) {
   await page.close();
 }
 
+// Where the model is seen at a spot of the page: three vertices with their shares, found by the camera and not by
+// the code that picks; null where there is none.
+function seenAt(page, spot) {
+  return page.tab.evaluate(({ x, y }) => {
+    const { canvas, camera, content: { center, dim, surface: { triangles, sources } } } = window.flbc.viewer;
+    const box = canvas.getBoundingClientRect(), points = window.flbc.points();
+    const corners = Array.from({ length: points.length / dim }, (_, p) => {
+      const place = [0, 1, 2].map((k) => (k < dim ? points[dim * p + k] : center[k]));
+      const seen = camera.project(place);
+      return { p, x: seen.x + box.left - x, y: seen.y + box.top - y, nearness: seen.nearness, far: camera.depthFactor(place) };
+    });
+    let found = null, nearest = -Infinity;
+    for (let t = 0; t < triangles.length; t += 3) {
+      const three = [0, 1, 2].map((k) => corners[sources ? sources[triangles[t + k]] : triangles[t + k]]);
+      const areas = three.map((_, k) => {
+        const [a, b] = [three[(k + 1) % 3], three[(k + 2) % 3]];
+        return a.x * b.y - a.y * b.x;
+      });
+      const total = areas[0] + areas[1] + areas[2];
+      if (areas.some((area) => area * total <= 0)) continue;
+      const parts = areas.map((area, k) => area / total * three[k].far), sum = parts[0] + parts[1] + parts[2];
+      const nearness = three.reduce((mean, corner, k) => mean + parts[k] / sum * corner.nearness, 0);
+      if (nearness > nearest) [found, nearest] = [three.map(({ p }, k) => [p, parts[k] / sum]), nearness];
+    }
+    return found;
+  }, spot);
+}
+
+// The model is grabbed itself: the place under the pointer stays there, by the control points with weights.
+async function testDragModel(name, dim, weights) {
+  const page = await open(name);
+  const { tab } = page;
+  const [, ...lines] = readFileSync(weights, "utf8").split("\n").filter((line) => line && !line.startsWith("%"));
+  const owners = new Map();
+  for (const [row, column, value] of lines.map((line) => line.split(/\s+/).map(Number))) {
+    if (value !== 0) owners.set(row - 1, [...owners.get(row - 1) ?? [], column - 1]);
+  }
+  const spotOf = (shares) => tab.evaluate((list, d) => {
+    const points = window.flbc.points(), { canvas, camera, content } = window.flbc.viewer;
+    const place = [0, 1, 2].map((k) => (k < d ? list.reduce((sum, [p, share]) => sum + share * points[d * p + k], 0) : content.center[k]));
+    const box = canvas.getBoundingClientRect(), { x, y } = camera.project(place);
+    return { x: x + box.left, y: y + box.top };
+  }, shares, dim);
+  const isPressed = () => tab.$eval("#dragModel", (button) => button.getAttribute("aria-pressed"));
+  const view = () => tab.evaluate(() => JSON.stringify(window.flbc.viewer.camera));
+  const box = await (await tab.$("#canvas")).boundingBox();
+  await page.press("dragModel");
+  assert.equal(await isPressed(), "true");
+  assert.match(await page.state(), /^drag the model/);
+  const still = await view();
+  for (const axis of [-1, 0]) {
+    if (axis >= 0) await tab.select("#mirror", String(axis));
+    const pairs = await tab.evaluate(() => window.flbc.viewer.editor.pairs);
+    let count = 0;
+    for (let k = 0; k < 40 && count < 2; ++k) {
+      const spot = { x: Math.round(box.x + box.width * (0.1 + 0.8 * (k * 0.618 % 1))), y: Math.round(box.y + box.height * (0.1 + 0.8 * (k * 0.382 % 1))) };
+      const shares = await seenAt(page, spot);
+      if (!shares) continue;
+      const holders = new Set(shares.flatMap(([p]) => owners.get(p)));
+      if (pairs && [...holders].some((i) => holders.has(pairs[i]))) continue;  // near the plane, which it must not leave
+      const before = await cageOf(page), points = await page.points();
+      await page.drag(spot, 41, -32);
+      const after = await cageOf(page), now = await spotOf(shares);
+      assert.ok(Math.hypot(now.x - spot.x - 41, now.y - spot.y + 32) < 1.5, `${now.x}, ${now.y} instead of ${spot.x + 41}, ${spot.y - 32}`);
+      const moved = after.flatMap((place, i) => (place.some((value, c) => value !== before[i][c]) ? [i] : []));
+      assert.ok(moved.length > 0 && moved.length < before.length);
+      for (const i of moved) assert.ok(holders.has(i) || holders.has(pairs?.[i]), `${i} has no weight there`);
+      for (const i of pairs ? moved : []) {
+        if (pairs[i] < 0) continue;
+        const [a, b] = [i, pairs[i]].map((each) => minus(after[each], before[each]));
+        assert.ok(largestDifference(a, b.map((value, c) => (c === axis ? -value : value))) < 1e-9);
+      }
+      if (count === 0) await page.picture(join(work, `${name}_model_dragged${axis}.png`));
+      await page.press("undo");
+      assert.deepEqual(await cageOf(page), before);
+      assert.deepEqual(await page.points(), points);
+      assert.equal(await tab.$eval("#undo", (button) => button.disabled), true, "one stroke");
+      count += 1;
+    }
+    assert.equal(count, 2, `mirror ${axis}`);
+  }
+  assert.equal(await view(), still);
+
+  // Next to the model the view moves, and without the switch control points are dragged.
+  const rest = await cageOf(page);
+  await page.drag({ x: box.x + 5, y: box.y + box.height - 5 }, 40, -20);
+  assert.notEqual(await view(), still);
+  await page.type("m");
+  assert.equal(await isPressed(), "false");
+  assert.deepEqual(await cageOf(page), rest);
+  const i = await page.touchable();
+  await page.drag(await page.ask("spot", i), 10, 10);
+  assert.notDeepEqual(await page.ask("controlPoint", i), rest[i]);
+  await page.close();
+}
+
 // Around a control point by Alt and click. Dragging elsewhere turns the view, whatever the tool.
 async function testPivot(name, dim) {
   const page = await open(name);
@@ -498,7 +594,7 @@ async function testButtons(name, theme) {
                /have an image$|have an image; the others move alone. Make the cage with the symmetry x$/);
   await page.press("fold");
   await page.press("fold");
-  for (const key of ["?", "Escape", "f", "1", "2", "3", "g", "r", "s", "x", "x", "b", "b", "m", "a",
+  for (const key of ["?", "Escape", "f", "1", "2", "3", "g", "r", "s", "x", "x", "b", "b", "i", "a",
                      "ArrowLeft", "Delete", "c", "c", "w", "d", "Space", "Space"]) {
     await tab.keyboard.press(key);
   }
@@ -587,6 +683,7 @@ try {
     if (!isChromium) continue;
     await testSelection(name, dim, file("cage"));
     await testPoses(name, dim, file("model"), weights, file("cage_pose"));
+    await testDragModel(name, dim, weights);
     await testButtons(name, dim === 2 ? "light" : "dark");
     if (dim === 2) continue;
     await testFirstDrag(name, weights);

@@ -178,6 +178,67 @@ assert.equal((await flbc.protect({ masks: [], falloff: 0.1 })).falloff, 0.1);
 await assert.rejects(flbc.protect({ masks: [], falloff: 2 }), { message: /falloff must be in \[0, 1\]/ });
 await flbc.protect([]);
 
+// Control points that move those of the cage, such as handles of curves: poses of both agree, and weights
+// are coordinates, also after masks and with another shape at rest.
+{
+  const { curvedCage, piecesOf } = await import(new URL("../../web/page/cage_edits.mjs", import.meta.url));
+  const figure = readFileSync(join(meshes, "2d/figure_model.obj"));
+  await flbc.readModel("figure.obj", figure);
+  await flbc.readCage("cage.obj", readFileSync(join(meshes, "2d/figure_cage.obj")));
+  const { points: corners, facets } = await flbc.cage();
+  const curved = curvedCage({ points: [...corners], facets: [...facets] }), count = curved.points.length / 2;
+  const { cage, map } = piecesOf(curved);
+  const through = (places) => map.starts.slice(1).flatMap((end, i) => [0, 1].map((c) => {
+    let sum = 0;
+    for (let k = map.starts[i]; k < end; ++k) sum += map.values[k] * places[2 * map.controlPoints[k] + c];
+    return sum;
+  }));
+  const pose = curved.points.map((place, k) => place + 0.3 * Math.sin(k));
+  await flbc.setCage(cage.points, cage.facets);
+  await flbc.makeMesh({ vertices: 2000 });
+  await flbc.solve();
+  const solution = await flbc.solution(), moved = await flbc.deform(through(pose));
+  await flbc.setCage(cage.points, cage.facets);
+  await flbc.compose({ ...curved, ...map, isCurved: true });
+  await flbc.setSolution(solution);
+  const points = await flbc.points();
+  assert.deepEqual([...(await flbc.cage()).points], curved.points);
+  assert.ok(largestDifference(await flbc.deform(pose), moved) < 1e-9);
+  const expectCoordinates = async (rest) => {
+    const { starts, values } = await flbc.weights();
+    assert.ok(values.every((value) => value >= 0));
+    for (let p = 0; p + 1 < starts.length; ++p) {
+      assert.ok(Math.abs(values.slice(starts[p], starts[p + 1]).reduce((sum, value) => sum + value, 0) - 1) < 1e-5);
+    }
+    assert.ok(largestDifference(await flbc.deform(rest), points) < 1e-6);
+  };
+  await expectCoordinates(curved.points);
+  assert.ok(JSON.parse(new TextDecoder().decode(await flbc.content())).cage.isCurved);
+  assert.equal(linesOf(await flbc.cageFile(), "v").length, count);
+
+  const held = count / 3;  // a handle
+  const { starts, controlPoints, values } = await flbc.weights();
+  const region = Array.from({ length: starts.length - 1 }, (_, p) => p)
+    .filter((p) => [...controlPoints.slice(starts[p], starts[p + 1])].some((i, k) => i === held && values[starts[p] + k] > 0)).slice(0, 5);
+  assert.equal(region.length, 5);
+  const { masks, conflict } = await flbc.protect([{ control_points: [held], region: { vertices: region } }]);
+  assert.equal(conflict, undefined);
+  assert.deepEqual(masks, [{ controlPoints: [held], vertices: region }]);
+  await flbc.move({ refine: true, seconds: 60 });
+  const step = await flbc.deform(curved.points.map((place, k) => place + (k === 2 * held ? 1 : 0)));
+  for (const p of region) assert.equal(step[2 * p], points[2 * p]);
+  assert.notDeepEqual(step, points);
+  await flbc.protect([]);
+
+  const rest = curved.points.map((place, k) => (k >= 2 * held ? place + 0.02 * Math.sin(k) : place));
+  const reply = await flbc.move({ points: rest, seconds: 60 });
+  assert.equal(reply.refused, undefined);
+  assert.deepEqual([...reply.rest], rest);
+  await expectCoordinates(rest);
+  assert.match((await flbc.move({ points: rest.map(() => 0) })).refused, /./);
+  assert.deepEqual([...(await flbc.cage()).points], rest);
+}
+
 // Arrays instead of files.
 const mesh = { points: [0.1, 0.1, 0.1, 0.2, 0.1, 0.1, 0.1, 0.2, 0.1], triangles: [0, 1, 2] };
 await flbc.setModel(mesh.points, mesh.triangles);

@@ -2,7 +2,7 @@
 // flbc.html from its file, by real events: page_test.mjs BROWSER PAGE PROGRAM MESHES WORK
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { basename, join } from "node:path";
 import { setTimeout as sleep } from "node:timers/promises";
@@ -408,6 +408,170 @@ async function testElbow() {
   const degrees = Math.acos(cosine) * 180 / Math.PI;
   console.log(`an elbow is bent by ${degrees.toFixed(0)} degrees in ${actions} actions`);
   assert.ok(degrees > 30 && actions <= 4);
+  await app.close();
+}
+
+// Edges of a cage in 2D become curves with handles, which are control points: they are dragged, undone, saved, and
+// loaded as others.
+async function testCurves() {
+  const app = await new App().open(browser, url);
+  const { tab } = app;
+  const svg = join(work, "curved.svg");
+  writeFileSync(svg, '<svg xmlns="http://www.w3.org/2000/svg"><path id="bar" d="M0 0 H160 V40 H0 Z" fill="#36c"/></svg>');
+  await app.drop([svg]);
+  await app.shown();
+  await app.unfold("cageSection");
+  const sizeOf = () => tab.evaluate(() => window.flbc.viewer.editor.size);
+  const isOn = () => tab.$eval("#curves", (button) => button.getAttribute("aria-pressed"));
+  const press = async (expected) => {
+    await app.press("curves");
+    await tab.waitForFunction((size) => window.flbc.viewer.editor.size === size && document.getElementById("app").hidden, { timeout: 60000 }, expected);
+    await app.shown();
+  };
+  // A pose of the straight cage stays.
+  const corners = await sizeOf(), count = 3 * corners;
+  assert.equal(await isOn(), "false");
+  await app.ask("move", 1, (await app.ask("controlPoint", 1)).map((value) => value + 9));
+  const straight = await pointsOfCage(tab), bent = await app.points();
+  await press(count);
+  assert.equal(await isOn(), "true");
+  const posed = await pointsOfCage(tab);
+  assert.deepEqual(posed.slice(0, 3 * corners), straight);
+  // Straight edges move the model nearly as before: there are other weights, of more control points.
+  const size = Math.max(...straight) - Math.min(...straight);
+  assert.ok(largestDifference(await app.points(), bent) < 0.02 * size);
+  await app.press("resetAll");
+  const curves = await tab.evaluate(() => window.flbc.viewer.content.curves);
+  const rest = await pointsOfCage(tab), points = await app.points();
+  const { least, most } = await tab.evaluate(() => {
+    const { starts, values } = window.flbc.viewer.deformer.weights;
+    const sums = Array.from({ length: starts.length - 1 }, (_, p) => values.slice(starts[p], starts[p + 1]).reduce((sum, value) => sum + value, 0));
+    return { least: Math.min(...values), most: Math.max(...sums.map((sum) => Math.abs(sum - 1))) };
+  });
+  assert.ok(least >= 0 && most < 1e-5, `${least}, ${most}`);
+
+  // A handle is dragged alone. Its curve is drawn where Bezier says, and the drawing bends.
+  await app.ask("select", []);
+  const handle = await app.touchable((i) => i >= corners);
+  const curve = curves.find((each) => each.includes(handle));
+  const away = await tab.evaluate(([a, , , b]) => {
+    const { editor: { rest: all, sphere }, camera } = window.flbc.viewer;
+    const [x, y] = [0, 1].map((c) => (all[3 * a + c] + all[3 * b + c]) / 2 - sphere.center[c]);
+    return [70 * x / Math.hypot(x, y), -70 * y / Math.hypot(x, y), camera.height];
+  }, curve);
+  const middleOf = () => tab.evaluate((list) => {
+    const { editor, camera } = window.flbc.viewer;
+    const place = [0, 1, 2].map((c) => list.reduce((sum, i, m) => sum + [1, 3, 3, 1][m] / 8 * editor.points[3 * i + c], 0));
+    return camera.project(place);
+  }, curve);
+  const before = await app.picture();
+  await app.drag(await app.ask("spot", handle), away[0], away[1]);
+  const after = await pointsOfCage(tab);
+  assert.deepEqual(after.flatMap((value, k) => (value !== rest[k] && k % 3 === 0 ? [k / 3] : [])).filter((i) => i !== handle), []);
+  assert.ok(largestDifference(after, rest) > 0);
+  await app.shot("curve_bent");
+  const moved = await app.points();
+  assert.ok(largestDifference(moved, points) > 1e-3 * size, "the drawing does not bend");
+  const middle = await middleOf();
+  await tab.mouse.move(5, 5);
+  const picture = await app.picture(), width = await tab.$eval("#canvas", (canvas) => canvas.clientWidth);
+  const isDrawn = (pixels) => [-1, 0, 1].some((dx) => [-1, 0, 1].some((dy) => {
+    const pixel = pixels[Math.round(middle.x) + dx + width * (Math.round(middle.y) + dy)];
+    return (pixel & 255) < 120 && (pixel >> 16 & 255) < 120;
+  }));
+  assert.ok(!isDrawn(before) && isDrawn(picture), "the curve is elsewhere");
+  await app.press("undo");
+  assert.deepEqual(await pointsOfCage(tab), rest);
+  assert.deepEqual(await app.points(), points);
+  await app.press("redo");
+  assert.deepEqual(await pointsOfCage(tab), after);
+
+  // A corner takes its handles along.
+  const corner = await app.touchable((i) => i < corners);
+  const own = curves.flatMap(([a, first, second, b]) => [[a, first], [b, second]]).filter(([i]) => i === corner).map(([, i]) => i);
+  await app.ask("select", [handle]);  // or the first drag takes a limb
+  await app.drag(await app.ask("spot", corner), 24, 16);
+  const taken = await pointsOfCage(tab);
+  const step = (i) => [0, 1].map((c) => taken[3 * i + c] - after[3 * i + c]);
+  for (let i = 0; i < count; ++i) {
+    assert.ok(largestDifference(step(i), i === corner || own.includes(i) ? step(corner) : [0, 0]) < 1e-9 * size, `control point ${i}`);
+  }
+  assert.ok(Math.hypot(...step(corner)) > 0);
+  await app.shot("curve_corner");
+
+  // The drawing itself is dragged, by handles as well.
+  const grip = await tab.evaluate(() => {
+    const { camera, canvas } = window.flbc.viewer, { left, top } = canvas.getBoundingClientRect(), all = window.flbc.points();
+    const spots = Array.from({ length: all.length / 2 }, (_, p) => camera.project([all[2 * p], all[2 * p + 1], 0]));
+    const far = ({ x, y }) => Math.hypot(x - camera.width / 2, y - camera.height / 2);
+    const p = spots.indexOf(spots.reduce((best, spot) => (far(spot) < far(best) ? spot : best)));
+    return { p, x: left + spots[p].x, y: top + spots[p].y, pixel: camera.step([0, 0, 0], 1, 0)[0] };
+  });
+  await app.press("dragModel");
+  const places = await app.points();
+  await app.drag(grip, 30, -18);
+  const followed = (await app.points()).slice(2 * grip.p, 2 * grip.p + 2).map((value, c) => (value - places[2 * grip.p + c]) / grip.pixel);
+  assert.ok(Math.hypot(followed[0] - 30, followed[1] - 18) < 2, String(followed));
+  assert.ok((await pointsOfCage(tab)).some((value, k) => value !== taken[k] && k >= 3 * corners));
+  await app.press("undo");
+  await app.press("dragModel");
+  assert.deepEqual(await pointsOfCage(tab), taken);
+
+  // What is saved does the same in the program, as a rig, as a drawing, and in a page of its own; a pose comes back.
+  const pose = await app.saved("#savePose", "curved_pose.obj");
+  const files = { weights: "curved_weights.npy", cage: "curved_cage.obj" };
+  const weights = await app.saved("[data-save=npy]", files.weights), cage = await app.saved("[data-save=cage]", files.cage);
+  const posedModel = await app.saved("[data-save=posed]", "curved_posed.obj");
+  const shown = await app.points();
+  assert.ok(largestDifference(vertices(posedModel, 2), shown) < 5e-3 * size);
+  const model = join(work, "curved_model.obj"), out = join(work, "curved_out.obj");
+  await app.press("resetAll");
+  rmSync(posedModel);
+  renameSync(await app.saved("[data-save=posed]", "curved_posed.obj"), model);
+  execFileSync(program, ["deform", model, "--weights", weights, "--pose", pose, "--rest", cage, "-q", "-o", out]);
+  assert.ok(largestDifference(vertices(out, 2), shown) < 5e-3 * size);
+  const numbersOf = (file) => /<path id="bar" d="([^"]*)"/.exec(readFileSync(file, "utf8"))[1].match(/-?[\d.]+/g).map(Number);
+  const atRest = numbersOf(await app.saved("[data-save=drawing]", "curved_posed.svg"));
+  const [chooser] = await Promise.all([tab.waitForFileChooser(), app.press("loadPose")]);
+  await chooser.accept([pose]);
+  await tab.waitForFunction((x) => window.flbc.viewer.editor.points[x] !== window.flbc.viewer.editor.rest[x], {}, 3 * handle);
+  assert.ok(largestDifference(await pointsOfCage(tab), taken) < 1e-9 * size);
+  rmSync(join(downloads, "curved_posed.svg"));
+  assert.notDeepEqual(numbersOf(await app.saved("[data-save=drawing]", "curved_posed.svg")), atRest);
+  await app.type("k");
+  const rig = await app.saved("[data-save=glb8]", "curved_8.glb");
+  assert.match(String(execFileSync(program, ["info", rig])), new RegExp(`skin of ${count}|skin of ${count + 1}|skin of ${count + 2}`));
+  const animated = await app.saved("#saveAnimation", "curved_animation.glb");
+  assert.match(String(execFileSync(program, ["info", animated])), /animation of 1 s/);
+  const page = await new Page().open(browser, pathToFileURL(await app.saved("[data-save=page]", "curved.html")).href);
+  assert.deepEqual(await page.tab.evaluate(() => window.flbc.viewer.content.curves), curves);
+  await page.picture(join(work, "curved_page.png"));
+  await page.close();
+
+  // The cage at rest is reshaped by a handle, regions are painted, and edges are split.
+  await app.press("resetAll");
+  await app.unfold("reshapeSection");
+  await app.press("reshape");
+  await app.ask("select", [handle]);
+  await app.drag(await app.ask("spot", handle), 0.3 * away[0], 0.3 * away[1]);
+  await tab.waitForFunction(() => !window.flbc.viewer.reshaper.isBusy, { timeout: 60000 });
+  assert.ok(largestDifference(await app.points(), points) < 1e-5 * size);
+  assert.equal(await app.text("note") === "" || !/refused|outside/.test(await app.text("note")), true);
+  await app.press("reshape");
+  const reshaped = await tab.evaluate(() => [...window.flbc.viewer.editor.rest]);
+  assert.ok(largestDifference(reshaped, rest) > 0);
+  await app.ask("select", [curve[0], curve[3]]);
+  await tab.$eval("[data-do=split]", (button) => button.click());
+  await tab.waitForFunction((expected) => window.flbc.viewer.editor.size === expected, { timeout: 60000 }, count + 3);
+  await app.shown();
+  assert.equal(await isOn(), "true");
+  await app.unfold("cageSection");
+  await app.ask("select", []);
+  await app.moveOne(20, 12);
+  await press(corners + 1);
+  assert.equal(await isOn(), "false");
+  assert.ok(largestDifference(await pointsOfCage(tab), await tab.evaluate(() => [...window.flbc.viewer.editor.rest])) > 0, "the pose is gone");
+  await app.shot("curves_off");
   await app.close();
 }
 
@@ -1280,6 +1444,7 @@ await testEarlyDrop(join(meshes, "3d/limb_model.obj"));
 await testModel("Figure, in 2D", join(meshes, "2d/figure_model.obj"), 2);
 await testModel("Limb", join(meshes, "3d/limb_model.obj"), 3);
 await testElbow();
+await testCurves();
 await testWalk();
 await testGizmo();
 await testTimeline();

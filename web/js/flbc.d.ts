@@ -107,6 +107,9 @@ export class Flbc {
            onProgress?: OnProgress): Promise<CageFacts>;
   readCage(name: string, bytes: ArrayBuffer | Uint8Array): Promise<CageFacts>;
   setCage(points: Numbers, facets: Indices): Promise<void>;
+  /** Other control points, which move those of the cage by weights: with {@link Solution} arrays of one row per control
+   *  point of the cage. @param options.isCurved three facets each are the control polygon of a cubic Bezier curve, which pages draw */
+  compose(options: { points: Numbers; facets: Indices; starts: Indices; controlPoints: Indices; values: Numbers; isCurved?: boolean }): Promise<CageFacts>;
   /** Of the cage that readCage() refused as a DefectiveCage. */
   repairCage(): Promise<CageFacts>;
 

@@ -11,7 +11,7 @@ import { download } from "../../libflbc/front/page/saving.mjs";
 import { pointAt } from "../../libflbc/front/page/vectors.mjs";
 import { Flbc } from "../js/flbc.mjs";
 import { unpacked } from "../js/unpacked.mjs";
-import { cageToObj, mergePoints, splitEdge } from "./cage_edits.mjs";
+import { cageToObj, curvedCage, mergePoints, piecesOf, splitEdge, straightCage } from "./cage_edits.mjs";
 import { decoded } from "./decoding.mjs";
 import { bindProtecting, Protector } from "./protecting.mjs";
 import { bindReshaping, Reshaper } from "./reshaping.mjs";
@@ -38,7 +38,7 @@ class App {
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) element("moving").pauseAnimations();
     this.fresh = kParts.map((id) => element(id).cloneNode(true));
     this.model = null;   // the one that is shown: name, bytes, files, picture, theme
-    this.cage = null;    // its cage, as a file: name, bytes
+    this.cage = null;    // its cage, as a file: name, bytes; or with curves: points, facets
     this.solution = null;
     this.sketch = new Sketch(element("sketch"), (svg) => this.open([new File([svg], "drawing.svg")]));
     this.started = this.start();
@@ -192,6 +192,15 @@ class App {
     return { name: "cage.obj", bytes: await this.flbc.cageFile() };
   }
 
+  get isCurved() { return Boolean(this.cage?.facets); }
+
+  async readCage(cage) {
+    if (!cage.facets) return this.flbc.readCage(cage.name, cage.bytes);
+    const { cage: pieces, map } = piecesOf(cage);
+    await this.flbc.setCage(pieces.points, pieces.facets);
+    return this.flbc.compose({ ...cage, ...map, isCurved: true });
+  }
+
   // Another cage for the model. \param make  makes it \param file  it, where it is a file
   // \param numbers  its control points, by those of before, where these stay
   async remake(title, make, { file = null, numbers = null } = {}) {
@@ -248,17 +257,17 @@ class App {
   async keepReshaped() {
     const { reshaper } = this.view ?? {};
     if (!reshaper || (reshaper.solved === this.kept && !reshaper.isBusy)) return;
-    this.cage = await this.cageFile();
+    this.cage = this.isCurved ? await this.flbc.cage() : await this.cageFile();
     this.solution = await this.flbc.solution();
     this.kept = reshaper.solved;
   }
 
   // A new worker with the model and its cage. The memory of the old one has grown, and never shrinks.
   async renew() {
-    const { model, cage, flbc } = this;
+    const { model, flbc } = this;
     await flbc.cancel();
     await flbc.readModel(model.name, model.bytes, model.files);
-    await flbc.readCage(cage.name, cage.bytes);
+    await this.readCage(this.cage);
   }
 
   // Brings a new worker to where the last one was.
@@ -308,6 +317,8 @@ class App {
     element("savePose").closest("section").append(element("files").content.cloneNode(true));
     element("copyCommand").closest(".row").remove();
     for (const section of document.querySelectorAll(".solved")) section.hidden = !isSolved;
+    element("curves").setAttribute("aria-pressed", String(this.isCurved));
+    element("curves").closest(".row").hidden = this.view.content.dim === 3;
     element("background").hidden = !this.model.isCut;
     for (const button of document.querySelectorAll("[data-save=drawing], [data-save=playing]")) button.hidden = !this.model.drawing;
     document.querySelector(".photo").hidden = !this.model.photo;
@@ -463,19 +474,37 @@ class App {
     if (!file) return;
     const bytes = await file.arrayBuffer();
     const cage = { name: file.name, bytes };
-    await this.remake(`The cage ${file.name}`, () => this.flbc.readCage(cage.name, cage.bytes), { file: cage });
+    await this.remake(`The cage ${file.name}`, () => this.readCage(cage), { file: cage });
   }
 
   // More or fewer control points, of those that are selected. Regions and reach stay.
   edit(change, wanted = null) {
     const { editor, content, deformer } = this.view;
     const selected = [...editor.selection];
-    const points = [...deformer.rest].filter((_, k) => k % 3 < content.dim);
-    const isRight = wanted ? selected.length === wanted : selected.length > 1;
-    const cage = isRight ? change({ points, facets: content.facets, dim: content.dim }, selected) : null;
-    if (!cage) return tell(wanted ? "Select two control points with an edge between them" : "Select at least two control points");
-    const bytes = new TextEncoder().encode(cageToObj(cage));
-    return this.remake("Another cage", () => this.flbc.readCage("cage.obj", bytes), { numbers: cage.numbers });
+    const { dim, facets } = content, { isCurved } = this;
+    const cage = { points: [...deformer.rest].filter((_, k) => k % 3 < dim), facets };
+    const isRight = (wanted ? selected.length === wanted : selected.length > 1) && !(isCurved && selected.some((i) => i >= editor.handles.size));
+    const changed = isRight ? change({ dim, ...isCurved ? straightCage(cage) : cage }, selected) : null;
+    if (!changed) return tell(wanted ? "Select two control points with an edge between them" : "Select at least two control points");
+    const bytes = new TextEncoder().encode(cageToObj(changed));
+    const file = isCurved ? curvedCage(changed) : { name: "cage.obj", bytes };
+    return this.remake("Another cage", () => this.readCage(file), { file, numbers: changed.numbers });
+  }
+
+  // Gives the edges of the cage handles, or takes them. The pose and its keys stay, as far as they can.
+  async toggleCurves() {
+    const { view, isCurved, view: { editor, content, deformer, holdsModel } } = this;
+    const inPlane = (places) => [...places].filter((_, k) => k % 3 < 2);
+    const change = (places) => (isCurved ? straightCage : curvedCage)({ points: inPlane(places), facets: content.facets });
+    const changed = change(deformer.rest);
+    const file = isCurved ? { name: "cage.obj", bytes: new TextEncoder().encode(cageToObj({ ...changed, dim: 2 })) } : changed;
+    const posed = (places) => inSpace(Float64Array.from(change(places).points), 2);
+    const pose = holdsModel ? null : posed(editor.points);
+    const keys = content.poses.map((key) => ({ ...key, points: posed(key.points) }));
+    await this.remake(isCurved ? "Straight edges" : "Curved edges", () => this.readCage(file), { file, numbers: [...Array(editor.handles.size || editor.size).keys()] });
+    if (this.view === view) return;
+    this.view.content.poses = keys;
+    if (pose) this.view.editor.restart(pose);
   }
 
   makeCage() {
@@ -499,7 +528,7 @@ class App {
       keepBackground: () => this.open(this.model.sources, { keepsBackground: true }),
       chooseCage: () => element("cageFile").click(),
       repairCage: () => this.remake("Repairing the cage", () => this.flbc.repairCage()),
-      split: () => this.edit(splitEdge, 2), merge: () => this.edit(mergePoints),
+      curves: () => this.toggleCurves(), split: () => this.edit(splitEdge, 2), merge: () => this.edit(mergePoints),
       showLocal: () => this.compare(false), showHarmonic: () => this.compare(true),
       draw: () => { this.sketch.clear(); this.goTo("drawing"); },
       finishDrawing: () => this.sketch.close(),

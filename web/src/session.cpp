@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "flbc/bounding_box.h"
 #include "flbc/cage_facts.h"
@@ -233,11 +234,15 @@ class Work {
     if (name == "readCage") return read_cage(text("name"), given["bytes"]);
     if (name == "repairCage") return repair_cage();
     if (name == "setCage") return set_cage({places(), matrix_in<FacetList<Dim>>(given["facets"])});
+    if (name == "compose") {
+      return compose({places(), matrix_in<FacetList<Dim>>(given["facets"])},
+                     weights_in(given, places().cols()), given["isCurved"].isTrue());
+    }
     if (name == "makeMesh") return make_mesh(options(), report);
     if (name == "setMesh") return set_mesh(mesh(), {});
     if (name == "setSolution") {
       return set_solution(
-          mesh(), weights_in(given, cage_.size()),
+          mesh(), weights_in(given, inner().size()),
           given.hasOwnProperty("options") ? to_json(given["options"]) : Json::object());
     }
     if (name == "solve") return solve(options());
@@ -287,8 +292,50 @@ class Work {
     rig_.reset();
     bound_.reset();
     few_ = {};
+    map_.reset();
     cage_ = std::move(cage);
     shown_ = app::load_shown_cage<Dim>(file);
+  }
+
+  // Other control points, which move those of the cage.
+  val compose(Cage<Dim> outer, SparseWeights map, bool is_curved) {
+    auto solved = inner();
+    set_cage(std::move(outer));
+    inner_ = std::move(solved);
+    map_ = std::move(map);
+    shown_.is_curved = is_curved;
+    return from_json(cage_facts());
+  }
+
+  // The cage whose interior is meshed.
+  const Cage<Dim>& inner() const { return map_ ? inner_ : cage_; }
+
+  // By the control points that are shown.
+  SparseWeights composed(const SparseWeights& weights) const {
+    return map_ ? flbc::compose(weights, *map_) : weights;
+  }
+  Binding<Dim> whole_binding() {
+    auto binding = rig().binding();
+    return map_ ? binding.composed(*map_, cage_) : binding;
+  }
+
+  // A binding by the inner cage, with its mesh, and a pose of that cage.
+  Binding<Dim> inner_binding() { return map_ ? rig().binding() : binding(); }
+  PointList<Dim> inner_pose(const PointList<Dim>& pose) const {
+    return map_ ? flbc::deform<Dim>(*map_, pose) : pose;
+  }
+
+  // Control points of the inner cage that others move, or the other way around.
+  std::vector<Index> linked(const std::vector<Index>& control_points, bool outward) const {
+    if (!map_) return control_points;
+    std::set<Index> result;
+    const std::set<Index> given(control_points.begin(), control_points.end());
+    for (Index i = 0; i < map_->num_points(); ++i) {
+      map_->visit(i, [&](Index j, double) {
+        if (given.count(outward ? i : j) > 0) result.insert(outward ? j : i);
+      });
+    }
+    return {result.begin(), result.end()};
   }
 
 #ifdef FLBC_LINKS_CGAL
@@ -356,12 +403,12 @@ class Work {
   val make_mesh(const Json& options, const Report& report) {
     require_inside();
     report("filling the cage", 0);
-    auto made = app::make_domain<Dim>({cage_, kCageFile, options.value("vertices", 0)});
+    auto made = app::make_domain<Dim>({inner(), kCageFile, options.value("vertices", 0)});
     const auto note = made.note;
     set_mesh(std::move(made), {});
     const auto& mesh = rig_->mesh();
     // Twice the time of the native program.
-    const auto estimate = app::estimate_solve(Dim, cage_.size(), mesh.num_vertices(), {});
+    const auto estimate = app::estimate_solve(Dim, inner().size(), mesh.num_vertices(), {});
     return from_json({{"vertices", mesh.num_vertices()},
                       {"cells", mesh.num_cells()},
                       {"note", note},
@@ -381,7 +428,7 @@ class Work {
     binding.observer.stage = [this](Stage stage, double done) {
       if (report_) report_(stage == Stage::kDistances ? "measuring distances" : "solving", done);
     };
-    rig_ = std::make_unique<Rig<Dim>>(cage_, std::move(mesh), points(), edges_, binding);
+    rig_ = std::make_unique<Rig<Dim>>(inner(), std::move(mesh), points(), edges_, binding);
     bound_.reset();
     return val::undefined();
   }
@@ -401,9 +448,9 @@ class Work {
 
   // Refuses vertices of faces outside, before a mesher starts.
   void require_inside() const {
-    if (usual_policy(cage_, points(), edges_) != OutsidePoints::kFail) return;
+    if (usual_policy(inner(), points(), edges_) != OutsidePoints::kFail) return;
     try {
-      place_points(cage_, points());
+      place_points(inner(), points());
     } catch (const InputError& error) {
       const std::string message = error.what();  // with advice for users of the library
       throw InputError(name_ + ": " + message.substr(0, message.find("; choose")) +
@@ -413,7 +460,7 @@ class Work {
 
   // The model in the present cage, reduced if it was.
   const Binding<Dim>& binding() {
-    if (!bound_) bound_ = rig().binding();
+    if (!bound_) bound_ = whole_binding();
     return *bound_;
   }
   const SparseWeights& weights() {
@@ -441,14 +488,22 @@ class Work {
     auto binding = rig().options();
     const auto locality = app::load_locality(kLocalityFile, cage_, points(), file_);
     binding.masks = locality.masks;
+    for (auto& mask : binding.masks) mask.control_points = linked(mask.control_points, false);
     binding.solid = locality.solid;
     binding.solver.reach = locality.reach;
+    if (map_ && !locality.reach.empty()) {
+      auto& reach = binding.solver.reach;
+      reach.assign(inner_.size(), 0);
+      for (Index i = 0; i < inner_.size(); ++i) {
+        map_->visit(i, [&](Index j, double share) { reach[i] += share * locality.reach[j]; });
+      }
+    }
     binding.solver.falloff = locality.falloff;
     Index on_facets = 0;
-    end_at_facets(cage_, points(), binding.masks, &on_facets);
+    end_at_facets(inner(), points(), binding.masks, &on_facets);
     Json reply{{"masks", Json::array()},  {"reach", locality.reach}, {"falloff", locality.falloff},
                {"solid", locality.solid}, {"freed", locality.freed}, {"onFacets", on_facets}};
-    for (const auto& [control_points, region] : binding.masks) {
+    for (const auto& [control_points, region] : locality.masks) {
       reply["masks"].push_back({{"controlPoints", control_points}, {"vertices", region}});
     }
     try {
@@ -456,7 +511,7 @@ class Work {
       bound_.reset();
     } catch (const MaskConflict& conflict) {
       reply["conflict"] = {{"vertices", conflict.points},
-                           {"controlPoints", conflict.control_points}};
+                           {"controlPoints", linked(conflict.control_points, true)}};
     }
     return from_json(reply);
   }
@@ -486,13 +541,15 @@ class Work {
       if (options.value("refine", false)) {
         rig().solve(budget);
       } else {
-        rig().reshape(pose_in(request["points"]), budget);
+        const auto rest = pose_in(request["points"]);
+        rig().reshape(inner_pose(rest), budget);
+        cage_.points = rest;
       }
     } catch (const Error& error) {
       return from_json({{"refused", error.what()}});
     }
     bound_.reset();
-    cage_ = rig_->cage();
+    (map_ ? inner_ : cage_) = rig_->cage();
     shown_.points = cage_.points;
     const auto& report = rig_->solution().report;
     auto reply = from_json(
@@ -508,14 +565,14 @@ class Work {
     SparsifyOptions limits{options.value("influences", 8)};
     limits.progress = [&](double done) { report("reducing influences", done); };
     limits.start = few_;
-    bound_ = rig().binding().reduced(limits);
+    bound_ = whole_binding().reduced(limits);
     few_ = bound_->weights;
     return from_json({{"influences", limits.max_influences}});
   }
 
   SparseWeights harmonic() {
-    const auto solution = compute_coordinates(cage_, rig().mesh(), Coordinates::kHarmonic);
-    return weights_at(cage_, rig_->mesh(), solution.weights, rig_->placement());
+    const auto solution = compute_coordinates(inner(), rig().mesh(), Coordinates::kHarmonic);
+    return composed(weights_at(inner(), rig_->mesh(), solution.weights, rig_->placement()));
   }
 
   PointList<Dim> pose_in(const val& numbers) const {
@@ -567,7 +624,7 @@ class Work {
 
   val weight_file(const std::string& of, const std::string& format) {
     return bytes_of("weights." + format, [&](const auto& file) {
-      if (of == "mesh") return io::write_weights(file, rig().solution().weights);
+      if (of == "mesh") return io::write_weights(file, composed(rig().solution().weights));
       app::write_binding(file, binding());
     });
   }
@@ -598,7 +655,8 @@ class Work {
           Eigen::RowVector3d(0, 0, 1);
       const Vector<2> page = matrix_in<PointList<2>>(placing["page"]).col(0);
       const io::SvgDocument document(text, name_, page, to_model);
-      const auto moved = binding().deform(pose, document.points(), OutsidePoints::kKeep);
+      const auto moved =
+          inner_binding().deform(inner_pose(pose), document.points(), OutsidePoints::kKeep);
       auto result = val::object();
       result.set("text", document.moved(moved));
       result.set("notes", from_json(Json(document.notes())));
@@ -618,7 +676,7 @@ class Work {
           emscripten::convertJSArrayToNumberVector<std::uint8_t>(pixels["data"])};
       std::vector<PointList<2>> poses;
       for (const auto& pose : emscripten::vecFromJSArray<val>(given["poses"])) {
-        poses.push_back(pose_in(pose));
+        poses.push_back(inner_pose(pose_in(pose)));
       }
       const auto has = [&](const char* key) { return !given[key].isUndefined(); };
       Vector<2> size(0, 0);
@@ -638,7 +696,7 @@ class Work {
       std::vector<io::Bitmap> cells;
       std::vector<std::string> names;
       auto frames = val::array();
-      io::warp(source, binding(), poses, number("scale", 1), size,
+      io::warp(source, inner_binding(), poses, number("scale", 1), size,
                [&](std::size_t k, io::Bitmap moved) {
                  frames.call<void>("push", shown(moved));
                  names.push_back(app::with_number("frame_%04d.png", std::int64_t(k) + 1));
@@ -661,7 +719,9 @@ class Work {
   std::optional<app::MovableModel<Dim>> model_;
   gltf::Surface surface_;
   EdgeList edges_;
-  Cage<Dim> cage_;
+  Cage<Dim> cage_;                    // of the control points that are shown
+  Cage<Dim> inner_;                   // that these move, if there is a map
+  std::optional<SparseWeights> map_;  // weights of the inner cage for them
   view::ShownCage<Dim> shown_;
   std::unique_ptr<Rig<Dim>> rig_;      // once there is a mesh
   std::optional<Binding<Dim>> bound_;  // of the last solve

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The actions of dragging selected control points with a tool.
+// The actions of dragging selected control points with a tool, or the model.
 import { shortNumber } from "./colors.mjs";
-import { add, centroid, cross, dot, length, pointAt, times } from "./vectors.mjs";
+import { add, centroid, cross, dot, length, pointAt, setPoint, times } from "./vectors.mjs";
 import { kAxes, rotate, scale, translate } from "./transforms.mjs";
 
 export const kUnits = { move: "", rotate: "°", scale: " times" };
 const kSnaps = { rotate: Math.PI / 12, scale: 0.1 };
+const kSteady = 0.01;  // of the sum of squared weights: less does not move a place along the axis of the mirror
 const kLever = 64;  // pixels, of a ring that is seen from its side
 
 // By how far along one or two axes a thing at `place` moves if it follows the pointer on the screen.
@@ -125,5 +126,38 @@ export class ToolDrag {
     const middle = this.camera.project(this.center);
     const distance = (place) => Math.hypot(place.x - middle.x, place.y - middle.y);
     return distance(spot) / Math.max(4, distance(this.from));
+  }
+}
+
+// The smallest moves of control points that together move a place: by which factor each follows a step along
+// each axis. Images in the mirror move as images do, so a place in its plane stays there.
+// \param weights  of the place, by control point
+export function leastMoves(weights, pairs = null, mirrorAxis = -1) {
+  const parts = new Map();
+  const put = (i, weight, reversed) => parts.set(i, [0, 1, 2].map((k) => (parts.get(i)?.[k] ?? 0) + (k === reversed ? -weight : weight)));
+  let most = 0;
+  for (const [i, weight] of weights) {
+    const image = pairs?.[i] ?? -1, own = image < 0 ? weight : weight / 2;
+    most += weight * weight;
+    put(i, own, -1);
+    if (image >= 0) put(image, own, mirrorAxis);
+  }
+  const squares = [0, 1, 2].map((k) => [...parts.values()].reduce((sum, part) => sum + part[k] * part[k], 0));
+  const divisors = squares.map((sum) => Math.max(sum, kSteady * most) || 1);
+  return new Map([...parts].map(([i, part]) => [i, part.map((value, k) => value / divisors[k])]));
+}
+
+// A drag of a place of the model, which follows the pointer.
+export class ModelDrag extends ToolDrag {
+  constructor(editor, camera, axisNames, place, weights, from, named) {
+    super(editor, camera, "move", axisNames, null, from, named);
+    this.anchor = place;
+    this.factors = leastMoves(weights, editor.pairs, editor.mirrorAxis);
+  }
+
+  translate(step) {
+    this.editor.change([...this.factors.keys()], (start, listed, result) => {
+      for (const [i, factor] of this.factors) setPoint(result, i, pointAt(start, i).map((value, k) => value + factor[k] * step[k]));
+    });
   }
 }

@@ -2,6 +2,7 @@
 // The data of the page, as typed arrays. Points have three coordinates in both
 // dimensions. Those of the model are seen from `center`, because single precision has digits enough
 // there; control points are where they are.
+import { curvesOf } from "./curves.mjs";
 import { setPoint } from "./vectors.mjs";
 
 export function decodeBytes(text) {
@@ -78,10 +79,11 @@ export function decodeContent(json) {
   const base = inSpace(decodeFloats(json.points.offsets), dim);
   const given = decodeDoubles(json.cage.points);
   const rest = inSpace(given, dim);
+  const facets = decodeIndices(json.cage.facets);
   return {
     dim, center, base, rest, given,
     title: json.title, up: json.up, front: json.front, files: json.files, cageText: json.cage.text,
-    facets: decodeIndices(json.cage.facets), edges: decodeIndices(json.cage.edges),
+    facets, curves: json.cage.isCurved ? curvesOf(facets, rest.length / 3) : [], edges: decodeIndices(json.cage.edges),
     weights: decodeWeights(json.weights), palette: decodeBytes(json.palette),
     surface: decodeSurface(json.surface, base.length / 3, json.picture, dim),
     poses: decodePoses(json.poses, dim, rest),

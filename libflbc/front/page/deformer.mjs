@@ -66,6 +66,16 @@ export class Deformer {
     return sums;
   }
 
+  // The weights of a mean of points, by control point. \param shares  points with their shares
+  weightsAt(shares) {
+    const { starts, controlPoints: owners, values } = this.weights;
+    const result = new Map();
+    for (const [p, share] of shares) {
+      for (let k = starts[p]; k < starts[p + 1]; ++k) result.set(owners[k], (result.get(owners[k]) ?? 0) + share * values[k]);
+    }
+    return result;
+  }
+
   // How many of the model's points control points move.
   countMovedBy(indices) {
     const { weights, moving } = this, key = indices.join();

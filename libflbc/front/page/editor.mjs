@@ -16,6 +16,10 @@ export class Editor {
   // \param facets  of the cage, dim control points each \param content  whose poses are the keys
   constructor(rest, dim, facets = [], content = { poses: [] }) {
     this.content = content;
+    this.handles = new Map();  // of curves, by their corners
+    for (const [a, first, second, b] of content.curves ?? []) {
+      for (const [corner, handle] of [[a, first], [b, second]]) this.handles.set(corner, [...this.handles.get(corner) ?? [], handle]);
+    }
     this.graph = new CageGraph(facets, dim, rest.length / 3);
     this.softness = 0;  // radius of the soft selection, 0: none
     this.pivotPoints = null;  // around whose center the selection is rotated and scaled, null: its own
@@ -78,13 +82,22 @@ export class Editor {
     this.onChange();
   }
 
-  // Which share of a step control points take: within the radius it falls smoothly to 0.
+  // These control points, and the handles of those that are corners of curves.
+  withHandles(indices) {
+    return [...indices].flatMap((i) => [i, ...this.handles.get(i) ?? []]);
+  }
+
+  // Which share of a step control points take: within the radius it falls smoothly to 0. Corners take
+  // their handles along.
   shares() {
     const distances = this.graph.distances(this.rest, this.selection, this.softness);
     const shares = new Map();
     for (const [i, distance] of distances) {
       const share = distance > 0 ? (1 - (distance / this.softness) ** 2) ** 2 : 1;
       if (share > 0) shares.set(i, share);
+    }
+    for (const [i, share] of [...shares]) {
+      for (const handle of this.handles.get(i) ?? []) shares.set(handle, Math.max(share, shares.get(handle) ?? 0));
     }
     return shares;
   }

@@ -33,8 +33,8 @@ export class Gizmo {
 
   // What can be grabbed: kind, tool, names of axes, and its line or outline in pixels.
   handles() {
-    const { editor, camera, brush, drag, playing, showsCage, axis, tool, content: { dim } } = this.viewer;
-    if (editor.selection.size === 0 || brush || playing || !showsCage) return [];
+    const { editor, camera, brush, drag, playing, showsCage, grabsModel, axis, tool, content: { dim } } = this.viewer;
+    if (editor.selection.size === 0 || brush || playing || !showsCage || grabsModel) return [];
     const axes = drag?.named ?? this.viewer.axes;
     const middle = editor.pivot ?? centroid(editor.points, [...editor.selection]);
     const { right, up, toward } = camera.axes();
@@ -47,7 +47,7 @@ export class Gizmo {
     });
     const all = ["x", "y", "z"].slice(0, dim), handles = [];
     const put = (kind, names, line, does) => handles.push({ kind, names, line, tool: does, id: `${kind} ${names}` });
-    const canTurn = editor.pivot || editor.softness > 0 || editor.selection.size > 1;
+    const canTurn = editor.pivot || editor.shares().size > 1;
     const center = camera.project(middle);
     put("center", axis ?? "", [center], "move");
     for (const name of all.filter((each) => !axis || each === axis)) {

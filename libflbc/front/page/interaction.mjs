@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mouse, pen and fingers on the picture.
-import { pick, pointsInside, rectangle } from "./picking.mjs";
-import { ToolDrag } from "./actions.mjs";
+import { pick, pointsInside, rectangle, surfaceAt } from "./picking.mjs";
+import { ModelDrag, ToolDrag } from "./actions.mjs";
 
 const kReach = { mouse: 12, pen: 16, touch: 26 };  // pixels
 const kClick = { mouse: 2, pen: 4, touch: 8 };     // moves up to here are none
@@ -32,8 +32,8 @@ export class Interaction {
   }
 
   pickAt(spot, event) {
-    const { editor, camera, showsCage } = this.view;
-    return showsCage ? pick(editor.points, camera, spot.x, spot.y, kReach[event.pointerType] ?? 12) : -1;
+    const { editor, camera, showsCage, grabsModel } = this.view;
+    return showsCage && !grabsModel ? pick(editor.points, camera, spot.x, spot.y, kReach[event.pointerType] ?? 12) : -1;
   }
 
   down(event) {
@@ -76,7 +76,7 @@ export class Interaction {
   // all takes the limb beyond it with its ring, because one control point alone makes a dent.
   grab(hit) {
     const { editor } = this.view;
-    const isFirst = editor.selection.size === 0 && !editor.canUndo && !editor.canRedo && !this.adds;
+    const isFirst = !(editor.handles.size > 0 && hit >= editor.handles.size) && editor.selection.size === 0 && !editor.canUndo && !editor.canRedo && !this.adds;
     if (this.adds || !editor.selection.has(hit)) editor.click(hit, this.adds);
     if (!editor.selection.has(hit)) return "none";
     this.beginDrag = () => {
@@ -85,6 +85,18 @@ export class Interaction {
       this.view.drag = this.newDrag(hit);
     };
     return "edit";
+  }
+
+  // The place of the model under the pointer. \return whether there is one
+  grabModel() {
+    const { view } = this, { deformer, content, camera, editor, axis, axes } = view;
+    view.update();
+    const grip = surfaceAt(deformer.points, content.surface, camera, content.center, this.from);
+    if (!grip) return false;
+    this.beginDrag = () => {
+      view.drag = new ModelDrag(editor, camera, axis, grip.place, deformer.weightsAt(grip.shares), this.from, axes);
+    };
+    return true;
   }
 
   newDrag(grabbed) {
@@ -105,7 +117,7 @@ export class Interaction {
   type(key) {
     const { view } = this;
     const { selection } = view.editor;
-    if (view.typed === null || selection.size === 0) return false;
+    if (view.typed === null || (selection.size === 0 && !view.drag)) return false;
     if (key === "Enter" && view.typed !== "") {
       view.editor.end();
       this.finish();
@@ -125,6 +137,7 @@ export class Interaction {
   modeOfEmptySpot(event) {
     const { view } = this;
     if (event.button !== 0) return "pan";
+    if (view.grabsModel && !this.adds && this.grabModel()) return "edit";
     if (view.area || event.shiftKey || event.ctrlKey) {
       this.area = event.ctrlKey ? "lasso" : event.shiftKey ? "box" : view.area;
       this.outline = [this.from];

@@ -25,7 +25,8 @@ export const kHelp = [
   ["O", "soft selection: neighbors follow; the slider is its radius"],
   ["Arrows, Space", "walk from control point to control point along the cage; Space selects, one more or one less"],
   ["Shift+Arrows", "move the selection a little"],
-  ["M", "mirror: off, x, y, z"],
+  ["M", "drag the model: the place that you grab follows the pointer, and few control points move"],
+  ["I", "mirror: off, x, y, z"],
   ["A  B  Q", "select all or none; drags select in a box; in a lasso"],
   ["Ctrl+Z  Ctrl+Y", "undo, redo"],
   ["Del  Shift+Del", "reset the selection, everything"],
@@ -66,7 +67,7 @@ function nudge(viewer, [dx, dy]) {
 // \param commands  functions by name, as the panel has them \param interaction  may be cancelled
 export function bindKeys(viewer, commands, interaction, signal) {
   const plain = {
-    g: "move", r: "rotate", s: "scale", x: "x", y: "y", z: "z", m: "nextMirror",
+    g: "move", r: "rotate", s: "scale", x: "x", y: "y", z: "z", m: "dragModel", i: "nextMirror",
     a: "selectAll", b: "box", q: "lasso", e: "ring", l: "limb", "+": "grow", "=": "grow", "-": "shrink",
     p: "pivotHere", o: "toggleSoft", k: "addKey", f: "frame", t: "turn", 1: "front", 2: "side", 3: "top", c: "cage", w: "edges",
     ",": "localAxes", " ": "play", d: "theme", "?": "help", delete: "resetSelection", backspace: "resetSelection",

@@ -108,7 +108,7 @@ export function makeCommands(viewer) {
     redo: () => { viewer.stopPlaying(); (viewer.brush ?? editor).redo(); },
     move: tool("move"), rotate: tool("rotate"), scale: tool("scale"),
     x: axis("x"), y: axis("y"), z: content.dim === 3 ? axis("z") : () => {},
-    resetSelection: () => editor.reset(selected()),
+    resetSelection: () => editor.reset(editor.withHandles(selected())),
     resetAll: () => { viewer.stopPlaying(); editor.reset(everything()); },
     selectAll: () => editor.select(editor.selection.size === editor.size ? [] : everything()),
     box: area("box"), lasso: area("lasso"),
@@ -117,6 +117,7 @@ export function makeCommands(viewer) {
     grow: () => editor.select(editor.graph.grow(editor.selection)),
     shrink: () => editor.select(editor.graph.shrink(editor.selection)),
     localAxes: () => viewer.set("isLocal", !viewer.isLocal),
+    dragModel: () => viewer.set("dragsModel", !viewer.dragsModel),
     pivotHere: () => editor.setPivot(editor.pivot || editor.selection.size === 0 ? null : selected()),
     toggleSoft: () => toggleSoft(viewer),
     loadPose: () => element("poseFile").click(),
@@ -273,6 +274,7 @@ function describeSelection(viewer) {
   if (drag) return drag.text;
   const { hovered, cursor } = viewer;
   const chosen = hovered >= 0 && (cursor >= 0 || !selection.has(hovered)) ? [hovered] : [...selection];
+  if (viewer.grabsModel) return "drag the model: the control points near the place that you grab move it";
   if (chosen.length === 0) return "drag a control point, or double-click it for the ring around the limb";
   const moved = deformer.weights.values.length > 0 ? portion(deformer.countMovedBy(chosen), deformer.base.length / 3) : "nothing yet";
   const keys = cursor < 0 ? "" : selection.has(cursor) ? "; Space deselects it" : "; Space selects it";
@@ -285,7 +287,7 @@ function showState(viewer) {
   const isPressed = {
     move: viewer.tool === "move", rotate: viewer.tool === "rotate", scale: viewer.tool === "scale",
     box: viewer.area === "box", lasso: viewer.area === "lasso", cage: viewer.showsCage, edges: viewer.showsEdges,
-    localAxes: viewer.isLocal, loop: viewer.loops, smooth: !content.poses[0]?.isStraight };
+    localAxes: viewer.isLocal, dragModel: viewer.dragsModel, loop: viewer.loops, smooth: !content.poses[0]?.isStraight };
   for (const [id, pressed] of Object.entries(isPressed)) {
     element(id).setAttribute("aria-pressed", String(pressed));
   }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Draws the model and its cage with WebGL2.
+import { bernstein } from "./curves.mjs";
 import { atVertices, edgesOf, sumNormals } from "./surface_normals.mjs";
 import { kDotShader, kEdgeShader, kSurfaceShader, kWireShader, onCard } from "./shaders.mjs";
+
+const kPieces = Array.from({ length: 17 }, (_, k) => bernstein(k / 16));  // of a curve that is drawn
 
 function compile(gl, source) {
   const program = gl.createProgram();
@@ -149,16 +152,23 @@ export class Renderer {
 
   makeCage() {
     const { gl } = this;
-    const { edges, rest } = this.content;
-    this.wire = new Float32Array(3 * edges.length);
-    this.wireArray = gl.createVertexArray();
-    gl.bindVertexArray(this.wireArray);
+    const { edges, curves, rest } = this.content;
+    // First the outline, then the lines to handles.
+    const isCurved = curves?.length > 0;
+    this.numLines = isCurved ? [(kPieces.length - 1) * curves.length, 2 * curves.length] : [edges.length / 2, 0];
+    this.wire = new Float32Array(6 * (this.numLines[0] + this.numLines[1]));
     this.wireBuffer = this.buffer(gl.ARRAY_BUFFER, this.wire, gl.DYNAMIC_DRAW);
-    for (const location of [0, 1]) {
-      gl.enableVertexAttribArray(location);
-      gl.vertexAttribPointer(location, 3, gl.FLOAT, false, 24, 12 * location);
-      gl.vertexAttribDivisor(location, 1);
-    }
+    this.wireArrays = [0, 24 * this.numLines[0]].map((offset) => {
+      const array = gl.createVertexArray();
+      gl.bindVertexArray(array);
+      gl.bindBuffer(gl.ARRAY_BUFFER, this.wireBuffer);
+      for (const location of [0, 1]) {
+        gl.enableVertexAttribArray(location);
+        gl.vertexAttribPointer(location, 3, gl.FLOAT, false, 24, offset + 12 * location);
+        gl.vertexAttribDivisor(location, 1);
+      }
+      return array;
+    });
     this.dots = new Float32Array(rest.length);
     this.states = new Float32Array(rest.length / 3);
     this.dotArray = gl.createVertexArray();
@@ -215,17 +225,37 @@ export class Renderer {
 
   // \param shares  of a step that control points take, by their number
   setCage(points, shares, hovered) {
-    const { center, edges } = this.content;
+    const { center, edges, curves } = this.content;
     for (let k = 0; k < points.length; ++k) this.dots[k] = points[k] - center[k % 3];
-    for (let k = 0; k < edges.length; ++k) {
-      for (let c = 0; c < 3; ++c) this.wire[3 * k + c] = this.dots[3 * edges[k] + c];
+    if (curves?.length > 0) {
+      this.setCurves(curves);
+    } else {
+      for (let k = 0; k < edges.length; ++k) {
+        for (let c = 0; c < 3; ++c) this.wire[3 * k + c] = this.dots[3 * edges[k] + c];
+      }
     }
     for (let i = 0; i < this.states.length; ++i) {
-      this.states[i] = (shares.get(i) ?? 0) + (i === hovered ? 2 : 0);
+      const isHandle = curves?.length > 0 && i >= curves.length;
+      this.states[i] = (shares.get(i) ?? 0) + (i === hovered ? 2 : 0) + (isHandle ? 4 : 0);
     }
     this.upload(this.wireBuffer, this.wire);
     this.upload(this.dotBuffer, this.dots);
     this.upload(this.stateBuffer, this.states);
+  }
+
+  setCurves(curves) {
+    const { wire, dots } = this;
+    let end = 0;
+    const put = (curve, shares) => {
+      for (let c = 0; c < 3; ++c) wire[end++] = curve.reduce((sum, i, m) => sum + shares[m] * dots[3 * i + c], 0);
+    };
+    for (const curve of curves) {
+      for (let k = 1; k < kPieces.length; ++k) {
+        put(curve, kPieces[k - 1]);
+        put(curve, kPieces[k]);
+      }
+    }
+    for (const [a, first, second, b] of curves) for (const i of [a, first, second, b]) put([i], [1]);
   }
 
   // Fits the canvas to its place on the page. \return whether that changed its size
@@ -346,9 +376,11 @@ export class Renderer {
     gl.uniformMatrix4fv(places.toClip, false, matrix);
     gl.uniform2f(places.halfViewport, canvas.width / 2, canvas.height / 2);
     gl.uniform1f(places.halfWidth, 0.75 * this.ratio);
-    gl.uniform4f(places.ink, ...look.ink, 0.8 * opacity);
-    gl.bindVertexArray(this.wireArray);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.content.edges.length / 2);
+    this.wireArrays.forEach((array, k) => {
+      gl.uniform4f(places.ink, ...look.ink, (k === 0 ? 0.8 : 0.35) * opacity);
+      gl.bindVertexArray(array);
+      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.numLines[k]);
+    });
     gl.bindVertexArray(null);
   }
 

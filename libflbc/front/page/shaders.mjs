@@ -160,19 +160,21 @@ export const kDotShader = {
     uniform vec3 pointer;  // in clip coordinates, and the aspect ratio
     uniform vec2 depth;    // as w has it: of the center of the model, and half of its extent
     layout(location = 0) in vec3 place;
-    layout(location = 1) in float state;  // share of a step, 1: selected; 2 more: under the pointer
+    layout(location = 1) in float state;  // share of a step, 1: selected; 2 more: under the pointer; 4: a handle
     out float isSelected;
+    out float isHandle;
     out float pixels;
     out float presence;
     void main() {
       gl_Position = toClip * vec4(place, 1.0);
       isSelected = mod(state, 2.0);
-      float isNear = step(1.5, state);
+      float isNear = step(1.5, mod(state, 4.0));
+      isHandle = step(3.5, state);
       vec2 away = (gl_Position.xy / gl_Position.w - pointer.xy) * vec2(pointer.z, 1.0);
       float closeness = 1.0 - smoothstep(0.0, 0.3, length(away));
       float isAway = depth.y > 0.0 ? smoothstep(-0.3, 0.6, (gl_Position.w - depth.x) / depth.y) : 0.0;
       presence = 1.0 - 0.75 * isAway * (1.0 - max(isSelected, max(isNear, closeness)));
-      pixels = size * (0.5 + 0.5 * presence + 0.25 * isSelected + 0.35 * isNear + 0.6 * closeness);
+      pixels = size * (0.5 + 0.5 * presence + 0.25 * isSelected + 0.35 * isNear + 0.6 * closeness) * (1.0 - 0.2 * isHandle);
       gl_PointSize = pixels;
     }`,
   fragment: `#version 300 es
@@ -181,6 +183,7 @@ export const kDotShader = {
     uniform vec4 highlight;
     uniform vec3 rim;
     in float isSelected;
+    in float isHandle;
     in float pixels;
     in float presence;
     out vec4 color;
@@ -188,7 +191,8 @@ export const kDotShader = {
       float fromCenter = length(gl_PointCoord - 0.5) * pixels;
       float radius = 0.5 * pixels - 0.75;
       vec4 inner = mix(ink, highlight, isSelected);
-      float isInner = clamp(radius - 1.2 - fromCenter + 0.5, 0.0, 1.0);
+      float isInner = clamp(radius - 1.2 - fromCenter + 0.5, 0.0, 1.0)
+        * (1.0 - isHandle * clamp(0.6 * radius - fromCenter + 0.5, 0.0, 1.0));
       float coverage = clamp(radius - fromCenter + 0.5, 0.0, 1.0);
       color = vec4(mix(rim, inner.rgb, isInner), inner.a * coverage * presence);
     }`,

@@ -36,6 +36,7 @@ export class Viewer {
     this.tool = "move";
     this.axis = null;
     this.isLocal = false;  // whether axes are those of the selection, instead of the model
+    this.dragsModel = false;  // instead of control points
     this.brush = null;   // paints on the model: begin, to, end, cancel, colors; and undo, as the editor
     this.area = null;    // what drags elsewhere select: "box", "lasso" or null
     this.typed = null;   // digits of a number for the tool, null: digits are other keys
@@ -146,7 +147,7 @@ export class Viewer {
     this.pointer = spot ? [2 * spot.x / width - 1, 1 - 2 * spot.y / height] : kNowhere;
     this.gizmo.hot = handle?.id ?? null;
     this.cursor = spot ? -1 : i;
-    this.canvas.style.cursor = handle ? "grab" : i >= 0 ? "pointer" : "";
+    this.canvas.style.cursor = handle || this.grabsModel ? "grab" : i >= 0 ? "pointer" : "";
     this.redraw();
     if (i === this.hovered) return;
     this.hovered = i;
@@ -164,6 +165,10 @@ export class Viewer {
   // Whether the cage is reshaped at rest; its poses are for later.
   get holdsModel() {
     return Boolean(this.reshaper?.isOn);
+  }
+
+  get grabsModel() {
+    return this.dragsModel && !this.holdsModel;
   }
 
   get duration() {

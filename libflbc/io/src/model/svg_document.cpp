@@ -499,6 +499,15 @@ struct SvgDocument::Content {
     }
   }
 
+  void visit_all(const Visit& first) {
+    std::vector<Visit> open{first};
+    while (!open.empty()) {
+      const auto next = open.back();
+      open.pop_back();
+      visit(next, open);
+    }
+  }
+
   void take_points() {
     Eigen::AlignedBox<double, 2> box;
     for (const auto& target : targets) {
@@ -581,12 +590,7 @@ SvgDocument::SvgDocument(const std::string& text, std::string name, const Vector
   content.index_ids();
   Size view = page;
   const Affine2 inside = view_of(root, Vector<2>::Zero(), view);
-  std::vector<Content::Visit> open{{root, to_model * inside, view}};
-  while (!open.empty()) {
-    const auto next = open.back();
-    open.pop_back();
-    content.visit(next, open);
-  }
+  content.visit_all({root, to_model * inside, view});
   if (content.targets.empty()) throw InputError(content.name + ": the drawing has no shapes");
   content.take_points();
 }
