@@ -8,6 +8,8 @@
 #include "flbc/errors.h"
 #include "flbc/io/files.h"
 #include "flbc/io/model_file.h"
+#include "flbc/io/weights_io.h"
+#include "front/facts.h"
 #include "front/load.h"
 #include "front/model_facets.h"
 #include "front/system/held_signals.h"
@@ -20,14 +22,36 @@ struct CageArguments {
   std::string model;
   std::string defective;  // a cage to be repaired instead
   std::string output;
+  std::string density;
   CagingOptions options;
   bool quiet = false;
 };
 
 template <int Dim>
+Eigen::VectorXd load_density(const CageArguments& arguments, const ModelFacets<Dim>& model) {
+  const auto& path = arguments.density;
+  const WeightMatrix rows = io::read_weights(path).dense();
+  Facts problem;
+  if (rows.rows() != 1 || rows.cols() != model.num_vertices()) {
+    problem << "holds " << rows.cols() << " rows of " << rows.rows()
+            << " numbers; a density is a number for each of " << model.num_vertices()
+            << " vertices of " << arguments.model;
+  }
+  for (Index v = 0; problem.text().empty() && v < rows.cols(); ++v) {
+    if (rows(0, v) >= 1 / kMaxCageDensity && rows(0, v) <= kMaxCageDensity) continue;
+    problem << "the density of vertex " << v << " is " << rows(0, v)
+            << "; give numbers from 0.01 to 100, 1 is usual";
+  }
+  if (!problem.text().empty()) throw InputError(path + ": " + problem.text());
+  return model.left_of(rows.transpose());
+}
+
+template <int Dim>
 void cage(const ModelFacets<Dim>& model, const CageArguments& arguments) {
   require_cage_writable<Dim>(arguments.output);
-  const auto made = make_cage(arguments.model, model, arguments.options, arguments.quiet);
+  auto options = arguments.options;
+  if (!arguments.density.empty()) options.density = load_density(arguments, model);
+  const auto made = make_cage(arguments.model, model, options, arguments.quiet);
   {
     const HeldSignals held;
     write_cage(arguments.output, made.cage, model.height);
@@ -93,7 +117,7 @@ void check_arguments(const CageArguments& arguments) {
   if (arguments.model.empty() == arguments.defective.empty()) {
     throw OptionError("MODEL to enclose is missing, or a cage with --repair");
   }
-  require_distinct({arguments.model, arguments.defective}, {arguments.output});
+  require_distinct({arguments.model, arguments.defective, arguments.density}, {arguments.output});
 }
 
 }  // namespace
@@ -126,6 +150,11 @@ void add_cage_command(CLI::App& app, int&) {
       "distance from the model, in its units (default: depends on the number of control points)");
   offset->needs(model);
   add_symmetric_option(*command, a.options.symmetry)->needs(model);
+  auto* density = command->add_option(
+      "--density", a.density,
+      "relative density of control points at each vertex of MODEL: .csv or .npy of numbers "
+      "from 0.01 to 100, 1 as usual, 4 for four times as many");
+  density->needs(model);
   command->add_option(
       "--repair", a.defective,
       "repair this defective cage: weld, orient, fill holes, and unite crossing parts, and list "

@@ -39,9 +39,9 @@ ModelCage<Dim> make_cage([[maybe_unused]] const std::string& file,
     options.stage = [&bar](CagingStage stage, double done) { bar.show(name_of(stage), done); };
     made = naming(file, [&] { return cage_from_model<Dim>(model.points, model.facets, options); });
   }
-  if (!quiet && model.unused > 0) {
-    std::cerr << file << ": the cage leaves out " << model.unused
-              << (model.unused == 1 ? " vertex of no face\n" : " vertices of no face\n");
+  if (!quiet && !model.unused.empty()) {
+    std::cerr << file << ": the cage leaves out " << model.unused.size()
+              << (model.unused.size() == 1 ? " vertex of no face\n" : " vertices of no face\n");
   }
   const Index parts = measure_cage(made.cage).parts;
   if (!quiet && model.facets.cols() == 0 && parts > 1) {

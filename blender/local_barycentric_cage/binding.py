@@ -309,6 +309,18 @@ def apply(model):
     model.property_unset('flbc')
 
 
+def _turn_to_files(active):
+    """The turn to the axes of files, with y up, which give the cage that the program makes of them.
+
+    Imported models are turned in their mesh or in their matrix.
+    """
+    upright = np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]])
+    axes = upright @ np.array(active.matrix_world)[:3, :3]
+    turn = np.round(axes / np.maximum(np.linalg.norm(axes, axis=0), 1e-30))
+    is_turn = (np.abs(turn).sum(0) == 1).all() and np.linalg.det(turn) > 0.5
+    return turn if is_turn else upright
+
+
 def make_cage(models, active, program, control_points):
     """Steps of a Job that make a cage around models, in the space of the active one.
 
@@ -325,10 +337,12 @@ def make_cage(models, active, program, control_points):
                       'for example by extruding it')
     with tempfile.TemporaryDirectory(prefix='flbc_') as folder:
         model, cage = Path(folder, 'model.ply'), Path(folder, 'cage.obj')
-        files.write_ply(model, *shape)
+        turn = _turn_to_files(active)
+        files.write_ply(model, *shape._replace(points=shape.points @ turn.T))
         count = ['--control-points', control_points] if control_points else []
         yield Command([program, 'cage', model, '-o', cage, *count], {model: active_name})
-        _add_cage(active_name, *files.read_obj(cage))
+        points, faces = files.read_obj(cage)
+        _add_cage(active_name, points @ turn, faces)
 
 
 def _add_cage(model_name, points, faces):

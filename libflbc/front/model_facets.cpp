@@ -80,10 +80,11 @@ PointList<3> voxel_corners(const PointList<3>& points) {
   return result;
 }
 
-// Renumbers the points that polygons and polylines use. \return the number of others, which stay if
-// there are only points
-Index drop_unused(io::PolygonSoup& soup) {
-  if (soup.polygons.empty() && soup.polylines.empty()) return 0;
+// Renumbers the points that polygons and polylines use. \return the others, which stay if there are
+// only points
+std::vector<Index> drop_unused(io::PolygonSoup& soup) {
+  std::vector<Index> unused;
+  if (soup.polygons.empty() && soup.polylines.empty()) return unused;
   std::vector<bool> is_used(soup.points.size(), false);
   for (const auto* lists : {&soup.polygons, &soup.polylines}) {
     for (const auto& list : *lists) {
@@ -91,10 +92,13 @@ Index drop_unused(io::PolygonSoup& soup) {
     }
   }
   std::vector<Index> number(soup.points.size(), -1);
-  std::size_t used = 0;
+  Index used = 0;
   for (std::size_t v = 0; v < number.size(); ++v) {
-    if (!is_used[v]) continue;
-    number[v] = static_cast<Index>(used);
+    if (!is_used[v]) {
+      unused.push_back(static_cast<Index>(v));
+      continue;
+    }
+    number[v] = used;
     soup.points[used++] = soup.points[v];
   }
   soup.points.resize(used);
@@ -103,7 +107,7 @@ Index drop_unused(io::PolygonSoup& soup) {
       for (Index& v : list) v = number[v];
     }
   }
-  return static_cast<Index>(number.size() - used);
+  return unused;
 }
 
 }  // namespace
@@ -122,12 +126,12 @@ AnyModelFacets load_model_facets(const std::string& path) {
   }
   auto soup = io::read_polygons(path);
   if (soup.points.empty()) throw InputError(path + ": the model has no vertices");
-  const Index unused = drop_unused(soup);
+  auto unused = drop_unused(soup);
   if (is_flat(soup)) {
     return ModelFacets<2>{io::to_points<2>(soup, path), flat_facets(soup), soup.points[0].z(),
-                          unused};
+                          std::move(unused)};
   }
-  return ModelFacets<3>{io::to_points<3>(soup, path), triangles_of(soup), 0, unused};
+  return ModelFacets<3>{io::to_points<3>(soup, path), triangles_of(soup), 0, std::move(unused)};
 }
 
 FacetList<3> triangles_of(const io::PolygonSoup& soup) {

@@ -2,6 +2,7 @@
 // Models as cages are made round them, and cages as files.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <variant>
 #include <vector>
@@ -18,8 +19,19 @@ template <int Dim>
 struct ModelFacets {
   PointList<Dim> points;
   FacetList<Dim> facets;
-  double height = 0;  //!< 2D: the z of all points
-  Index unused = 0;   //!< vertices of no face or polyline that were left out
+  double height = 0;            //!< 2D: the z of all points
+  std::vector<Index> unused{};  //!< vertices of no face or polyline that were left out, ascending
+
+  //! Vertices of the file.
+  Index num_vertices() const { return static_cast<Index>(points.cols() + unused.size()); }
+  //! Of numbers for all of them, those of the points.
+  Eigen::VectorXd left_of(const Eigen::VectorXd& numbers) const {
+    std::vector<Index> left;
+    for (Index v = 0; v < numbers.size(); ++v) {
+      if (!std::binary_search(unused.begin(), unused.end(), v)) left.push_back(v);
+    }
+    return numbers(left);
+  }
 };
 
 using AnyModelFacets = std::variant<ModelFacets<2>, ModelFacets<3>>;

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Dict, List, NamedTuple, Optional
 import numpy as np
 
 from . import _core
-from ._shapes import Cage, as_cage, as_points, as_polygons, check_scalars
+from ._shapes import (
+    Cage, as_array, as_cage, as_floats, as_points, as_polygons, check_scalars,
+)
 from ._weights import measure
 
 if TYPE_CHECKING:
@@ -140,6 +142,7 @@ def make_cage(
     control_points: int = 0,
     offset: float = 0,
     symmetry: str = "auto",
+    density: Optional[ArrayLike] = None,
 ) -> Cage:
     """Makes a cage around a model, which it encloses strictly.
 
@@ -156,6 +159,8 @@ def make_cage(
         Distance from the model in its units; 0 to choose it.
     symmetry : str, default "auto"
         Mirror plane of the cage: "auto", "none", "x", "y", "z".
+    density : array_like, shape (P,), optional
+        Relative density of control points at each vertex, 0.01 to 100: 1 as usual.
 
     Returns
     -------
@@ -180,7 +185,8 @@ def make_cage(
     )
     points = as_points(vertices, "vertices")
     polygons = as_polygons(faces, "faces", len(points))
-    made, note = _core.make_cage(points, polygons, control_points, offset, symmetry)
+    densities = as_floats(as_array(() if density is None else density, "density"), "density")
+    made, note = _core.make_cage(points, polygons, control_points, offset, symmetry, densities)
     if note:
         warnings.warn(note, stacklevel=2)
     return Cage(*made)

@@ -135,9 +135,11 @@ std::vector<Index> border(const Doubles& points, const Indices& facets, const Do
 py::tuple make_cage([[maybe_unused]] const Doubles& points,
                     [[maybe_unused]] const Polygons& polygons,
                     [[maybe_unused]] Index control_points, [[maybe_unused]] double offset,
-                    [[maybe_unused]] const std::string& symmetry) {
+                    [[maybe_unused]] const std::string& symmetry,
+                    [[maybe_unused]] const Doubles& density) {
 #ifdef FLBC_LINKS_CAGING
-  const CagingOptions options{control_points, offset, symmetry_named(symmetry)};
+  const CagingOptions options{control_points, offset, symmetry_named(symmetry),
+                              Eigen::Map<const Eigen::VectorXd>(density.data(), density.size())};
   return by_dimension(points, [&](auto dim) {
     constexpr int kDim = decltype(dim)::value;
     const auto all = points_of<kDim>(points);

@@ -109,6 +109,35 @@ TEST_F(CageCommand, BridgedGapsAreReported) {
   EXPECT_EQ(expect("check open.obj --model " + model).output.find("bridges"), std::string::npos);
 }
 
+// A strip whose first vertex belongs to no edge, and whose upper half is to get more control
+// points.
+TEST_F(CageCommand, MoreControlPointsWhereTheirDensityIsHigher) {
+  std::string model = "v 9 9\n", line = "l", density = "1\n";
+  for (int k = 0; k < 40; ++k) {
+    model += "v 0 " + std::to_string(k - 19.5) + '\n';
+    line += ' ' + std::to_string(k + 2);
+    density += k < 20 ? "1\n" : "6\n";
+  }
+  const auto strip = file("strip.obj", model + line + '\n');
+  expect("cage " + strip + " --density " + file("d.csv", density) + " -q -o dense.obj");
+  std::istringstream cage(slurp("dense.obj"));
+  int above = 0, below = 0;
+  double x = 0, y = 0;
+  for (std::string word; cage >> word;) {
+    if (word == "v" && cage >> x >> y) ++(y > 0 ? above : below);
+  }
+  EXPECT_GE(above, 2 * below);
+  EXPECT_TRUE(check("dense.obj", strip)["fine"]);
+  const auto refuse = [&](const std::string& rows, const std::string& reason) {
+    expect("cage " + strip + " --density " + file("bad.csv", rows) + " -o none.obj", 2, reason);
+  };
+  refuse(density + "1\n",
+         "bad.csv: holds 42 rows of 1 numbers; a density is a number for each of 41");
+  refuse("0\n" + density.substr(2),
+         "bad.csv: the density of vertex 0 is 0; give numbers from 0.01");
+  refuse("1\nfew\n", "bad.csv:2: ");
+}
+
 TEST_F(CageCommand, RefusesWithReason) {
   const std::string out = " -o out.obj";
   expect("cage" + out, 1, "MODEL to enclose is missing");

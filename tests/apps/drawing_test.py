@@ -2,9 +2,12 @@
 """Drawings that flbc deform moves, judged by librsvg: drawing_test.py PROGRAM
 
 At rest the picture of a document is that of before. A cage that is moved as a whole moves it as a
-transform of its root does.
+transform of its root does. The page of flbc run shows the drawing.
 """
+import base64
+import json
 import math
+import re
 import shutil
 import subprocess
 import sys
@@ -68,9 +71,34 @@ def picture(path):
     return imread(image)
 
 
-def differ(one, other):
-    """The share of pixels that differ by more than 8 of 255."""
-    return np.mean(np.abs(one - other).max(axis=-1) > 8 / 255)
+def differ(one, other, most=8):
+    """The share of pixels that differ by more than 8 of 255, or another number."""
+    return np.mean(np.abs(one - other).max(axis=-1) > most / 255)
+
+
+def numbers(text):
+    return np.frombuffer(base64.b64decode(text), np.float32).reshape(-1, 2)
+
+
+def check_page(folder, document, content, rest):
+    """The picture covers the mesh, which fills the cage."""
+    path = folder / "my drawing.svg"
+    path.write_text(document.format(content))
+    run(PROGRAM, "run", rest, path, "--vertices", 300, "-q", "-o", folder / "page")
+    page = (folder / "page/model.html").read_text()
+    shown = json.loads(re.search('<script[^>]*id="content">(.*?)</script>', page, re.S).group(1))
+    assert shown["title"] == "my drawing"
+    corners = np.array(CORNERS)
+    low, size = corners.min(0), np.ptp(corners, 0)
+    at = shown["surface"]["textureCoordinates"], shown["points"]["offsets"]
+    places, points = numbers(at[0]), numbers(at[1]) + shown["points"]["center"]
+    assert np.allclose(places, ((points - (low[0], 120 - low[1] - size[1])) / size - (0, 1)) * (1, -1), atol=1e-5)
+    picture_file, part = folder / "picture.svg", folder / "part.svg"
+    picture_file.write_bytes(base64.b64decode(shown["picture"].split(",")[1]))
+    part.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{low[0]} {low[1]} {size[0]} {size[1]}">'
+                    f'<svg width="120" height="120" viewBox="0 0 120 120">{content}</svg></svg>')
+    shares = [differ(picture(picture_file), picture(part), 64), differ(picture(path), picture(part), 64)]
+    assert shares[0] < 0.001 < 0.01 < shares[1], shares
 
 
 def main():
@@ -99,6 +127,7 @@ def main():
                 share = differ(picture(result), picture(expected))
                 assert share < 0.01, f"{name} in {kind}, {pose.stem}: {share:.1%} differ; {folder}"
             count += 1
+    check_page(folder, document, content, rest)
     shutil.rmtree(folder)
     print(f"{count} drawings are as they should be")
 

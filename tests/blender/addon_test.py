@@ -2,8 +2,11 @@
 """The add-on in Blender, without a window:
   blender ... --python addon_test.py -- PROGRAM MESHES WORK
 """
+import math
 import os
+import subprocess
 import sys
+import tempfile
 import unittest
 from contextlib import contextmanager
 from pathlib import Path
@@ -574,6 +577,30 @@ class AddonTest(unittest.TestCase):
         self.assertEqual(self.model.flbc.note, '')  # all vertices are inside
         pose = self.pose(0.01)
         self.require_follows(pose)
+
+    def test_a_model_gets_the_cage_of_its_file(self):
+        """Importers turn the mesh or the matrix, and separate vertices at seams."""
+        from local_barycentric_cage import files, mesh
+        points, faces = base(self.model), [list(face.vertices) for face in self.model.data.polygons]
+        with tempfile.TemporaryDirectory() as folder:
+            model, cage = Path(folder, 'model.obj'), Path(folder, 'cage.obj')
+            model.write_text(''.join(f'v {x!r} {y!r} {z!r}\n' for x, y, z in points.tolist()) + ''.join(
+                'f ' + ' '.join(str(v + 1) for v in face) + '\n' for face in faces))
+            subprocess.run([PROGRAM, 'cage', model, '-q', '-o', cage], check=True)
+            expected, _ = files.read_obj(cage)
+        turned = np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])
+        beyond = len(points) // 2
+        seams = [[2 * v + (min(face) > beyond) for v in face] for face in faces]
+        as_gltf = scene.add('as gltf', np.repeat(points, 2, 0) @ turned.T, seams)
+        as_obj = scene.add('as obj', points, faces)
+        as_obj.rotation_euler = math.pi / 2, 0, 0
+        bpy.context.scene.flbc.control_points = 0
+        for item in (as_gltf, as_obj):
+            select(item)
+            self.assertEqual(bpy.ops.flbc.make_cage(), {'FINISHED'})
+            found = bpy.context.scene.flbc.cage
+            places = mesh.transform(base(found), np.array(found.matrix_world))
+            np.testing.assert_allclose(places @ turned, expected, atol=1e-5 * size(expected))
 
     def test_a_cage_with_fewer_points_than_influences(self):
         self.cage = scene.add('tetrahedron', [(0, 0, 0), (9, 0, 0), (0, 9, 0), (0, 0, 9)],

@@ -284,16 +284,17 @@ test("editor: resetting is a stroke, strokes without a change are none", () => {
   assert.equal(editor.canUndo, false);
 });
 
-test("editor: points and keys are undone together, through 200 random strokes", () => {
-  const content = { poses: [] }, editor = new Editor(kCube, 3, [], content);
+test("editor: points, keys, and the library are undone together, through 200 random strokes", () => {
+  const content = { poses: [], library: [] }, editor = new Editor(kCube, 3, [], content);
   let seed = 1;
   const random = () => { seed = (48271 * seed) % 2147483647; return seed / 2147483647; };
   const states = [];
-  const state = () => ({ points: editor.points, poses: content.poses });
+  const state = () => ({ points: editor.points, poses: content.poses, library: content.library });
   for (let k = 0; k < 200; ++k) {
     states.push(state());
     const keys = content.poses, kind = random();
     if (kind < 0.4) editor.place(Math.floor(8 * random()), [random(), random(), random()]);
+    else if (kind < 0.5) editor.setLibrary([...content.library, kind]);
     else if (kind < 0.7) editor.setPoses([...keys, { name: "", time: random(), points: editor.points }]);
     else editor.setPoses(keys.slice(0, Math.floor((keys.length + 1) * random())));
     if (kind > 0.95) editor.cancel();
@@ -301,9 +302,9 @@ test("editor: points and keys are undone together, through 200 random strokes", 
     if (editor.done.length < states.length) assert.deepEqual(state(), states.pop(), "cancelled");
   }
   assert.ok(content.poses.length !== 1 && states.length > 100);
-  for (const { points, poses } of states.reverse()) {
+  for (const before of states.reverse()) {
     editor.undo();
-    assert.deepEqual(state(), { points, poses });
+    assert.deepEqual(state(), before);
   }
   assert.equal(editor.canUndo, false);
 });
@@ -694,7 +695,7 @@ test("a region is painted on the front of the model, and weights obey the latest
   assert.deepEqual(protector.locality(), saved);
 
   // A solid region grows from stroke to stroke; one that meets none is another region.
-  protector.paintsSolid = true;
+  protector.paints = "solid";
   viewer.editor.select([]);
   stroke(false, [-0.8, 0, 0.5]);
   stroke(false, [-0.75, 0, 0.5]);
@@ -710,6 +711,21 @@ test("a region is painted on the front of the model, and weights obey the latest
   protector.undo();
   await settled();
   assert.deepEqual(protector.regions(), regions);
+
+  // The density of the next cage: 4 times per stroke, and no other weights are solved for.
+  protector.paints = "density";
+  const solves = asked.length;
+  stroke(false, [0.5, 0, 0.5]);
+  stroke(true, [-0.5, 0, 0.5]);
+  const densities = protector.densities();
+  assert.deepEqual([...new Set(densities)].sort(), [0.25, 1, 4]);
+  densities.forEach((density, k) => assert.ok(density === 1 || (density > 1) === place(k)[0] > 0));
+  stroke(true, [0.5, 0, 0.5]);
+  assert.deepEqual(protector.densities(), densities.map((density) => Math.min(density, 1)));
+  protector.undo();
+  assert.deepEqual(protector.densities(), densities);
+  await settled();
+  assert.equal(asked.length, solves);
 });
 
 test("an edge of a cage is split, and control points are merged", () => {

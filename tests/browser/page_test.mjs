@@ -478,6 +478,15 @@ async function testKeptPoses(name, dim, pose) {
   const file = await downloaded(`${name}_model_poses.json`);
   await tab.click("#library button + button");
   assert.equal(await count(), 0);
+  // Undone and redone as all else, and kept so.
+  for (const [key, left] of [["z", 1], ["y", 0]]) {
+    await tab.keyboard.down("Control");
+    await page.type(key);
+    await tab.keyboard.up("Control");
+    await tab.waitForFunction((number) => document.querySelectorAll("#library img").length === number, {}, left);
+    assert.equal(await tab.evaluate((ending) => JSON.parse(localStorage.getItem(
+      Object.keys(localStorage).find((item) => item.endsWith(ending)))).length, " poses"), left);
+  }
   writeFileSync(join(work, "other_poses.json"), JSON.stringify({ poses: [{ name: "a", picture: "data:image/png;,", steps: [1, 2, 3] }] }));
   await load(join(work, "other_poses.json"));
   await tab.waitForFunction(() => document.getElementById("note").textContent.includes("of a cage of 1 control point"));

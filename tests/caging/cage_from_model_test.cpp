@@ -168,6 +168,34 @@ TEST_IN_2D_AND_3D(CageFromModelTest, UnitsDoNotMatter) {
   }
 }
 
+// Facets with corners of their own, as at seams, and with shared ones, numbered by first
+// occurrence.
+TEST_IN_2D_AND_3D(CageFromModelTest, SeamsDoNotMatter) {
+  Vector<Dim> low = Vector<Dim>::Constant(-0.1), high = Vector<Dim>::Constant(0.2);
+  high(0) = 3;
+  auto bar = box_cage<Dim>(low, high);
+  for (auto p : bar.points.colwise()) p(1) += 0.3 * p(0);
+  for (const auto& model : {crossed_bars<Dim>(), bar}) {
+    Cage<Dim> apart{PointList<Dim>(Dim, Dim * model.facets.cols()), model.facets}, joined = apart;
+    std::vector<Index> number(model.size(), -1);
+    Index count = 0;
+    for (Index k = 0; k < model.facets.size(); ++k) {
+      const Index v = model.facets.reshaped()(k);
+      if (number[v] < 0) {
+        joined.points.col(count) = model.points.col(v);
+        number[v] = count++;
+      }
+      apart.points.col(k) = model.points.col(v);
+      apart.facets.reshaped()(k) = k;
+      joined.facets.reshaped()(k) = number[v];
+    }
+    joined.points.conservativeResize(Dim, count);
+    const auto cage = make(joined, {}).cage, other = make(apart, {}).cage;
+    EXPECT_EQ(other.points, cage.points);
+    EXPECT_EQ(other.facets, cage.facets);
+  }
+}
+
 TEST_IN_2D_AND_3D(CageFromModelTest, OffsetIsADistance) {
   const auto model = box_cage<Dim>(1);
   CagingOptions options;
@@ -183,6 +211,14 @@ TEST_IN_2D_AND_3D(CageFromModelTest, RefusesWhatHasNoCage) {
   CagingOptions options;
   options.offset = -1;
   EXPECT_THROW(make(model, options), OptionError);
+  options = {};
+  options.density = Eigen::VectorXd::Ones(3);
+  expect_error<InputError>([&] { make(model, options); }, {"3 densities", "give one for each"});
+  for (const double wrong : {0.0, -1.0, 101.0, std::nan("")}) {
+    options.density = Eigen::VectorXd::Ones(model.size());
+    options.density(2) = wrong;
+    expect_error<InputError>([&] { make(model, options); }, {"vertex 2", "from 0.01 to 100"});
+  }
   const FacetList<Dim> none(Dim, 0);
   EXPECT_THROW(cage_from_model<Dim>(PointList<Dim>(Dim, 0), none), InputError);
   EXPECT_THROW(cage_from_model<Dim>(PointList<Dim>::Ones(Dim, 3), none), InputError);
@@ -193,6 +229,50 @@ TEST_IN_2D_AND_3D(CageFromModelTest, RefusesWhatHasNoCage) {
     const PointList<Dim> far = model.points.array() + place;
     expect_error<InputError>([&] { cage_from_model<Dim>(far, model.facets); },
                              {"too far from the origin", "vertex 0"});
+  }
+}
+
+// A ball of many vertices.
+template <int Dim>
+Cage<Dim> ball();
+
+template <>
+Cage<2> ball() {
+  constexpr Index kCorners = 300;
+  Cage<2> circle{PointList<2>(2, kCorners), FacetList<2>(2, kCorners)};
+  for (Index v = 0; v < kCorners; ++v) {
+    const double angle = 2 * std::acos(-1.0) * v / kCorners;
+    circle.points.col(v) << std::cos(angle), std::sin(angle);
+    circle.facets.col(v) << v, (v + 1) % kCorners;
+  }
+  return circle;
+}
+
+// The halves of the ball have equal measures.
+TEST_IN_2D_AND_3D(CageFromModelTest, MoreControlPointsWhereTheirDensityIsHigher) {
+  const auto model = ball<Dim>();
+  for (const Index count : {0, 50}) {
+    auto options = at_most(count);
+    const auto usual = make(model, options).cage;
+    options.density = Eigen::VectorXd::Ones(model.size());
+    const auto same = make(model, options).cage;
+    EXPECT_EQ(same.points, usual.points);
+    EXPECT_EQ(same.facets, usual.facets);
+    for (Index v = 0; v < model.size(); ++v) options.density(v) = model.points(1, v) > 0 ? 4 : 1;
+    for (const auto symmetry : {CageSymmetry::kAuto, CageSymmetry::kY}) {
+      options.symmetry = symmetry;
+      const auto made = make(model, options);
+      const Index above = static_cast<Index>((made.cage.points.row(1).array() > 0).count());
+      const Index below = made.cage.size() - above;
+      if (symmetry == CageSymmetry::kAuto) {
+        EXPECT_GE(above, 2 * below);  // about 4 times as many, but for those between
+        EXPECT_EQ(made.symmetry_axis, 0);
+      }
+      if (count == 0) {
+        EXPECT_GT(made.cage.size(), 1.5 * usual.size());
+      }
+      expect_symmetric(made);
+    }
   }
 }
 
@@ -215,6 +295,13 @@ Cage<3> subdivided(const Cage<3>& cage, int times) {
     fine.facets.middleCols(4 * f, 4) = parts.array() + 6 * f;
   }
   return subdivided(fine, times - 1);
+}
+
+template <>
+Cage<3> ball() {
+  auto sphere = subdivided(box_cage<3>(1), 3);
+  sphere.points.colwise().normalize();
+  return sphere;
 }
 
 Cage<3> turned(Cage<3> cage) {

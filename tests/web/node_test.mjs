@@ -57,6 +57,15 @@ for (const [name, dim] of [["2d/figure_model.obj", 2], ["3d/limb_model.obj", 3]]
   const [own, native] = ["cage.obj", "native.obj"].map((file) => readFileSync(join(work, file)));
   expectSameCage(own, native);
   assert.equal(linesOf(own, "v").length, made.controlPoints);
+  const places = await flbc.points();
+  const density = new Float64Array(places.length / dim).map((_, v) => (places[dim * v] > 0 ? 6 : 1));
+  writeFileSync(join(work, "density.csv"), density.join("\n"));
+  await flbc.makeCage({ controlPoints: 40, density });
+  put("dense.obj", await flbc.cageFile());
+  run("cage", "model.obj", "--control-points", "40", "--density", "density.csv", "-o", "native.obj");
+  expectSameCage(...["dense.obj", "native.obj"].map((file) => readFileSync(join(work, file))));
+  await assert.rejects(flbc.makeCage({ density: [1] }), { name: "OptionError", message: /each of/ });
+  await flbc.readCage("cage.obj", own);
 
   const domain = dim === 2 ? "domain.obj" : "domain.mesh";
   await flbc.makeMesh({ vertices: 3000 }, note);

@@ -102,8 +102,8 @@ export class Flbc {
             files?: Record<string, ArrayBuffer | Uint8Array>): Promise<ModelFacts>;
   setModel(points: Numbers, triangles: Indices): Promise<ModelFacts>;
 
-  /** `offset` is relative to the size of the model. By default, all are chosen. */
-  makeCage(options?: { controlPoints?: number; offset?: number; symmetry?: "auto" | "none" | "x" | "y" | "z" },
+  /** `offset` is relative to the size of the model, `density` of control points at each vertex to a usual cage. By default, all are chosen. */
+  makeCage(options?: { controlPoints?: number; offset?: number; symmetry?: "auto" | "none" | "x" | "y" | "z"; density?: Numbers },
            onProgress?: OnProgress): Promise<CageFacts>;
   readCage(name: string, bytes: ArrayBuffer | Uint8Array): Promise<CageFacts>;
   setCage(points: Numbers, facets: Indices): Promise<void>;

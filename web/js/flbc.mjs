@@ -119,7 +119,7 @@ export class Flbc {
 
 // The others take an object of these options. Other options are misspelled.
 const kOptions = {
-  makeCage: "controlPoints offset symmetry", repairCage: "", compose: "points facets starts controlPoints values isCurved", makeMesh: "vertices", solve: "smoothness tolerance distances precision",
+  makeCage: "controlPoints offset symmetry density", repairCage: "", compose: "points facets starts controlPoints values isCurved", makeMesh: "vertices", solve: "smoothness tolerance distances precision",
   solution: "", setSolution: "points cells starts controlPoints values options", reduce: "influences", move: "points refine seconds",
   points: "", cage: "", weights: "", harmonicWeights: "", content: "picture", page: "picture", glb: "influences times poses",
   picture: "pixels size poses scale sheet fps", weightFile: "format of", cageFile: "", meshFile: "", memory: "", version: "",

@@ -222,6 +222,7 @@ class App {
       return await this.refuse(error, before);
     }
     if (note) tell(note);
+    if (before.protector) this.protector.density = before.protector.density;
     if (!before.protector?.isUsed) return;
     if (numbers) await this.protector.load(before.protector.renumbered(numbers));
     else tell("Protected regions and reach are gone: they were of control points of the old cage");
@@ -512,6 +513,7 @@ class App {
     const options = { symmetry: element("symmetry").value };
     if (number("count")) options.controlPoints = number("count");
     if (number("offset")) options.offset = number("offset") / 100;
+    if (this.protector?.density.size > 0) options.density = this.protector.densities();
     const kept = { count: element("count").value, offset: element("offset").value, symmetry: options.symmetry };
     return this.remake("Making a cage", (onProgress) => this.flbc.makeCage(options, onProgress))
       .then(() => Object.entries(kept).forEach(([id, value]) => { element(id).value = value; }));

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Regions of the model that control points must not move, and solid ones, painted by a brush, and the
-// reach of control points. Weights are solved for the latest stroke, one at a time.
+// Regions of the model that control points must not move, solid ones, and the density of the next cage,
+// painted by a brush, and the reach of control points. Weights are solved for the latest stroke, one at
+// a time.
 import { element, tell } from "../../libflbc/front/page/panel.mjs";
 import { download } from "../../libflbc/front/page/saving.mjs";
 import { add, length, pointAt } from "../../libflbc/front/page/vectors.mjs";
 
 const kMostRegions = 50;     // that can be undone
 const kMostConflicts = 300;  // that are drawn
+const kDenser = 4, kMostDense = 16;  // factor of a stroke, and of all
 const kOrigin = [0, 0, 0];
 
 // Where points appear: pixels from the upper left corner, and depth.
@@ -40,13 +42,15 @@ export class Protector {
     this.masked = new Map();  // by vertex: the control points that must not move it, as text
     this.reach = new Map();   // by control point: a factor other than 1
     this.solid = new Map();   // by vertex: the number of its solid region
+    this.density = new Map();  // by vertex: of control points, other than 1
     this.falloff = 0;         // width of the band next to regions, as a part of the cage size
     this.sent = null;         // the last regions that were sent; another reach makes others
     this.accepted = [];       // the locality that the weights obey
     this.done = [];
     this.undone = [];
     this.radius = 30;         // pixels
-    this.isOn = this.erases = this.isBusy = this.paintsSolid = false;
+    this.isOn = this.erases = this.isBusy = false;
+    this.paints = null;       // "solid", "density", or what the selection must not move
     this.stroke = null;
     this.reply = {};
     this.tell = () => {};
@@ -92,7 +96,17 @@ export class Protector {
       ...this.solid.size > 0 && { solid: this.regions() } };
   }
 
-  get state() { return { masked: this.masked, reach: this.reach, falloff: this.falloff, solid: this.solid }; }
+  // Of all vertices, for another cage.
+  densities() {
+    const all = new Float64Array(this.viewer.deformer.base.length / 3).fill(1);
+    for (const [vertex, density] of this.density) all[vertex] = density;
+    return all;
+  }
+
+  get state() {
+    const { masked, reach, falloff, solid, density } = this;
+    return { masked, reach, falloff, solid, density };
+  }
   get isUsed() { return this.masked.size > 0 || this.reach.size > 0 || this.solid.size > 0; }
 
   // Masks and reach for a cage that has been edited. \param numbers  of its control points, by those of before
@@ -129,13 +143,14 @@ export class Protector {
     const { deformer, camera, content, editor: { selection } } = this.viewer;
     this.seen = seenPlaces(deformer.points, camera, content.center);
     if (!this.placeAt(spot)) return false;
-    if (selection.size === 0 && !this.paintsSolid) {
+    if (selection.size === 0 && !this.paints) {
       this.tell("First select the control points that must not move the region");
       return true;
     }
     this.stroke = { spot, before: this.state, selection, erases: erases || this.erases, after: new Map() };
-    this.masked = new Map(this.masked);
+    if (this.paints !== "density") this.masked = new Map(this.masked);
     this.solid = new Map(this.solid);
+    this.density = new Map(this.density);
     this.to(spot);
     return true;
   }
@@ -194,7 +209,14 @@ export class Protector {
 
   // A stroke grows the first region that it meets, or makes another one.
   paint(vertex) {
-    if (this.paintsSolid) {
+    const { before, erases: isErasing } = this.stroke;
+    if (this.paints === "density") {
+      const density = (before.density.get(vertex) ?? 1) * (isErasing ? 1 / kDenser : kDenser);
+      if (density === 1) this.density.delete(vertex);
+      else this.density.set(vertex, Math.min(kMostDense, Math.max(1 / kMostDense, density)));
+      return;
+    }
+    if (this.paints === "solid") {
       const { solid, stroke } = this;
       if (stroke.erases) solid.delete(vertex);
       else solid.set(vertex, solid.get(vertex) ?? (stroke.region ??= 1 + [...solid.values()].reduce((a, b) => Math.max(a, b), -1)));
@@ -290,6 +312,10 @@ export class Protector {
     const values = new Float32Array(this.viewer.deformer.base.length / 3);
     for (const [vertex, key] of this.masked) values[vertex] = isChosen(key) ? 0.6 : 0.2;
     for (const vertex of this.solid.keys()) values[vertex] = 1;
+    if (this.paints === "density") {
+      values.fill(0);
+      for (const [vertex, density] of this.density) values[vertex] = 0.5 + Math.log(density) / Math.log(kMostDense) / 2.5;
+    }
     return { values, legend: null };
   }
 
@@ -314,7 +340,10 @@ export class Protector {
         + `Release the ringed control points (${conflict.controlPoints.join(", ")}), or erase a part of the region. Until then, weights and reach stay as they were.`;
     }
     const state = isBusy ? "; solving…" : onFacets > 0 ? `; ${onFacets} on the cage still move` : "";
-    if (this.paintsSolid) return `${vertices(this.solid.size)} solid; drag on the model to paint a region that moves as one${state}`;
+    if (this.paints === "density") {
+      return `Drag on the model where the next cage is to have ${kDenser} times as many control points, or with Erase as few. ${vertices(this.density.size)} painted; then "Make again" under Cage`;
+    }
+    if (this.paints === "solid") return `${vertices(this.solid.size)} solid; drag on the model to paint a region that moves as one${state}`;
     if (editor.selection.size === 0) return `${vertices(masked.size)} protected; select control points to paint${state}`;
     const count = [...masked.values()].filter(isChosen).length;
     if (count === 0) return `Drag on the model to paint what the selection must not move${state}`;
@@ -339,7 +368,7 @@ export function bindProtecting(protector) {
     onState();
     element("paint").setAttribute("aria-pressed", String(protector.isOn));
     element("erase").setAttribute("aria-pressed", String(protector.erases));
-    element("solid").setAttribute("aria-pressed", String(protector.paintsSolid));
+    for (const kind of ["solid", "density"]) element(kind).setAttribute("aria-pressed", String(protector.paints === kind));
     element("release").hidden = !protector.reply.conflict;
     element("protected").textContent = protector.describe();
     // Not while the slider is dragged.
@@ -356,7 +385,7 @@ export function bindProtecting(protector) {
   };
   onClick("paint", () => protector.toggle());
   onClick("erase", () => { protector.erases = !protector.erases; viewer.changed(); });
-  onClick("solid", () => { protector.paintsSolid = !protector.paintsSolid; viewer.changed(); });
+  for (const kind of ["solid", "density"]) onClick(kind, () => { protector.paints = protector.paints === kind ? null : kind; viewer.changed(); });
   onClick("release", () => protector.load({
     masks: protector.masks(), reach: protector.factors(), falloff: protector.falloff, solid: protector.regions(), conflicts: "relax" }));
   onClick("saveLocality", () => protector.save());

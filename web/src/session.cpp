@@ -230,7 +230,12 @@ class Work {
     };
     report_ = name == "move" ? Report() : report;  // moves are short
     first_excess_ = 0;
-    if (name == "makeCage") return make_cage(options(), report);
+    if (name == "makeCage") {
+      const auto density = density_in(given["density"]);
+      auto others = given;
+      others.set("density", val::undefined());  // as text it would be long
+      return make_cage(options(), density, report);
+    }
     if (name == "readCage") return read_cage(text("name"), given["bytes"]);
     if (name == "repairCage") return repair_cage();
     if (name == "setCage") return set_cage({places(), matrix_in<FacetList<Dim>>(given["facets"])});
@@ -338,13 +343,34 @@ class Work {
     return {result.begin(), result.end()};
   }
 
+  // Of what the cage encloses. \param given  a number for each vertex, or undefined
+  Eigen::VectorXd density_in(const val& given) const {
+    if (given.isUndefined()) return {};
+    const auto all = emscripten::convertJSArrayToNumberVector<double>(given);
+    const Eigen::Map<const Eigen::VectorXd> numbers(all.data(), Index(all.size()));
+    if (numbers.size() != points().cols()) {
+      throw OptionError("density: needs a number for each of " + std::to_string(points().cols()) +
+                        " vertices");
+    }
+    if (file_ == name_) return facets_.left_of(numbers);
+    Eigen::VectorXd result(
+        facets_.points.cols());  // of an outline, whose interior has the vertices
+    for (Index v = 0; v < result.size(); ++v) {
+      Index nearest = 0;
+      (points().colwise() - facets_.points.col(v)).colwise().squaredNorm().minCoeff(&nearest);
+      result(v) = numbers(nearest);
+    }
+    return result;
+  }
+
 #ifdef FLBC_LINKS_CGAL
-  val make_cage(const Json& options, const Report& report) {
+  val make_cage(const Json& options, const Eigen::VectorXd& density, const Report& report) {
     const double size = bounding_box_diagonal<Dim>(facets_.points);
     CagingOptions caging;
     caging.control_points = options.value("controlPoints", 0);
     caging.offset = options.value("offset", 0.0) * size;
     caging.symmetry = symmetry_named(options.value("symmetry", "auto"));
+    caging.density = density;
     caging.stage = [&](CagingStage stage, double done) { report(name_of(stage), done); };
     const auto made = app::naming(
         name_, [&] { return cage_from_model<Dim>(facets_.points, facets_.facets, caging); });
@@ -364,7 +390,7 @@ class Work {
     return from_json(facts);
   }
 #else
-  val make_cage(const Json&, const Report&) {
+  val make_cage(const Json&, const Eigen::VectorXd&, const Report&) {
     return repair_cage();
   }
   val repair_cage() {

@@ -13,9 +13,11 @@
 
 #include <Eigen/Geometry>
 
+#include "base/first_equals.h"
 #include "base/instantiate.h"
 #include "base/messages.h"
 #include "base/shape_checks.h"
+#include "cage/box_tree.h"
 #include "cage/extent.h"
 #include "caging/cage_steps.h"
 #include "caging/coarsening.h"
@@ -40,10 +42,36 @@ constexpr double kAlphaOfGap = 0.33, kFinestWrap = 5e-3;
 // Maximum distance of a mirror image from the model, relative to model size.
 constexpr double kSymmetryTolerance = 0.01;
 
+// Densities of control points, at the nearest vertices of a model.
+template <int Dim>
+class Densities {
+ public:
+  Densities(const PointList<Dim>& points, const Eigen::VectorXd& densities)
+      : points_(points), densities_(densities) {
+    if ((densities.array() == 1).all()) return;
+    const auto last = static_cast<Index>(points.cols()) - 1;
+    tree_.emplace(boxes_of<Dim, 1>(points, FacetList<1>::LinSpaced(points.cols(), 0, last)));
+  }
+
+  bool are_usual() const { return !tree_; }
+
+  double at(const Vector<Dim>& place) const {
+    if (are_usual()) return 1;
+    return densities_(
+        tree_->nearest(place, [&](Index v) { return (points_.col(v) - place).norm(); }));
+  }
+
+ private:
+  const PointList<Dim>& points_;
+  Eigen::VectorXd densities_;
+  std::optional<BoxTree<Dim>> tree_{};
+};
+
 // The maximum distance of mirrored vertices from the model, except for those of small details.
+// Vertices of another density are as far as the limit.
 template <int Dim>
 double asymmetry(const Enclosure<Dim>& model, const PointList<Dim>& points,
-                 const MirrorPlane& plane, double limit) {
+                 const Densities<Dim>& densities, const MirrorPlane& plane, double limit) {
   constexpr Index kMostVertices = 4000;
   const Index step = std::max<Index>(1, static_cast<Index>(points.cols()) / kMostVertices);
   constexpr double kDetails = 0.03;
@@ -52,8 +80,9 @@ double asymmetry(const Enclosure<Dim>& model, const PointList<Dim>& points,
   std::vector<double> distances;
   std::size_t far = 0;
   for (Index v = 0; v < points.cols(); v += step) {
-    const Vector<Dim> image = plane.mirrored(Vector<Dim>(points.col(v)));
-    distances.push_back(model.distance(image, limit));
+    const Vector<Dim> place = points.col(v), image = plane.mirrored(place);
+    const bool is_as_dense = densities.at(image) == densities.at(place);
+    distances.push_back(is_as_dense ? model.distance(image, limit) : limit);
     if (distances.back() >= limit && ++far >= count - most) return limit;
   }
   const auto place = distances.begin() + static_cast<std::ptrdiff_t>(most);
@@ -65,7 +94,8 @@ double asymmetry(const Enclosure<Dim>& model, const PointList<Dim>& points,
 // model is symmetric.
 template <int Dim>
 MirrorPlane find_symmetry(const Enclosure<Dim>& model, const PointList<Dim>& points,
-                          const Vector<Dim>& center, double size, CageSymmetry wanted) {
+                          const Densities<Dim>& densities, const Vector<Dim>& center, double size,
+                          CageSymmetry wanted) {
   if (wanted == CageSymmetry::kNone) return {};
   if (wanted != CageSymmetry::kAuto) {
     const int axis = static_cast<int>(wanted) - static_cast<int>(CageSymmetry::kX);
@@ -75,7 +105,7 @@ MirrorPlane find_symmetry(const Enclosure<Dim>& model, const PointList<Dim>& poi
   double least = kSymmetryTolerance * size;
   for (int axis = 0; axis < Dim; ++axis) {
     const MirrorPlane plane{axis, center(axis)};
-    const double own = asymmetry(model, points, plane, least);
+    const double own = asymmetry(model, points, densities, plane, least);
     if (own < least) {
       least = own;
       best = plane;
@@ -143,13 +173,17 @@ WrapSize wrap_size(double control_points) {
 template <int Dim>
 constexpr Index kUsualNumber = Dim == 2 ? 30 : 100;
 
+// Chosen by the shape.
+template <int Dim>
+constexpr Index kMostByShape = Dim == 2 ? 60 : 300;
+
 // Longer boundaries get more control points.
 Index number_by_shape(const Cage<2>& wrap, double model_size) {
   double length = 0;
   for (Index e = 0; e < wrap.facets.cols(); ++e) {
     length += (wrap.points.col(wrap.facets(0, e)) - wrap.points.col(wrap.facets(1, e))).norm();
   }
-  return std::clamp(static_cast<Index>(8 * length / model_size), 12, 60);
+  return std::clamp(static_cast<Index>(8 * length / model_size), 12, kMostByShape<2>);
 }
 
 // The largest number of facets at a control point. In a closed surface there are as many edges.
@@ -175,8 +209,8 @@ class Caging {
  public:
   // \param cell  of the simplified model; 0: the model as it is
   Caging(const PointList<Dim>& points, const FacetList<Dim>& facets, const CagingOptions& options,
-         double cell)
-      : options_(options), size_(bounding_box_diagonal<Dim>(points)) {
+         const Densities<Dim>& densities, double cell)
+      : options_(options), densities_(densities), size_(bounding_box_diagonal<Dim>(points)) {
     Cage<Dim> model{points, facets};
     if (cell > 0) {
       report(CagingStage::kSimplify);
@@ -186,7 +220,8 @@ class Caging {
     const Eigen::AlignedBox<double, Dim> box(points.rowwise().minCoeff(),
                                              points.rowwise().maxCoeff());
     model_.emplace(model.points, model.facets);
-    plane_ = find_symmetry<Dim>(*model_, model.points, box.center(), size_, options.symmetry);
+    plane_ = find_symmetry<Dim>(*model_, model.points, densities_, box.center(), size_,
+                                options.symmetry);
     if constexpr (Dim == 3) {
       is_closed_ = is_closed({points, facets});
       volume_ = solid_volume({points, facets}, is_closed_);
@@ -289,11 +324,12 @@ class Caging {
       // Longer edges take fewer control points. A model with thin limbs gets a finer wrap, unless
       // it would take too many control points: then it is boxed in.
       const double most = most_volume();
-      options_.control_points = kMostByShape;
+      options_.control_points = kMostByShape<3>;
       std::map<Index, Cage<3>> wraps;
       for (const auto& [fineness, limit, edge] :
            {std::tuple(kUsualNumber<3>, most, kShort), std::tuple(kUsualNumber<3>, most, kLong),
-            std::tuple(kMostByShape, most, kLong), std::tuple(kUsualNumber<3>, kNoLimit, kLong)}) {
+            std::tuple(kMostByShape<3>, most, kLong),
+            std::tuple(kUsualNumber<3>, kNoLimit, kLong)}) {
         const auto size = size_at(fineness);
         const auto [surface, is_new] = wraps.try_emplace(fineness);
         if (is_new) surface->second = wrap_of(size);
@@ -350,7 +386,7 @@ class Caging {
     const auto whole = plane_.is_there() ? join_halves(surface, plane_) : surface;
     const auto count = made.bridged_gaps.size();
     if (gaps.bridged_by(whole).size() >= count) return;
-    options_.control_points = given > 0 ? given : kMostByShape;
+    options_.control_points = given > 0 ? given : kMostByShape<3>;
     for (const double edge : {kShort, kLong}) {
       auto other = given > 0 ? make_of_number(surface, size.offset, limits_)
                              : make_close(surface, size.offset, most_volume(), edge);
@@ -369,14 +405,14 @@ class Caging {
   // control points, or if the other cage is much larger than the hull.
   std::optional<ModelCage<3>> make_convex(const ModelCage<3>& other, bool is_given) {
     constexpr double kMostOfHull = 1.095, kConvex = 0.9;
-    if (options_.offset > 0) return {};
+    if (options_.offset > 0 || !densities_.are_usual()) return {};
     const double measure = measure_cage(other.cage).measure;
     const auto convex = convex_surface(whole_.points, size_at(kUsualNumber<3>).offset);
     const auto& surface = convex.surface;
     if (surface.facets.cols() == 0 || measure <= convex.hull_volume) return {};
     const bool is_large = measure > kMostOfHull * convex.hull_volume;
     if (!is_large && volume_ < kConvex * convex.hull_volume) return {};
-    if (!is_given) options_.control_points = kMostByShape;
+    if (!is_given) options_.control_points = kMostByShape<3>;
     if (!is_large) options_.control_points = std::min(options_.control_points, other.cage.size());
     const auto made = [&](const std::optional<Cage<3>>& cage) -> std::optional<ModelCage<3>> {
       if (!cage || measure_cage(*cage).measure >= measure) return {};
@@ -400,6 +436,17 @@ class Caging {
     return {};
   }
 
+  // The larger ones of both sides of the plane.
+  std::vector<double> densities_at(const PointList<Dim>& places) const {
+    std::vector<double> densities;
+    for (const Vector<Dim> place : places.colwise()) {
+      densities.push_back(densities_.at(place));
+      if (!plane_.is_there()) continue;
+      densities.back() = std::max(densities.back(), densities_.at(plane_.mirrored(place)));
+    }
+    return densities;
+  }
+
   double most_volume() const { return 0.97 * kMaxCageVolume * volume_; }
 
   // Half a surface needs no facets in the plane, because the origin is in it too.
@@ -409,8 +456,12 @@ class Caging {
 
   // \return empty if it has more control points than the options permit
   std::optional<Cage<Dim>> reduced(const Cage<Dim>& start, double offset, Index control_points,
-                                   const CageLimits& limits) const {
+                                   CageLimits limits) const {
     if (start.facets.cols() == 0) return {};
+    limits.densities = densities_at(start.points);
+    for (std::size_t v = 0; v < limits.lengths.size(); ++v) {
+      limits.lengths[v] *= std::pow(limits.densities[v], -1.0 / (Dim - 1));
+    }
     Coarsening<Dim> coarsening(start, plane_, *model_, offset, limits);
     coarsening.reduce_to(control_points, [&](double done) { report(CagingStage::kReduce, done); });
     if (coarsening.num_control_points() > options_.control_points) return {};
@@ -443,7 +494,7 @@ class Caging {
     return made;
   }
 
-  static constexpr Index kMostByShape = 300, kLeastOfConvex = 8, kFewOfConvex = 16;
+  static constexpr Index kLeastOfConvex = 8, kFewOfConvex = 16;
   // Edges no longer than the wrap is thick leave three rings at a limb.
   static constexpr double kShort = 1, kLong = 1.4;
   // Of a wrap, relative to the width of a gap that it enters, and the smallest alpha, relative to
@@ -452,6 +503,7 @@ class Caging {
   static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
   CagingOptions options_;
+  const Densities<Dim>& densities_;
   double size_;
   CageLimits limits_{kMaxCageValence, kMaxCageDistance* size_};
   MirrorPlane plane_{};
@@ -490,13 +542,24 @@ void check_input(const PointList<Dim>& points, const FacetList<Dim>& facets,
   if (Dim == 2 && options.symmetry == CageSymmetry::kZ) {
     throw OptionError("a 2D cage cannot be symmetric across z");
   }
+  const auto& density = options.density;
+  if (density.size() == 0) return;
+  if (density.size() != points.cols()) {
+    throw InputError(std::to_string(density.size()) + " densities do not match " +
+                     std::to_string(points.cols()) + " model vertices; give one for each");
+  }
+  for (Index v = 0; v < density.size(); ++v) {
+    if (density(v) >= 1 / kMaxCageDensity && density(v) <= kMaxCageDensity) continue;
+    throw InputError("the density at vertex " + std::to_string(v) + " is " +
+                     format_number(density(v)) + "; give numbers from 0.01 to 100, 1 is usual");
+  }
 }
 
 // A large 3D model is simplified first. If the simplified model has no cage, or one that does not
 // enclose the model itself, the model is used as it is.
 template <int Dim>
 ModelCage<Dim> make_checked(const PointList<Dim>& points, const FacetList<Dim>& facets,
-                            const CagingOptions& options) {
+                            const CagingOptions& options, const Densities<Dim>& densities) {
   constexpr Eigen::Index kManyFacets = 200000;
   constexpr double kCellPerOffset = 0.25;
   const Index number = options.control_points > 0 ? options.control_points : kUsualNumber<Dim>;
@@ -505,13 +568,30 @@ ModelCage<Dim> make_checked(const PointList<Dim>& points, const FacetList<Dim>& 
     if (offset == 0) {
       offset = wrap_size<Dim>(number).offset * bounding_box_diagonal<Dim>(points);
     }
-    const auto made = Caging<Dim>(points, facets, options, kCellPerOffset * offset).make();
+    const auto made =
+        Caging<Dim>(points, facets, options, densities, kCellPerOffset * offset).make();
     if (made && Enclosure<Dim>(points, facets).is_strictly_inside(made->cage)) return *made;
   }
-  const auto made = Caging<Dim>(points, facets, options, 0).make();
+  const auto made = Caging<Dim>(points, facets, options, densities, 0).make();
   if (made) return *made;
   throw InputError("no cage with at most " + std::to_string(number) +
                    " control points encloses the model; allow more control points");
+}
+
+// Vertices in one place are one, as in files that have seams or not. The largest density counts.
+template <int Dim>
+Cage<Dim> merged(const PointList<Dim>& points, const FacetList<Dim>& facets,
+                 Eigen::VectorXd& density) {
+  const auto first = first_equals<Dim>(points);
+  std::vector<Index> kept, number(first.size());
+  for (std::size_t v = 0; v < first.size(); ++v) {
+    const bool is_first = first[v] == static_cast<Index>(v);
+    number[v] = is_first ? static_cast<Index>(kept.size()) : number[first[v]];
+    if (is_first) kept.push_back(first[v]);
+    if (density.size() > 0) density(first[v]) = std::max(density(first[v]), density(v));
+  }
+  if (density.size() > 0) density = density(kept).eval();
+  return {points(Eigen::all, kept), facets.unaryExpr([&](Index v) { return number[v]; })};
 }
 
 // Whether a part of the cage contains only the mirror image of a part of the model.
@@ -565,12 +645,22 @@ ModelCage<Dim> cage_from_model(const PointList<Dim>& points, const FacetList<Dim
   const double unit = std::exp2(std::ilogb(bounding_box_diagonal<Dim>(points)));
   CagingOptions scaled = options;
   scaled.offset /= unit;
-  const PointList<Dim> own = points / unit;
-  auto made = make_checked<Dim>(own, facets, scaled);
+  const auto model = merged<Dim>(points / unit, facets, scaled.density);
+  const auto& own = model.points;
+  const Densities<Dim> densities(own, scaled.density), usual(own, {});
+  if (options.control_points == 0 && !densities.are_usual()) {
+    // A usual cage has as many as a density of 1 takes.
+    const auto cage = make_checked<Dim>(own, model.facets, scaled, usual).cage;
+    double number = 0;
+    for (const auto& point : cage.points.colwise()) number += densities.at(point);
+    scaled.control_points =
+        static_cast<Index>(std::clamp<double>(number, 2 * Dim, kMostByShape<Dim>));
+  }
+  auto made = make_checked<Dim>(own, model.facets, scaled, densities);
   if (made.symmetry_axis >= 0 && scaled.symmetry == CageSymmetry::kAuto &&
       has_empty_part<Dim>(made.cage, own)) {
     scaled.symmetry = CageSymmetry::kNone;
-    made = make_checked<Dim>(own, facets, scaled);
+    made = make_checked<Dim>(own, model.facets, scaled, densities);
   }
   made.cage.points *= unit;
   made.offset *= unit;

@@ -2,6 +2,7 @@
 #include "caging/coarsening.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "caging/surface_tools.h"
@@ -16,9 +17,14 @@ constexpr double kWeightOfPoints = 3e-3;
 // Facets keep this fraction of the offset from the model.
 constexpr double kClearance = 0.3;
 
+// Edges of length h end with the same cost everywhere. In 3D that is an area h^2 times squared
+// distances (h^2)^2 of a curved surface from its planes; in 2D a length h times h^2, because lines
+// along a grid are as far from the planes of their cells as from points. For h ~ d^(-1 / (Dim - 1))
+// both are independent of the density d with a weight of d^3.
 template <int Dim>
 std::vector<Quadric<Dim>> collect_quadrics(const EditableSurface<Dim>& surface,
-                                           const Vector<Dim>& origin) {
+                                           const Vector<Dim>& origin,
+                                           const std::vector<double>& densities) {
   std::vector<Quadric<Dim>> quadrics(static_cast<std::size_t>(surface.points().cols()));
   for (Index f = 0; f < static_cast<Index>(surface.facets().size()); ++f) {
     const auto corners = surface.facet(f).corners;
@@ -27,9 +33,10 @@ std::vector<Quadric<Dim>> collect_quadrics(const EditableSurface<Dim>& surface,
     if (!(measure > 0)) continue;
     for (int k = 0; k < Dim; ++k) {
       const Vector<Dim> p = corners.col(k) - origin;
-      auto& quadric = quadrics[surface.facets()[f](k)];
-      quadric.add_plane(normal / measure, p, measure);
-      quadric.add_point(p, kWeightOfPoints * measure);
+      const Index v = surface.facets()[f](k);
+      const double weight = std::pow(densities[v], 3) * measure;
+      quadrics[v].add_plane(normal / measure, p, weight);
+      quadrics[v].add_point(p, kWeightOfPoints * weight);
     }
   }
   return quadrics;
@@ -45,7 +52,7 @@ Coarsening<Dim>::Coarsening(const Cage<Dim>& surface, const MirrorPlane& plane,
       check_(surface_, enclosure, kClearance * offset, limits),
       offset_(offset),
       origin_(enclosure.box().center()),
-      quadrics_(collect_quadrics(surface_, origin_)),
+      quadrics_(collect_quadrics(surface_, origin_, limits.densities)),
       versions_(quadrics_.size(), 0),
       lengths_(limits.lengths),
       lengths_grow_(limits.lengths_grow) {

@@ -33,8 +33,9 @@ struct CageLimits {
   Index valence = std::numeric_limits<Index>::max();        //!< edges at a control point, in 3D
   double reach = std::numeric_limits<double>::infinity();   //!< distance of one from the model
   double growth = std::numeric_limits<double>::infinity();  //!< 3D: of the volume, by collapses
-  std::vector<double> lengths{};  //!< of edges, at the vertices of the surface; empty: any
-  bool lengths_grow = false;      //!< until the number of control points is reached
+  std::vector<double> lengths{};    //!< of edges, at the vertices of the surface; empty: any
+  std::vector<double> densities{};  //!< of control points, at the vertices
+  bool lengths_grow = false;        //!< until the number of control points is reached
 };
 
 //! \param clearance  new facets keep about this distance from the model

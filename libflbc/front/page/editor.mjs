@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The cage as the user edits it: where its control points are, which of them are selected, the keys
-// of its animation, and what can be undone. Between begin() and end() lies a stroke, which is undone
-// at once.
+// of its animation, the library of poses, and what can be undone. Between begin() and end() lies a
+// stroke, which is undone at once.
 import { mirrorMoves, mirrorPairs } from "./mirror.mjs";
 import { CageGraph } from "./rings.mjs";
 import { boundingSphere, centroid, pointAt, setPoint } from "./vectors.mjs";
@@ -13,7 +13,8 @@ function areEqual(a, b) {
 }
 
 export class Editor {
-  // \param facets  of the cage, dim control points each \param content  whose poses are the keys
+  // \param facets  of the cage, dim control points each
+  // \param content  whose poses are the keys, and which has the library
   constructor(rest, dim, facets = [], content = { poses: [] }) {
     this.content = content;
     this.handles = new Map();  // of curves, by their corners
@@ -29,7 +30,7 @@ export class Editor {
     this.selection = new Set();
     this.done = [];
     this.undone = [];
-    this.start = this.startPoses = null;  // points and keys as they were when the stroke began
+    this.start = this.startLists = null;  // points, keys, and library as they were when the stroke began
     this.mirrorAxis = -1;
     this.pairs = null;
     this.sphere = boundingSphere(rest);
@@ -38,6 +39,10 @@ export class Editor {
 
   get size() { return this.rest.length / 3; }
   get pivot() { return this.pivotPoints && centroid(this.points, this.pivotPoints); }
+  get lists() {
+    const { poses, library } = this.content;
+    return { poses, library };
+  }
   get canUndo() { return this.done.length > 0; }
   get canRedo() { return this.undone.length > 0; }
 
@@ -117,7 +122,7 @@ export class Editor {
   begin() {
     if (this.start) return;
     this.start = this.points.slice();
-    this.startPoses = this.content.poses;
+    this.startLists = this.lists;
   }
 
   // Moves control points from where the stroke began: move(start, indices, result).
@@ -142,11 +147,18 @@ export class Editor {
     this.onChange();
   }
 
+  // Takes another library, as a stroke.
+  setLibrary(library) {
+    this.begin();
+    this.content.library = library;
+    this.end();
+  }
+
   end() {
-    const points = this.start, poses = this.startPoses;
+    const points = this.start, lists = this.startLists, { poses, library } = this.content;
     this.start = null;
-    if (!points || (poses === this.content.poses && areEqual(points, this.points))) return;
-    this.done.push({ points, poses });
+    if (!points || (lists.poses === poses && lists.library === library && areEqual(points, this.points))) return;
+    this.done.push({ points, lists });
     if (this.done.length > kMostStrokes) this.done.shift();
     this.undone = [];
     this.onChange();
@@ -156,7 +168,7 @@ export class Editor {
     if (!this.start) return;
     const before = this.start;
     this.start = null;
-    this.content.poses = this.startPoses;
+    Object.assign(this.content, this.startLists);
     this.setPoints(before);
   }
 
@@ -171,9 +183,9 @@ export class Editor {
   swap(from, to) {
     this.end();
     if (from.length === 0) return;
-    to.push({ points: this.points, poses: this.content.poses });
-    const { points, poses } = from.pop();
-    this.content.poses = poses;
+    to.push({ points: this.points, lists: this.lists });
+    const { points, lists } = from.pop();
+    Object.assign(this.content, lists);
     this.setPoints(points);
   }
 

@@ -38,21 +38,31 @@ export class Library {
     this.viewer = viewer;
     this.board = board;
     this.name = `${nameOf(viewer.content)} poses`;
-    this.poses = [];  // name, picture, steps of the control points from rest
+    let kept = null;
     try {
-      this.poses = JSON.parse(localStorage.getItem(this.name)) ?? [];
+      kept = JSON.parse(localStorage.getItem(this.name));
     } catch { /* browsers may refuse */ }
+    this.shown = viewer.content.library = kept ?? [];  // name, picture, steps of the control points from rest
+    this.draw();
+  }
+
+  get poses() { return this.viewer.content.library; }
+
+  set(poses) {
+    this.viewer.editor.setLibrary(poses);
     this.show();
   }
 
-  set(poses) {
-    this.poses = poses;
-    this.show();
+  // Keeps and shows what is new; undo may have brought it back.
+  show() {
+    if (this.shown === this.poses) return;
+    this.shown = this.poses;
     try {
-      localStorage.setItem(this.name, JSON.stringify(poses));
+      localStorage.setItem(this.name, JSON.stringify(this.poses));
     } catch {
       tell("This browser does not keep these poses: save them");
     }
+    this.draw();
   }
 
   keep() {
@@ -86,7 +96,7 @@ export class Library {
     this.set([...this.poses, ...poses]);
   }
 
-  show() {
+  draw() {
     document.getElementById("savePoses").disabled = this.poses.length === 0;
     this.board.replaceChildren(...this.poses.map((pose) => {
       const button = (changes, act) => {

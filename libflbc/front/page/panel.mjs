@@ -182,6 +182,11 @@ async function loadPicture(viewer, k, address) {
   } catch {
     return tell("This picture cannot be read");
   }
+  if (/^data:image\/svg/.test(address)) {  // a .glb file has none
+    const canvas = Object.assign(document.createElement("canvas"), { width: image.width, height: image.height });
+    canvas.getContext("2d").drawImage(image, 0, 0);
+    viewer.content.surface.pictures[k] = canvas.toDataURL();
+  }
   viewer.renderer.setPicture(k, image);
   viewer.redraw();
 }
@@ -301,6 +306,7 @@ function showState(viewer) {
   element("play").textContent = viewer.playing ? "Pause" : "Play";
   element("addKey").disabled = viewer.holdsModel;
   showTimeline(viewer);
+  viewer.library.show();
 }
 
 // Fills the panel and connects it. \return the commands

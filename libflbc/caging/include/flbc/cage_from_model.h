@@ -46,6 +46,9 @@ inline const char* name_of(CagingStage stage) {
   return kNames[static_cast<int>(stage)];
 }
 
+//! The largest density of CagingOptions; the smallest is its inverse.
+constexpr double kMaxCageDensity = 100;
+
 //! Options of cage_from_model().
 struct CagingOptions {
   //! Maximum number, >= Dim + 1. 0: chosen by shape, 12 to 60 in 2D. In 3D the smallest number
@@ -54,6 +57,9 @@ struct CagingOptions {
   double offset = 0;  //!< distance from the model, in its units; 0: chosen by the number of control
                       //!< points
   CageSymmetry symmetry = CageSymmetry::kAuto;
+  //! At each point of the model: control points per length (2D) or area, relative to a usual cage.
+  //! Empty: 1. kAuto needs a symmetric density; otherwise the larger one of both sides counts.
+  Eigen::VectorXd density{};
   //! Called when a stage begins and during it, with its progress in [0, 1]. Must not throw.
   std::function<void(CagingStage stage, double done)> stage{};
 };
@@ -109,7 +115,7 @@ std::string describe_bridged_gaps(const ModelCage<Dim>& made);
 //! \param facets  Dim x F, edges or triangles; they may be open, non-manifold, intersecting, or
 //! degenerate. Repeated corners describe segments or points. Points without a facet are enclosed
 //! \throws InputError if the model has no extent, is too far from the origin for its size, or cannot
-//! be enclosed; OptionError
+//! be enclosed, or there is not one density per point in range; OptionError
 template <int Dim>
 ModelCage<Dim> cage_from_model(const PointList<Dim>& points, const FacetList<Dim>& facets,
                                const CagingOptions& options = {});

@@ -260,6 +260,8 @@ struct SvgDocument::Content {
   };
 
   std::string name;
+  Vector<2> page;
+  Affine2 to_model;
   pugi::xml_document document{};
   std::map<std::string, xml_node> by_id{};
   std::vector<Target> targets{};
@@ -573,6 +575,8 @@ SvgDocument::SvgDocument(const std::string& text, std::string name, const Vector
     : content_(std::make_unique<Content>()) {
   auto& content = *content_;
   content.name = std::move(name);
+  content.page = page;
+  content.to_model = to_model;
   // Entities and line ends stay as they are.
   constexpr unsigned int kAsItIs = pugi::parse_cdata | pugi::parse_pi | pugi::parse_comments |
                                    pugi::parse_declaration | pugi::parse_doctype |
@@ -598,6 +602,14 @@ SvgDocument::SvgDocument(const std::string& text, std::string name, const Vector
 SvgDocument::~SvgDocument() = default;
 SvgDocument::SvgDocument(SvgDocument&&) noexcept = default;
 SvgDocument& SvgDocument::operator=(SvgDocument&&) noexcept = default;
+
+const Vector<2>& SvgDocument::page() const {
+  return content_->page;
+}
+
+const Eigen::Affine2d& SvgDocument::to_model() const {
+  return content_->to_model;
+}
 
 const PointList<2>& SvgDocument::points() const {
   return content_->points;

@@ -35,6 +35,10 @@ class SvgDocument {
   //! \param moved  2 x P
   std::string moved(const PointList<2>& moved) const;
 
+  //! As given to the constructor.
+  const Vector<2>& page() const;
+  const Eigen::Affine2d& to_model() const;
+
   //! What does not follow the points, a phrase each.
   const std::vector<std::string>& notes() const;
 

@@ -17,7 +17,8 @@ namespace flbc::io {
 
 // Signature required by the format table. NOLINTNEXTLINE(performance-unnecessary-value-param)
 SparseWeights read_npy(const std::string& path, std::string content) {
-  const NpyHeader header = read_npy_header(path, content);
+  NpyHeader header = read_npy_header(path, content);
+  if (header.shape.size() == 1) header.shape.push_back(1);
   if (header.shape.size() != 2) {
     throw InputError(path + ": the array has " + std::to_string(header.shape.size()) +
                      " dimensions; weights need 2, points x control points");

@@ -12,7 +12,7 @@
 namespace flbc::io {
 
 //! Reads Matrix Market (.mtx: coordinate, real or integer, general), NumPy (.npy: version
-//! 1 to 3, float32 or float64, C or Fortran order, two dimensions), or .csv.
+//! 1 to 3, float32 or float64, C or Fortran order, two dimensions, or one for a column), or .csv.
 //! \return weights of the points; for .mtx, no dense matrix is allocated
 //! \throws IoError if the file cannot be read; InputError naming file and line or byte if it is
 //! malformed, contains a non-finite number, or ends early; OptionError for another extension
