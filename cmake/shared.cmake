@@ -14,7 +14,7 @@ include(GNUInstallDirs)
 set(shared_libraries flbc flbc_io flbc_cgal flbc_caging flbc_tetgen flbc_netgen flbc_openmesh)
 # Internal headers of the core that the other libraries use.
 set(shared_inside
-  cage/close_points cage/oriented_cage cage/point_in_cage coordinates/poisson_weights linear/dense
+  base/team_size cage/close_points cage/oriented_cage cage/point_in_cage coordinates/poisson_weights linear/dense
   mesh/cell_geometry problem/barycentric_constraints problem/laplacian solver/methods/method_run
   meshing/cgal/exact_predicates meshing/isolated_process
   meshing/meshing_common meshing/surface_subdivision meshing/vertex_count_search)

@@ -5,7 +5,7 @@ import { readFileSync, writeFileSync } from "node:fs";
 import puppeteer from "puppeteer-core";
 
 // Chromium must be asked for software rendering of WebGL. Firefox has it only with a display.
-export function launch(executablePath, ...options) {
+function launchAny(executablePath, options) {
   if (!executablePath.includes("firefox")) {
     return puppeteer.launch({
       executablePath, protocolTimeout: 240000,
@@ -15,6 +15,18 @@ export function launch(executablePath, ...options) {
     browser: "firefox", executablePath, headless: false, protocolTimeout: 240000,
     extraPrefsFirefox: { "webgl.force-enabled": true, "gfx.webrender.software": true,
                          "privacy.reduceTimerPrecision": false } });
+}
+
+// A browser whose pages may take long to load, because tests run side by side.
+export async function launch(executablePath, ...options) {
+  const browser = await launchAny(executablePath, options);
+  const newPage = browser.newPage.bind(browser);
+  browser.newPage = async () => {
+    const tab = await newPage();
+    tab.setDefaultNavigationTimeout(180000);
+    return tab;
+  };
+  return browser;
 }
 
 export function vertices(path, dim) {

@@ -1383,6 +1383,17 @@ async function testCloud() {
     numPixels: canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.filter((x, k) => k % 4 === 3 && x > 0).length }));
   assert.ok(isBusy && numPixels > 3000, `${numPixels} pixels`);
   await app.shot("cloud_busy");
+  // The cage is shown while its weights are solved, and turned.
+  const pixels = () => tab.$eval("#preview", (canvas) => canvas.toDataURL());
+  await tab.waitForFunction(() => /filling the cage|solving/i.test(document.getElementById("stages").textContent), { timeout: 60000, polling: 20 });
+  const before = await pixels();
+  const { x, y } = await tab.$eval("#preview", (canvas) => canvas.getBoundingClientRect().toJSON());
+  await tab.mouse.move(x + 90, y + 90);
+  await tab.mouse.down();
+  await tab.mouse.move(x + 150, y + 100);
+  await tab.mouse.up();
+  assert.notEqual(await pixels(), before);
+  await app.shot("cloud_cage");
   await app.shown();
   await app.moveOne(30, -20);
   await app.shot("cloud");

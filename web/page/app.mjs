@@ -129,11 +129,13 @@ class App {
         onProgress("reading the model", 0);
         await this.flbc.cancel();  // what is prepared
         const { dim, vertices, isFilled } = await this.flbc.readModel(model.name, model.bytes, model.files);
-        this.preview(inSpace(await this.flbc.points(), dim), dim);
+        const points = inSpace(await this.flbc.points(), dim);
+        this.preview(points, dim);
         model.isFilled = isFilled;
         if (vertices > 20000) element("remaining").textContent = `This model takes about ${Math.round(vertices / 7000)} s`;
         const { note } = await this.flbc.makeCage({}, onProgress);
         model.note = model.note || sentence(note);
+        this.preview(points, dim, await this.flbc.cage());
         Object.assign(this, { model, cage: await this.cageFile(), view: null });
         await this.solve(onProgress);
       });
@@ -146,17 +148,35 @@ class App {
     }
   }
 
-  // The points of a model, before it has a cage.
-  preview(points, dim) {
+  // The points of a model, and its cage as soon as there is one, before the view. Dragging turns them.
+  preview(points, dim, { points: corners = [], facets = [] } = {}) {
     const canvas = element("preview"), context = canvas.getContext("2d");
     const stride = Math.ceil(points.length / 3 / kPreview);
     const shown = Array.from({ length: Math.ceil(points.length / 3 / stride) }, (_, k) => pointAt(points, k * stride));
+    const cage = inSpace(corners, dim);
     const camera = Object.assign(new Camera(dim), { width: canvas.width, height: canvas.height });
     camera.frame(shown.flat());
+    if (corners.length > 0) Object.assign(camera, { yaw: this.previewed.yaw, pitch: this.previewed.pitch });
+    this.previewed = camera;
+    const draw = () => {
+      context.clearRect(0, 0, canvas.width, canvas.height);
+      context.fillStyle = context.strokeStyle = getComputedStyle(canvas).color;
+      for (const { x, y } of shown.map((place) => camera.project(place))) context.fillRect(x, y, 2, 2);
+      context.beginPath();
+      for (let f = 0; f < facets.length; f += dim) {
+        const [last, ...others] = [...facets.slice(f, f + dim)].reverse().map((i) => camera.project(pointAt(cage, i)));
+        context.moveTo(last.x, last.y);
+        for (const { x, y } of others) context.lineTo(x, y);
+      }
+      context.stroke();
+    };
     canvas.hidden = false;
-    context.clearRect(0, 0, canvas.width, canvas.height);
-    context.fillStyle = getComputedStyle(canvas).color;
-    for (const { x, y } of shown.map((place) => camera.project(place))) context.fillRect(x, y, 2, 2);
+    canvas.onpointermove = ({ buttons, movementX, movementY }) => {
+      if (buttons !== 1) return;
+      camera.orbit(movementX, movementY);
+      draw();
+    };
+    draw();
   }
 
   // What a step that fails or is cancelled leaves as it was.

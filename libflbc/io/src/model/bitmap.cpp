@@ -323,7 +323,7 @@ std::size_t warp(const Bitmap& picture, const Binding<2>& binding,
 Bitmap sprite_sheet(const std::vector<Bitmap>& cells, const std::vector<std::string>& names,
                     const std::string& file, double seconds, std::string& json) {
   const auto& first = cells.front();
-  const auto [width, height] = std::pair(first.width, first.height);
+  const Index width = first.width, height = first.height;
   const auto count = static_cast<Index>(cells.size());
   const double square = std::sqrt(static_cast<double>(count) * height / width);
   const auto columns = static_cast<Index>(std::clamp<double>(std::round(square), 1, count));
