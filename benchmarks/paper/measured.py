@@ -171,11 +171,6 @@ def smallest(rows, model):
     return min((row for row in rows if row["model"] == model), key=lambda row: value(row, "vertices"))
 
 
-def published(model):
-    """The error of FLBC 2019 relative to that of the paper."""
-    return lambda rows: short(ratio(of_method(rows, "paper")[model], "error", "paper_flbc_error"))
-
-
 CLAIMS = {
     "influences.fewer": claim("fewer influences", lambda rows: all(
         value(r, column) < value(r, "harmonic") for r in rows for column in ("local", "reduced"))),
@@ -221,7 +216,6 @@ NUMBERS = {
     "table1.negative": negative,
     "table2.reproduced": reproduced,
     "table2.more_accurate": more_accurate,
-    **{f"table2.published.{model}": published(model) for model in ("logo", "woody", "cactus", "horse", "armadillo")},
     "tolerance.most": lambda rows: f"{max(value(r, 'error') for r in rows if value(r, 'tolerance') > 5e-8):.2f}",
     "tolerance.worst": lambda rows: f"{max(value(r, 'error') for r in rows):.2f}",
     "many.large.vertices": lambda rows: thousands(large(rows)["vertices"]),

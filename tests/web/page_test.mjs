@@ -1277,7 +1277,7 @@ async function testTimeline() {
     async () => { const { x, y } = await app.ask("spot", random(rest)); await mouse.click(x, y); },
     async () => app.drag(await app.ask("spot", random(rest)), random(60) - 30, random(60) - 30, 2),
     async () => { await app.type("r"); await app.type(String(random(90))); await keyboard.press("Enter"); },
-    () => tab.$eval("#library button", (button) => button.click()), () => press("undo"), () => press("redo"), () => press("play"),
+    () => press("keepPose"), () => tab.$$eval("#library button", (buttons, k) => buttons[k % buttons.length]?.click(), random(9)), () => press("undo"), () => press("redo"), () => press("play"),
     async () => { if (await tab.$eval("#timeline", (line) => !line.hidden)) { await tab.focus("#time"); await keyboard.press(["Home", "End", "PageUp"][random(3)]); } },
   ];
   for (let k = 0; k < 200; ++k) await actions[random(actions.length)]();
