@@ -155,7 +155,7 @@ class App {
     const shown = Array.from({ length: Math.ceil(points.length / 3 / stride) }, (_, k) => pointAt(points, k * stride));
     const cage = inSpace(corners, dim);
     const camera = Object.assign(new Camera(dim), { width: canvas.width, height: canvas.height });
-    camera.frame(shown.flat());
+    camera.frame([...shown.flat(), ...cage]);
     if (corners.length > 0) Object.assign(camera, { yaw: this.previewed.yaw, pitch: this.previewed.pitch });
     this.previewed = camera;
     const draw = () => {

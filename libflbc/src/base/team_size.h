@@ -26,7 +26,7 @@ class TeamSize {
   int of(int most) const { return most >> halvings_ > 1 ? most >> halvings_ : 1; }
 
  private:
-  static constexpr int kShortestPause = 4;
+  static constexpr int kShortestPause = 1;
 
   CoreUse before_;
   int halvings_ = 0;
