@@ -45,8 +45,8 @@ def o_grid():
     heights = (growth**np.arange(LAYERS + 1) - 1) / (growth**LAYERS - 1)
     points = wall + heights[:, None, None] * (far - wall)
     number = np.arange(points.size // 2).reshape(LAYERS + 1, AROUND)
-    beside = np.roll(number, -1, 1)
-    quads = np.stack([number[:-1], number[1:], beside[1:], beside[:-1]], -1).reshape(-1, 4)
+    following = np.roll(number, -1, 1)
+    quads = np.stack([number[:-1], number[1:], following[1:], following[:-1]], -1).reshape(-1, 4)
     return points.reshape(-1, 2), quads, number[0]
 
 

@@ -2,7 +2,7 @@
 // The page: from a dropped file to a model that is dragged by its cage.
 import { Camera } from "../../libflbc/front/page/camera.mjs";
 import { portion } from "../../libflbc/front/page/colors.mjs";
-import { decodeContent, inSpace } from "../../libflbc/front/page/data.mjs";
+import { decodeContent, inFile, inSpace } from "../../libflbc/front/page/data.mjs";
 import { Deformer } from "../../libflbc/front/page/deformer.mjs";
 import { kNoWebGl, show } from "../../libflbc/front/page/main.mjs";
 import { element, setTheme, tell } from "../../libflbc/front/page/panel.mjs";
@@ -31,6 +31,10 @@ const kForPrograms = /\bk[A-Z]\w+|--[a-z]|\bflbc [a-z]/;  // names and options t
 // What a message says to people who draw.
 function plain(message) {
   return message.split("; ").filter((part, k) => k === 0 || !kForPrograms.test(part)).join("; ");
+}
+
+function fileOf(cage) {
+  return { name: "cage.obj", bytes: new TextEncoder().encode(cageToObj(cage)) };
 }
 
 class App {
@@ -429,12 +433,11 @@ class App {
 
   async save(kind) {
     const { content, editor } = this.view;
-    const inFile = (places) => [...places].filter((_, k) => k % 3 < content.dim);
-    const points = inFile(editor.points);
+    const points = inFile(editor.points, content.dim);
     const { title, poses } = content;
     const { name: modelName, picture, drawing, photo } = this.model;
     const moved = async (places, options) => this.flbc.picture(
-      { pixels: await wholePicture(photo), size: photo.size, poses: places.map(inFile), ...options });
+      { pixels: await wholePicture(photo), size: photo.size, poses: places.map((each) => inFile(each, content.dim)), ...options });
     // The points of the frames of the animation.
     const frames = () => {
       if (poses.length < 2) throw new Error("Add two keys to the timeline first");
@@ -442,7 +445,7 @@ class App {
       const times = Array.from({ length: Math.round((end - begin) * kFrames) + 1 }, (_, k) => begin + k / kFrames);
       return times.map((time) => interpolatePoses(poses, time));
     };
-    const bent = (places) => this.flbc.drawing(drawing.source, drawing.placing, inFile(places));
+    const bent = (places) => this.flbc.drawing(drawing.source, drawing.placing, inFile(places, content.dim));
     const extension = /[^.]*$/.exec(modelName)[0].toLowerCase().replace("gltf", "glb");
     const kinds = {
       posed: async () => [`${title}_posed.${extension}`, await this.flbc.modelFile(points, extension)],
@@ -471,7 +474,7 @@ class App {
       animation: async () => {
         const keys = straightKeys(poses);
         return [`${title}_animation.glb`, await this.flbc.glb(
-          { influences: 8, times: keys.map(({ time }) => time), poses: keys.map((pose) => inFile(pose.points)) })];
+          { influences: 8, times: keys.map(({ time }) => time), poses: keys.map((pose) => inFile(pose.points, content.dim)) })];
       },
       glb4: async () => [`${title}.glb`, await this.flbc.glb({ influences: 4 })],
       glb8: async () => [`${title}_8.glb`, await this.flbc.glb({ influences: 8 })],
@@ -503,22 +506,20 @@ class App {
     const { editor, content, deformer } = this.view;
     const selected = [...editor.selection];
     const { dim, facets } = content, { isCurved } = this;
-    const cage = { points: [...deformer.rest].filter((_, k) => k % 3 < dim), facets };
-    const isRight = (wanted ? selected.length === wanted : selected.length > 1) && !(isCurved && selected.some((i) => i >= editor.handles.size));
+    const cage = { points: inFile(deformer.rest, dim), facets };
+    const isRight = (wanted ? selected.length === wanted : selected.length > 1) && !selected.some((i) => editor.isHandle(i));
     const changed = isRight ? change({ dim, ...isCurved ? straightCage(cage) : cage }, selected) : null;
     if (!changed) return tell(wanted ? "Select two control points with an edge between them" : "Select at least two control points");
-    const bytes = new TextEncoder().encode(cageToObj(changed));
-    const file = isCurved ? curvedCage(changed) : { name: "cage.obj", bytes };
+    const file = isCurved ? curvedCage(changed) : fileOf(changed);
     return this.remake("Another cage", () => this.readCage(file), { file, numbers: changed.numbers });
   }
 
   // Gives the edges of the cage handles, or takes them. The pose and its keys stay, as far as they can.
   async toggleCurves() {
     const { view, isCurved, view: { editor, content, deformer, holdsModel } } = this;
-    const inPlane = (places) => [...places].filter((_, k) => k % 3 < 2);
-    const change = (places) => (isCurved ? straightCage : curvedCage)({ points: inPlane(places), facets: content.facets });
+    const change = (places) => (isCurved ? straightCage : curvedCage)({ points: inFile(places, 2), facets: content.facets });
     const changed = change(deformer.rest);
-    const file = isCurved ? { name: "cage.obj", bytes: new TextEncoder().encode(cageToObj({ ...changed, dim: 2 })) } : changed;
+    const file = isCurved ? fileOf({ ...changed, dim: 2 }) : changed;
     const posed = (places) => inSpace(Float64Array.from(change(places).points), 2);
     const pose = holdsModel ? null : posed(editor.points);
     const keys = content.poses.map((key) => ({ ...key, points: posed(key.points) }));

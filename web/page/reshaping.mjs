@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reshaping the rest cage, for which weights are computed anew. The cage follows the pointer at once;
 // what is solved is always the latest shape, one at a time.
-import { inSpace } from "../../libflbc/front/page/data.mjs";
+import { inFile, inSpace } from "../../libflbc/front/page/data.mjs";
 import { element } from "../../libflbc/front/page/panel.mjs";
 
 function areSame(a, b) {
@@ -70,7 +70,7 @@ export class Reshaper {
   async solve() {
     const { editor, content } = this.viewer;
     this.sent = editor.points.slice();
-    const reply = await this.solveOn({ points: [...this.sent].filter((_, k) => k % 3 < content.dim) });
+    const reply = await this.solveOn({ points: inFile(this.sent, content.dim) });
     if (reply.refused && areSame(editor.points, this.sent) && !editor.start) this.goBack(this.solved);
   }
 

@@ -38,6 +38,11 @@ export function inSpace(numbers, dim) {
   return result;
 }
 
+// Their coordinates in the dimension of the model, as files have them.
+export function inFile(places, dim) {
+  return [...places].filter((_, k) => k % 3 < dim);
+}
+
 function decodeWeights(packed) {
   const counts = decodeBytes(packed.counts);
   const starts = new Uint32Array(counts.length + 1);

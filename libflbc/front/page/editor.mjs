@@ -87,6 +87,11 @@ export class Editor {
     this.onChange();
   }
 
+  // Handles of curves come after all corners.
+  isHandle(i) {
+    return this.handles.size > 0 && i >= this.handles.size;
+  }
+
   // These control points, and the handles of those that are corners of curves.
   withHandles(indices) {
     return [...indices].flatMap((i) => [i, ...this.handles.get(i) ?? []]);

@@ -76,7 +76,7 @@ export class Interaction {
   // all takes the limb beyond it with its ring, because one control point alone makes a dent.
   grab(hit) {
     const { editor } = this.view;
-    const isFirst = !(editor.handles.size > 0 && hit >= editor.handles.size) && editor.selection.size === 0 && !editor.canUndo && !editor.canRedo && !this.adds;
+    const isFirst = !editor.isHandle(hit) && editor.selection.size === 0 && !editor.canUndo && !editor.canRedo && !this.adds;
     if (this.adds || !editor.selection.has(hit)) editor.click(hit, this.adds);
     if (!editor.selection.has(hit)) return "none";
     this.beginDrag = () => {

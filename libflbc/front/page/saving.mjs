@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Downloads of poses, models and pictures, and a command to copy.
 import { kBases } from "./camera.mjs";
+import { inFile } from "./data.mjs";
 import { glbOf } from "./glb.mjs";
 import { modelText, poseText } from "./obj.mjs";
 import { straightKeys } from "./poses.mjs";
@@ -20,7 +21,7 @@ function saveText(name, text) {
 // The control points with as many coordinates as the cage's file gives.
 function placesOf(viewer) {
   const { dim } = viewer.content;
-  return Array.from(viewer.editor.points).filter((_, k) => k % 3 < dim);
+  return inFile(viewer.editor.points, dim);
 }
 
 export function poseOf(viewer) {
