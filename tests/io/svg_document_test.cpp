@@ -170,6 +170,25 @@ TEST(SvgDocumentTest, EveryShapeBecomesAPathOfItsOutline) {
   }
 }
 
+// SVG 1.1, F.6.2, for a radius of zero; radii at the ends of the range of numbers overflow.
+TEST(SvgDocumentTest, ArcsWithoutUsableRadiiAreLines) {
+  for (const char* arc : {"M10 20a0 5 0 0 0 30 40", "M10 20a5 0 30 1 0 30 40",
+                          "M10 20a0 0 0 0 1 30 40", "M10 20a1e-320 5 0 0 0 30 40",
+                          "M10 20a1e-320 1e-320 0 1 1 30 40", "M10 20a5 1e308 0 0 0 30 40",
+                          "M10 20a1e308 1e308 0 0 1 30 40"}) {
+    bool is_whole = false;
+    const auto path = parse_path(arc, is_whole);
+    ASSERT_EQ(count_cubics(path), 1U) << arc;
+    EXPECT_TRUE(is_whole && path[0].cubics[0].is_line) << arc;
+    EXPECT_EQ(path[0].cubics[0].first(), Vector<2>(10, 20)) << arc;
+    EXPECT_EQ(path[0].cubics[0].last(), Vector<2>(40, 60)) << arc;
+  }
+  // Between points whose difference overflows there is no arc.
+  bool is_whole = false;
+  parse_path("M1e308 0A1 1 0 0 0-1e308 0a1 1 0 0 0 1e308 9", is_whole);
+  EXPECT_TRUE(is_whole);
+}
+
 TEST(SvgDocumentTest, EverythingElseStays) {
   const std::string content =
       R"svg(<!-- my drawing --><style>.a &gt; .b { fill: red }</style><script>run()</script>

@@ -34,7 +34,6 @@ std::vector<Cubic> arc_between(const Vector<2>& from, const Vector<2>& to, Vecto
                                double degrees, bool is_large, bool is_sweep) {
   radii = radii.cwiseAbs();
   if (from == to) return {};
-  if (!(radii.minCoeff() > 0)) return {Cubic::line(from, to)};
   const Eigen::Rotation2Dd turn(degrees * kPi / 180);
   const Vector<2> half = turn.inverse() * Vector<2>((from - to) / 2);
   const double excess = half.cwiseQuotient(radii).squaredNorm();
@@ -48,7 +47,12 @@ std::vector<Cubic> arc_between(const Vector<2>& from, const Vector<2>& to, Vecto
   double end = angle(-on_circle - middle);
   if (is_sweep && end < begin) end += 2 * kPi;
   if (!is_sweep && end > begin) end -= 2 * kPi;
-  auto cubics = arc(middle.cwiseProduct(radii), radii, begin, end);
+  const Vector<2> center = middle.cwiseProduct(radii);
+  // A radius is zero, or too small or too large to compute with.
+  if (!std::isfinite(end - begin) || !center.allFinite() || !radii.allFinite()) {
+    return {Cubic::line(from, to)};
+  }
+  auto cubics = arc(center, radii, begin, end);
   for (auto& cubic : cubics) {
     cubic.points = (turn.toRotationMatrix() * cubic.points).colwise() + (from + to) / 2;
   }
