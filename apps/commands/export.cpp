@@ -111,7 +111,8 @@ void add_export_command(CLI::App& app, int&) {
       app.add_subcommand("export", "export a model as a glTF skin that the cage deforms");
   command->footer(
       "Each control point becomes a joint (control_point_0 and so on) that only translates. With\n"
-      "--skeleton the joints are those that skin the cage in another file.\n"
+      "--rigid there is one more for each solid region (solid_0 and so on). With --skeleton the\n"
+      "joints are those that skin the cage in another file.\n"
       "Vertices are split along seams of texture coordinates and normals. The attribute _VERTEX\n"
       "maps them to the vertices of MODEL. Normals do not deform.\n"
       "\n"
@@ -134,10 +135,13 @@ void add_export_command(CLI::App& app, int&) {
       ->add_flag("--correct", a.corrects,
                  "add a morph target for each key, so that the model is as the cage deforms it")
       ->needs(skeleton);
+  auto* rigid = command->add_flag("--rigid", a.options.rigid,
+                                  "move each solid region of the weights by a joint of its own, "
+                                  "which turns it without distortion");
   command->add_option("-k,--max-influences", a.options.max_influences,
                       "maximum influences per vertex, 4 or 8 (default: 8)");
   command->add_option("-o,--output", a.output, "skin: .glb or .usda")->required();
-  skeleton->excludes(poses)->excludes(add_up_option(*command, a.up));
+  skeleton->excludes(poses)->excludes(rigid)->excludes(add_up_option(*command, a.up));
   command->add_flag("-q,--quiet", a.quiet, "print only errors");
   command->callback([arguments] {
     check_arguments(*arguments);

@@ -63,6 +63,7 @@ std::string describe_skin(const gltf::ExportedSkin& skin, const gltf::Animation<
                                       : "deformation error over these poses",
               skin.deformation_error);
   }
+  if (skin.rigid_error) add_error("rigid regions instead of affine ones", *skin.rigid_error);
   if (skin.keys > 0) {
     add_error(
         "difference from the deformation by the cage over " + std::to_string(skin.keys) + " keys",

@@ -381,10 +381,12 @@ class Binding:
         poses: Sequence[ArrayLike] = (),
         times: Optional[Sequence[float]] = None,
         max_influences: int = 8,
+        rigid: bool = False,
         name: str = "model",
     ) -> None:
         """Writes a skin for engines to a file that ends in .glb or .usda: each control point is a
-        joint that only translates. Vertices have at most `max_influences`, 4 or 8.
+        joint that only translates. Vertices have at most `max_influences`, 4 or 8. With `rigid`,
+        each solid region has a joint of its own, which turns it without distortion.
 
         `poses`, arrays of shape (n, d), become an animation at `times` in seconds, ascending, or 24
         per second. `name` is that of the mesh in the file. Raises IoError if the file cannot be
@@ -392,7 +394,8 @@ class Binding:
         moved = self._poses(poses)
         seconds = [k / 24 for k in range(len(moved))] if times is None else list(times)
         polygons = as_polygons(faces, "faces", len(self.points))
-        _core.export_skin(self._any, str(path), polygons, seconds, moved, max_influences, name)
+        _core.export_skin(self._any, str(path), polygons, seconds, moved, max_influences, bool(rigid),
+                          name)
 
     def view(
         self,

@@ -99,13 +99,14 @@ gltf::Surface surface_of(const Binding<Dim>& binding, const Polygons& polygons) 
 
 void export_skin(const AnyBinding& any, const std::string& path, const Polygons& polygons,
                  const std::vector<double>& times, const std::vector<Doubles>& poses,
-                 Index max_influences, const std::string& name) {
+                 Index max_influences, bool rigid, const std::string& name) {
   const auto extension = io::extension_of(path);
   if (extension != "glb" && extension != "usda") {
     throw OptionError(path + ": unknown file format; the file must end in .glb or .usda");
   }
   gltf::SkinOptions options;
   options.max_influences = max_influences;
+  options.rigid = rigid;
   options.name = name;
   if (extension == "usda") options.format = gltf::SkinFormat::kUsda;
   any.visit([&](const auto& binding) {

@@ -6,16 +6,19 @@
 #include <set>
 
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 #include "flbc/bounding_box.h"
 #include "flbc/deform.h"
 #include "flbc/errors.h"
 #include "flbc/io/mesh_io.h"
 #include "flbc/poses.h"
+#include "flbc/rig.h"
 #include "flbc/sparsify.h"
 #include "support/dimensions.h"
 #include "support/glb_file.h"
 #include "support/harmonic_weights.h"
+#include "support/refined_sample.h"
 #include "support/usda_file.h"
 
 namespace flbc::testing {
@@ -25,8 +28,8 @@ namespace {
 // points would matter.
 template <int Dim>
 struct Example {
-  Example()
-      : sample(make_sample<Dim>(Shape::kRing, 3)),
+  explicit Example(Sample<Dim> given = make_sample<Dim>(Shape::kRing, 3))
+      : sample(std::move(given)),
         weights(harmonic_weights(sample)),
         edges(edges_of_cells(sample.mesh)) {
     const auto& mesh = sample.mesh;
@@ -323,6 +326,75 @@ TEST(GltfSkin, IndicesTakeFourBytesWhereTwoAreTooFew) {
   check(3, 5123);
   check(32768, 5123);
   check(32769, 5125);
+}
+
+// The nearest rotation R between centered points X and Y has symmetric R X Y^T with eigenvalues
+// whose sums of pairs are not negative; its error is part of the report.
+TEST_IN_2D_AND_3D(GltfSkinTest, SolidRegionsMayBeRigid) {
+  const Example<Dim> example(with_fine_cage<Dim>(Shape::kBox, Dim == 2 ? 8 : 4, 8));
+  const auto& rest = example.sample.mesh.points;
+  BindOptions bind_options;
+  bind_options.max_influences = 0;
+  bind_options.solid.emplace_back();
+  auto& region = bind_options.solid[0];
+  for (Index p = 0; p < rest.cols(); ++p) {
+    if ((rest.col(p) - Vector<Dim>::Constant(0.4)).norm() < 0.17) region.push_back(p);
+  }
+  ASSERT_GE(region.size(), 6U);
+  ASSERT_LT(region.size(), static_cast<std::size_t>(rest.cols()) / 2);
+  Rig<Dim> rig(example.sample.cage, example.sample.mesh, rest, example.edges, bind_options);
+  const auto binding = rig.binding();
+
+  const auto& cage = example.sample.cage.points;
+  gltf::Animation<Dim> animation{{0, 1, 2}, independent_poses<Dim>(cage, 2)};
+  animation.poses.insert(animation.poses.begin(), cage);
+  for (const auto format : {gltf::SkinFormat::kGlb, gltf::SkinFormat::kUsda}) {
+    gltf::SkinOptions options;
+    options.format = format;
+    const auto affine = gltf::export_skin(binding, example.surface, options, animation);
+    EXPECT_FALSE(affine.rigid_error);
+    options.rigid = true;
+    const auto skin = gltf::export_skin(binding, example.surface, options, animation);
+    EXPECT_EQ(skin.joints, affine.joints + 1);
+    EXPECT_EQ(skin.moving_joints, affine.moving_joints + 1);
+    const auto seen = [&](const std::string& content, int k) -> Eigen::MatrixXd {
+      const double time = 24.0 * k;
+      if (format == gltf::SkinFormat::kUsda) return UsdaFile(content).skinned(&time);
+      const GlbFile file(content);
+      return file.skinned(file.joints(k), file.turns(k));
+    };
+    const Eigen::MatrixXd x = in_space<Dim>(rest)(Eigen::all, region);
+    const Eigen::MatrixXd centered = x.colwise() - x.rowwise().mean();
+    std::vector<Index> others;
+    for (Index p = 0; p < rest.cols(); ++p) {
+      if (std::find(region.begin(), region.end(), p) == region.end()) others.push_back(p);
+    }
+    double squares = 0, most = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::MatrixXd all = seen(skin.content, k), without = seen(affine.content, k);
+      EXPECT_LT((all - without)(Eigen::all, others).cwiseAbs().maxCoeff(), 1e-5);
+      const Eigen::MatrixXd moved = all(Eigen::all, region);
+      const Eigen::MatrixXd turned = moved.colwise() - moved.rowwise().mean();
+      EXPECT_LT((turned.transpose() * turned - centered.transpose() * centered).norm(), 1e-4);
+      const Eigen::MatrixXd y =
+          in_space<Dim>(binding.deform(animation.poses[k]))(Eigen::all, region);
+      EXPECT_LT((moved.rowwise().mean() - y.rowwise().mean()).norm(), 1e-5);
+      const Eigen::Matrix<double, Dim, Dim> product =
+          (turned * y.transpose()).topLeftCorner(Dim, Dim);
+      EXPECT_LT((product - product.transpose()).norm(), 1e-4 * product.norm());
+      const Eigen::Matrix<double, Dim, Dim> symmetric = (product + product.transpose()) / 2;
+      const auto values =
+          Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>>(symmetric).eigenvalues();
+      EXPECT_GE(values[0] + values[1], -1e-4 * product.norm());
+      const auto lengths = (moved - y).colwise().norm().eval();
+      squares += lengths.squaredNorm() / static_cast<double>(3 * lengths.size());
+      most = std::max(most, lengths.maxCoeff());
+      EXPECT_LT(k == 0 ? (moved - x).norm() : 0, 1e-6);
+    }
+    EXPECT_GT(most, 0.01) << "every affine map was rigid";
+    EXPECT_NEAR(skin.rigid_error->max, most, 1e-5);
+    EXPECT_NEAR(skin.rigid_error->rms, std::sqrt(squares), 1e-5);
+  }
 }
 
 TEST_IN_2D_AND_3D(GltfSkinTest, SinglePrecisionIsMeasured) {

@@ -77,6 +77,9 @@ TEST_F(LocalityCommand, SolidRegionsStaySolidInTheFile) {
     EXPECT_LT((rows - places * least_squares(places, rows)).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_GE(weights.minCoeff(), 0);
   }
+  expect("export 3d/limb_model.obj --weights b.npz --rigid -o rigid.glb", 0,
+         "rigid regions instead of affine ones");
+  EXPECT_NE(slurp("rigid.glb").find("\"solid_0\""), std::string::npos);
   const auto refused = [&](const std::string& content, const std::string& words) {
     expect("solve 3d/limb_cage.obj --model 3d/limb_model.obj -o w.npy --locality " +
                file("bad.json", content),

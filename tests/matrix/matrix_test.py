@@ -162,7 +162,8 @@ class Program:
         if operation.startswith("reduce"):
             flbc("sparsify", bound, "-k", operation[-1], "-o", result)
         if operation == "export":
-            flbc("export", model, "--weights", bound, "-k", 4, "-o", folder / "result.glb")
+            for name, rigid in (("result.glb", []), ("rigid.glb", ["--rigid"])):
+                flbc("export", model, "--weights", bound, "-k", 4, *rigid, "-o", folder / name)
         if operation == "transfer":
             flbc("transfer", bound, "--to", folder / "other.obj", "--outside", "keep", "-o", result)
         if operation == "transfer_nearest":
@@ -208,6 +209,7 @@ class Python:
             binding = binding.reduced(int(operation[-1]))
         if operation == "export":
             binding.export(folder / "result.glb", faces, max_influences=4)
+            binding.export(folder / "rigid.glb", faces, max_influences=4, rigid=True)
         if operation == "transfer":
             binding = binding.transferred(*read("other.obj"), outside="keep")
         if operation == "transfer_nearest":
@@ -421,6 +423,12 @@ def solid_regions(result):
     if result.operation in ("reduce4", "reduce8", "export"):
         most = 8 if result.operation == "reduce8" else 4
         assert (result.weights[region] > 0).any(axis=0).sum() <= most
+    if result.operation == "export":  # a joint more, which has the region alone
+        count, joints = result.weights.shape
+        rigid = joint_weights(result.folder / "rigid.glb", (count, joints + 1))
+        others = np.setdiff1d(np.arange(count), region)
+        assert (rigid[region, joints] == 1).all() and (rigid[region, :joints] == 0).all()
+        assert (rigid[others, :joints] == result.weights[others]).all()
 
 
 PROMISES = {

@@ -145,6 +145,7 @@ class GlbFile {
     Eigen::MatrixXd result = joints();
     const auto& animation = json["animations"][0];
     for (const auto& channel : animation["channels"]) {
+      if (channel["target"]["path"] == "rotation") continue;
       EXPECT_EQ(channel["target"]["path"], "translation");
       const auto& sampler = animation["samplers"][channel["sampler"].get<std::size_t>()];
       EXPECT_EQ(sampler["interpolation"], "LINEAR");
@@ -159,8 +160,25 @@ class GlbFile {
     return result;
   }
 
+  //! The rotations of the same joints at key k.
+  std::vector<Eigen::Quaterniond> turns(Eigen::Index k) const {
+    const auto& nodes = json["skins"][skin_]["joints"];
+    std::vector<Eigen::Quaterniond> result(nodes.size(), Eigen::Quaterniond::Identity());
+    const auto& animation = json["animations"][0];
+    for (const auto& channel : animation["channels"]) {
+      if (channel["target"]["path"] != "rotation") continue;
+      const auto& sampler = animation["samplers"][channel["sampler"].get<std::size_t>()];
+      const auto joint = std::find(nodes.begin(), nodes.end(), channel["target"]["node"]);
+      EXPECT_NE(joint, nodes.end());
+      result[static_cast<std::size_t>(joint - nodes.begin())].coeffs() =
+          accessor(sampler["output"]).col(k);
+    }
+    return result;
+  }
+
   //! 3 x S: sum of w_i M_i x, where M_i is the joint's matrix times its inverse bind matrix.
-  Eigen::MatrixXd skinned(const Eigen::MatrixXd& joints) const {
+  Eigen::MatrixXd skinned(const Eigen::MatrixXd& joints,
+                          const std::vector<Eigen::Quaterniond>& turns = {}) const {
     const Eigen::MatrixXd binds = accessor(json["skins"][skin_]["inverseBindMatrices"]);
     const Eigen::MatrixXd positions = attribute("POSITION");
     const Eigen::MatrixXd numbers = influences("JOINTS_"), weights = influences("WEIGHTS_");
@@ -170,6 +188,7 @@ class GlbFile {
         const auto joint = static_cast<Eigen::Index>(numbers(slot, v));
         Eigen::Isometry3d global = root();
         global.translation() = joints.col(joint);
+        if (!turns.empty()) global.rotate(turns[static_cast<std::size_t>(joint)]);
         const Eigen::Matrix4d matrix = global.matrix() * binds.col(joint).reshaped(4, 4);
         const Eigen::Vector4d moved = matrix * positions.col(v).homogeneous();
         result.col(v) += weights(slot, v) * moved.head<3>();

@@ -100,6 +100,12 @@ class UsdaFile {
       for (std::size_t j = 0; j < names.size(); ++j) {
         for (int d = 0; d < 3; ++d) local[j](3, d) = moved.numbers[3 * j + d];
       }
+      const auto& turns = (*this)[poses + ".rotations"].samples;
+      for (std::size_t j = 0; !turns.empty() && j < names.size(); ++j) {
+        const double* const turn = turns.at(*time).numbers.data() + 4 * j;
+        const Eigen::Quaterniond rotation(turn[0], turn[1], turn[2], turn[3]);
+        local[j].topLeftCorner<3, 3>() = rotation.toRotationMatrix().transpose();
+      }
     }
     std::map<std::string, std::size_t> number;
     Matrices world = local;

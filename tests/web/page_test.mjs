@@ -770,6 +770,24 @@ async function testProtecting() {
   await settled();
   assert.deepEqual(await masks(), [mask]);
 
+  // A solid region of a file gets a joint in .glb files, if the box is checked.
+  const load = async (path) => {
+    await (await tab.$("#localityFile")).uploadFile(path);
+    await tab.waitForFunction(() => globalThis.flbcApp.protector.isBusy);
+    await settled();
+  };
+  const button = join(work, "button.json");
+  writeFileSync(button, JSON.stringify({ solid: [{ region: { vertices: [0, 1, 2, 3, 4, 5, 6, 7] } }] }));
+  const isOffered = () => tab.$eval("#rigidParts", (label) => !label.hidden);
+  assert.ok(!await isOffered());
+  await load(button);
+  assert.ok(await isOffered());
+  await tab.$eval("#rigid", (box) => box.click());
+  assert.match(readFileSync(await app.saved("[data-save=glb4]", "limb_model.glb"), "latin1"), /"solid_0"/);
+  await app.shot("protect_solid");
+  await load(saved);
+  assert.deepEqual(await masks(), [mask]);
+
   // What all control points must not move cannot stay: the page says where, and what to release.
   await app.ask("select", cage.map((_, i) => i));
   await paint(4, 0);

@@ -145,8 +145,9 @@ export class Flbc {
   /** A page to deform the model in that needs no other file. */
   page(options?: { picture?: string }): Promise<Bytes>;
   /** A skin of 4 or 8 influences per vertex, with poses of the cage at times in seconds. Of a glTF
-   *  file, its whole document is kept. */
-  glb(options?: { influences?: 4 | 8; times?: number[]; poses?: Numbers[] }): Promise<Bytes>;
+   *  file, its whole document is kept. With `rigid`, each solid region has a joint of its own, which
+   *  turns it without distortion. */
+  glb(options?: { influences?: 4 | 8; rigid?: boolean; times?: number[]; poses?: Numbers[] }): Promise<Bytes>;
   weightFile(options?: { format?: "npy" | "mtx" | "csv"; of?: "model" | "mesh" }): Promise<Bytes>;
   cageFile(): Promise<Bytes>;
   meshFile(): Promise<Bytes>;

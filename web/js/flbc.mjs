@@ -121,7 +121,7 @@ export class Flbc {
 const kOptions = {
   makeCage: "controlPoints offset symmetry density", repairCage: "", compose: "points facets starts controlPoints values isCurved", makeMesh: "vertices", solve: "smoothness tolerance distances precision",
   solution: "", setSolution: "points cells starts controlPoints values options", reduce: "influences", move: "points refine seconds",
-  points: "", cage: "", weights: "", harmonicWeights: "", content: "picture", page: "picture", glb: "influences times poses",
+  points: "", cage: "", weights: "", harmonicWeights: "", content: "picture", page: "picture", glb: "influences rigid times poses",
   picture: "pixels size poses scale sheet fps", weightFile: "format of", cageFile: "", meshFile: "", memory: "", version: "",
 };
 

@@ -436,6 +436,7 @@ class App {
     const points = inFile(editor.points, content.dim);
     const { title, poses } = content;
     const { name: modelName, picture, drawing, photo } = this.model;
+    const { checked: rigid } = element("rigid");
     const moved = async (places, options) => this.flbc.picture(
       { pixels: await wholePicture(photo), size: photo.size, poses: places.map((each) => inFile(each, content.dim)), ...options });
     // The points of the frames of the animation.
@@ -474,10 +475,10 @@ class App {
       animation: async () => {
         const keys = straightKeys(poses);
         return [`${title}_animation.glb`, await this.flbc.glb(
-          { influences: 8, times: keys.map(({ time }) => time), poses: keys.map((pose) => inFile(pose.points, content.dim)) })];
+          { influences: 8, rigid, times: keys.map(({ time }) => time), poses: keys.map((pose) => inFile(pose.points, content.dim)) })];
       },
-      glb4: async () => [`${title}.glb`, await this.flbc.glb({ influences: 4 })],
-      glb8: async () => [`${title}_8.glb`, await this.flbc.glb({ influences: 8 })],
+      glb4: async () => [`${title}.glb`, await this.flbc.glb({ influences: 4, rigid })],
+      glb8: async () => [`${title}_8.glb`, await this.flbc.glb({ influences: 8, rigid })],
     };
     try {
       await this.prepared;

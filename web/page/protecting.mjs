@@ -369,6 +369,7 @@ export function bindProtecting(protector) {
     element("paint").setAttribute("aria-pressed", String(protector.isOn));
     element("erase").setAttribute("aria-pressed", String(protector.erases));
     for (const kind of ["solid", "density"]) element(kind).setAttribute("aria-pressed", String(protector.paints === kind));
+    element("rigidParts").hidden = protector.solid.size === 0;
     element("release").hidden = !protector.reply.conflict;
     element("protected").textContent = protector.describe();
     // Not while the slider is dragged.

@@ -636,6 +636,7 @@ class Work {
     const auto options = to_json(given);
     gltf::SkinOptions skin;
     skin.max_influences = options.value("influences", 4);
+    skin.rigid = options.value("rigid", false);
     skin.name = title();
     const auto up = app::up_of(app::UpAxis::kAuto, file_);
     skin.turn = app::turn_upright(app::up_axis(up, points()));

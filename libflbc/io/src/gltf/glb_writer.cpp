@@ -322,7 +322,7 @@ class SkinBuilder {
     auto children = Json::array();
     for (Eigen::Index i = 0; i < num_points; ++i) {
       children.push_back(joint_node(i));
-      add_joint("control_point_" + std::to_string(i), scene_.joints.col(i) - centre_, centre_);
+      add_joint(joint_name(scene_, i), scene_.joints.col(i) - centre_, centre_);
     }
     joints_ = children;
     const auto helper = joint_node(num_points);
@@ -385,8 +385,12 @@ class SkinBuilder {
           scene_.times.data(), static_cast<Eigen::Index>(scene_.times.size()));
       for (const auto& moving : scene_.channels) {
         const Eigen::Matrix3Xf values = moving.translations.colwise() - centre_;
-        poses.channels.push_back({static_cast<std::size_t>(moving.joint), "translation", false,
-                                  times.cast<double>(), values.cast<double>()});
+        const auto add = [&](const char* path, const Eigen::MatrixXf& keys) {
+          poses.channels.push_back({static_cast<std::size_t>(moving.joint), path, false,
+                                    times.cast<double>(), keys.cast<double>()});
+        };
+        add("translation", values);
+        if (moving.rotations.cols() > 0) add("rotation", moving.rotations);
       }
       add_animation(poses);
     }
@@ -470,6 +474,12 @@ class SkinBuilder {
 };
 
 }  // namespace
+
+std::string joint_name(const GlbScene& scene, Eigen::Index joint) {
+  const auto num_points = scene.joints.cols() - scene.solid_regions;
+  return joint < num_points ? "control_point_" + std::to_string(joint)
+                            : "solid_" + std::to_string(joint - num_points);
+}
 
 std::string encode_glb(const GlbScene& scene, std::vector<std::string>& left_out) {
   const auto make = [&] { return SkinBuilder(scene, left_out).glb(); };

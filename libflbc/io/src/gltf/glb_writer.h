@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes binary glTF 2.0 and Universal Scene Description: a mesh and its skin. Joints of control
-// points only translate; those of a skeleton, in glTF, do anything.
+// points only translate, those of solid regions turn as well, and those of a skeleton, in glTF, do
+// anything.
 #pragma once
 
 #include <memory>
@@ -13,10 +14,11 @@
 
 namespace flbc::gltf {
 
-//! One translation per time of the animation.
+//! A place per time of the animation.
 struct Channel {
   Index joint;
-  Eigen::Matrix3Xf translations;  //!< 3 x number of times
+  Eigen::Matrix3Xf translations;    //!< 3 x number of times
+  Eigen::Matrix4Xf rotations = {};  //!< quaternions x, y, z, w, or none
 };
 
 //! A skinned mesh as stored: its S vertices and T triangles, or the document of its file; n joints.
@@ -29,7 +31,8 @@ struct GlbScene {
   //! far from the origin.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   JointWeights weights{};     //!< of the S vertices; with a document of the points of the model
-  Eigen::Matrix3Xf joints{};  //!< 3 x n, at rest
+  Eigen::Matrix3Xf joints{};  //!< 3 x n, at rest: control points, then centers of solid regions
+  Index solid_regions = 0;    //!< how many of these are centers
   //! Rotation about the origin of the cage coordinates.
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   std::vector<float> times{};                        //!< in seconds
@@ -46,9 +49,12 @@ struct GlbScene {
   }
 };
 
+//! "control_point_0" etc., then "solid_0" etc.
+std::string joint_name(const GlbScene& scene, Eigen::Index joint);
+
 //! Makes the content of a .glb file. The scene has two root nodes: the mesh, and the joint "cage"
 //! at the center of the cage. Only this joint has the offset from the origin. Its children are the
-//! joints "control_point_0" etc., and "cage_end", which moves nothing but makes programs draw short
+//! joints of joint_name(), and "cage_end", which moves nothing but makes programs draw short
 //! bones. A document keeps all its content, except for skins of the model and animations of their
 //! joints. Positions stay in the coordinates of their nodes, which lose their transforms and
 //! parents, because those do not move skins, unless something else needs them. Triangles turn over
@@ -59,7 +65,7 @@ std::string encode_glb(const GlbScene& scene, std::vector<std::string>& left_out
 
 //! Makes the content of a .usda file: a SkelRoot "model" with the mesh "surface", the skeleton
 //! "cage" and, if something moves, its animation "poses". Its joints are a root "cage", which never
-//! moves, and its children, the control points. Influences are not limited to sets of four.
+//! moves, and its children, those of joint_name(). Influences are not limited to sets of four.
 std::string encode_usda(const GlbScene& scene);
 
 }  // namespace flbc::gltf

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <sstream>
 
+#include <Eigen/Geometry>
 #include <Eigen/QR>
 
 #include "flbc/bounding_box.h"
@@ -33,15 +35,17 @@ void require_equal(Eigen::Index found, Eigen::Index expected, const char* what) 
 
 template <int Dim>
 void check(const PointList<Dim>& control_points, const PointList<Dim>& points,
-           const SparseWeights& weights, const Surface& surface, const SkinOptions& options) {
+           const SparseWeights& weights, const Surface& surface, const SkinOptions& options,
+           std::size_t num_regions = 0) {
   if (options.max_influences != 4 && options.max_influences != 8) {
     throw OptionError("a skin has at most 4 or 8 influences per vertex, not " +
                       std::to_string(options.max_influences));
   }
-  if (control_points.cols() > kMaxJoints) {
-    throw InputError("the cage has " + std::to_string(control_points.cols()) +
-                     " control points, but a skin can have " + std::to_string(kMaxJoints) +
-                     " joints at most");
+  const auto num_joints = control_points.cols() + static_cast<Eigen::Index>(num_regions);
+  if (num_joints > kMaxJoints) {
+    throw InputError("the cage has " + std::to_string(num_joints) +
+                     " control points and rigid regions, but a skin can have " +
+                     std::to_string(kMaxJoints) + " joints at most");
   }
   require_equal(weights.num_control_points(), control_points.cols(), "weights of control points");
   require_equal(weights.num_points(), points.cols(), "weights of points");
@@ -70,20 +74,105 @@ Eigen::Matrix3Xf to_floats(const PointList<Dim>& points, const std::string& owne
   return result;
 }
 
+// The joints of a skin: n control points, and the R solid regions that are to stay rigid.
+template <int Dim>
+struct Joints {
+  const std::vector<std::vector<Index>>& solid;
+  PointList<Dim> rest{};  // Dim x (n + R): control points, then centers of regions
+  std::vector<PointList<Dim>> poses{};
+  std::vector<Eigen::Matrix4Xf> turns{};  // a quaternion per region and pose: x, y, z, w
+};
+
+// \param matrix  orthogonal \param before  quaternion in the pose before, of which one of the two
+// that stand for the rotation is nearer
+template <int Dim>
+Eigen::Vector4f quaternion_of(const Eigen::Matrix<double, Dim, Dim>& matrix,
+                              const Eigen::Vector4f& before) {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<Dim, Dim>() = matrix;
+  const Eigen::Vector4f result = Eigen::Quaterniond(turn).coeffs().cast<float>();
+  return result.dot(before) < 0 ? Eigen::Vector4f(-result) : result;
+}
+
+// Moves each region by the rigid map that is nearest to its deformation by the cage.
+// \param distances  get how far it is from it, of each point
+template <int Dim>
+Joints<Dim> joints_of(const Binding<Dim>& binding, const std::vector<std::vector<Index>>& solid,
+                      const std::vector<PointList<Dim>>& poses, std::vector<double>& distances) {
+  const PointList<Dim> points = binding.rest();
+  const auto num_regions = static_cast<Eigen::Index>(solid.size());
+  Joints<Dim> joints{solid};
+  joints.rest.resize(Dim, binding.cage.points.cols() + num_regions);
+  joints.rest.leftCols(binding.cage.points.cols()) = binding.cage.points;
+  for (Eigen::Index r = 0; r < num_regions; ++r) {
+    joints.rest.col(binding.cage.points.cols() + r) = points(Eigen::all, solid[r]).rowwise().mean();
+  }
+  Eigen::Matrix4Xf turns = Eigen::Vector4f::UnitW().replicate(1, num_regions);
+  for (const auto& pose : poses) {
+    const auto moved = solid.empty() ? points : binding.deform(pose);
+    auto places = joints.rest;
+    places.leftCols(pose.cols()) = pose;
+    for (Eigen::Index r = 0; r < num_regions; ++r) {
+      const PointList<Dim> from = points(Eigen::all, solid[r]), to = moved(Eigen::all, solid[r]);
+      Eigen::Transform<double, Dim, Eigen::Affine> map;
+      map.setIdentity();
+      if (from != to) map.matrix() = Eigen::umeyama(from, to, false);
+      places.col(pose.cols() + r) = map * Vector<Dim>(places.col(pose.cols() + r));
+      turns.col(r) = quaternion_of<Dim>(map.linear(), turns.col(r));
+      for (Eigen::Index p = 0; p < from.cols(); ++p) {
+        distances.push_back((map * Vector<Dim>(from.col(p)) - to.col(p)).norm());
+      }
+    }
+    joints.poses.push_back(std::move(places));
+    joints.turns.push_back(turns);
+  }
+  return joints;
+}
+
+// The points of a region belong to its joint.
+SparseWeights with_regions(const SparseWeights& weights,
+                           const std::vector<std::vector<Index>>& solid) {
+  if (solid.empty()) return weights;
+  const auto num_points = weights.num_control_points();
+  std::map<Index, Index> joint_of;
+  for (std::size_t r = 0; r < solid.size(); ++r) {
+    for (const Index p : solid[r]) joint_of[p] = num_points + static_cast<Index>(r);
+  }
+  const auto num_joints = num_points + static_cast<Index>(solid.size());
+  return SparseWeights::of(num_joints, weights.num_points(), [&](Index p) {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(num_joints);
+    const auto joint = joint_of.find(p);
+    if (joint == joint_of.end()) {
+      row.head(num_points) = weights.at(p);
+    } else {
+      row[joint->second] = 1;
+    }
+    return row;
+  });
+}
+
 // A channel for every joint that moves in some pose.
 template <int Dim>
-std::vector<Channel> channels_of(const Animation<Dim>& animation, const Eigen::Matrix3Xf& rest,
+std::vector<Channel> channels_of(const Joints<Dim>& joints, const Eigen::Matrix3Xf& rest,
                                  const Vector<Dim>& origin) {
   std::vector<Eigen::Matrix3Xf> poses;
-  for (const auto& pose : animation.poses) {
+  for (const auto& pose : joints.poses) {
     poses.push_back(to_floats<Dim>(pose.colwise() - origin,
                                    "the cage in pose " + std::to_string(poses.size())));
   }
+  const auto first_region = rest.cols() - static_cast<Eigen::Index>(joints.solid.size());
   std::vector<Channel> channels;
-  for (Index i = 0; i < static_cast<Index>(rest.cols()); ++i) {
-    Channel channel{i, Eigen::Matrix3Xf(3, poses.size())};
+  for (Eigen::Index i = 0; i < rest.cols(); ++i) {
+    Channel channel{static_cast<Index>(i), Eigen::Matrix3Xf(3, poses.size())};
     for (std::size_t k = 0; k < poses.size(); ++k) channel.translations.col(k) = poses[k].col(i);
-    const bool moves = (channel.translations.colwise() - rest.col(i)).cwiseAbs().sum() > 0;
+    bool moves = (channel.translations.colwise() - rest.col(i)).cwiseAbs().sum() > 0;
+    if (i >= first_region) {
+      channel.rotations.resize(4, channel.translations.cols());
+      for (std::size_t k = 0; k < poses.size(); ++k) {
+        channel.rotations.col(k) = joints.turns[k].col(i - first_region);
+      }
+      moves = moves || channel.rotations.topRows<3>().cwiseAbs().sum() > 0;
+    }
     if (moves) channels.push_back(std::move(channel));
   }
   return channels;
@@ -108,10 +197,8 @@ Vector<Dim> origin_of(const PointList<Dim>& control_points, SkinFormat format) {
 }
 
 template <int Dim>
-GlbScene make_scene(const PointList<Dim>& control_points, const PointList<Dim>& points,
-                    const JointWeights& stored, const Surface& surface,
-                    const Animation<Dim>& animation, const Vector<Dim>& origin,
-                    bool keeps_document) {
+GlbScene make_scene(const PointList<Dim>& points, const JointWeights& stored,
+                    const Surface& surface, const Vector<Dim>& origin, bool keeps_document) {
   const auto& sources = surface.sources;
   GlbScene scene{surface};
   scene.origin.head<Dim>() = origin;
@@ -126,9 +213,6 @@ GlbScene make_scene(const PointList<Dim>& control_points, const PointList<Dim>& 
     }
     scene.weights = {stored.joints(Eigen::all, sources), stored.numbers(Eigen::all, sources)};
   }
-  scene.joints = to_floats<Dim>(control_points.colwise() - origin, "the cage");
-  scene.times.assign(animation.times.begin(), animation.times.end());
-  scene.channels = channels_of(animation, scene.joints, origin);
   return scene;
 }
 
@@ -169,11 +253,10 @@ ErrorNorms norms_of(const std::vector<double>& lengths) {
                           all.maxCoeff()};
 }
 
-// The errors of the stored skin at the points that are vertices.
+// The errors of the stored skin at the points that are vertices and not in rigid regions.
 template <int Dim>
-void measure(const PointList<Dim>& control_points, const PointList<Dim>& points,
-             const SparseWeights& weights, const JointWeights& stored,
-             const std::vector<Index>& sources, const Animation<Dim>& animation,
+void measure(const PointList<Dim>& points, const SparseWeights& weights, const JointWeights& stored,
+             const std::vector<Index>& sources, const std::vector<PointList<Dim>>& poses,
              const Vector<Dim>& origin, ExportedSkin& result) {
   auto used = sources;
   used.erase(std::unique(used.begin(), used.end()), used.end());
@@ -186,12 +269,9 @@ void measure(const PointList<Dim>& control_points, const PointList<Dim>& points,
                              [&](Index v) { return all.at(used[v]); });
   };
   const auto before = of_used(weights);
-  const auto after = of_used(to_weights(stored, control_points.cols()));
+  const auto after = of_used(to_weights(stored, weights.num_control_points()));
   result.given_influences = count_influences(before).max;
   result.influences = count_influences(after).max;
-  constexpr int kRandomPoses = 20;
-  const auto poses =
-      animation.poses.empty() ? smooth_poses(control_points, kRandomPoses) : animation.poses;
   result.deformation_error = deformation_error(poses, before, after);
 }
 
@@ -221,19 +301,32 @@ ExportedSkin export_skin(const Binding<Dim>& binding, const Surface& surface,
   const auto& control_points = binding.cage.points;
   const PointList<Dim> points = binding.rest();
   const auto& weights = binding.weights;
-  check(control_points, points, weights, surface, options);
+  const std::vector<std::vector<Index>> none, &solid = options.rigid ? binding.solid : none;
+  check(control_points, points, weights, surface, options, solid.size());
   validate(animation, control_points.cols());
   const auto few = binding.reduced({options.max_influences}, animation.poses).weights;
-  const auto stored = to_joint_weights(few);
+  constexpr int kRandomPoses = 20;
+  const auto poses =
+      animation.poses.empty() ? smooth_poses(control_points, kRandomPoses) : animation.poses;
+  std::vector<double> bent;  // distances
+  const auto joints = joints_of(binding, solid, poses, bent);
+
   const Vector<Dim> origin = origin_of(control_points, options.format);
   const bool is_usd = options.format == SkinFormat::kUsda;
-  auto scene = make_scene(control_points, points, stored, surface, animation, origin, !is_usd);
+  const auto stored = to_joint_weights(with_regions(few, solid));
+  auto scene = make_scene(points, stored, surface, origin, !is_usd);
+  scene.joints = to_floats<Dim>(joints.rest.colwise() - origin, "the cage");
+  scene.solid_regions = static_cast<Index>(solid.size());
+  scene.times.assign(animation.times.begin(), animation.times.end());
+  if (!scene.times.empty()) scene.channels = channels_of(joints, scene.joints, origin);
   scene.name = options.name;
   scene.turn = options.turn;
 
   auto result = encode(scene, options, surface);
   result.moving_joints = static_cast<Index>(scene.channels.size());
-  measure(control_points, points, weights, stored, surface.sources, animation, origin, result);
+  measure(points, weights, solid.empty() ? stored : to_joint_weights(few), surface.sources, poses,
+          origin, result);
+  if (!solid.empty()) result.rigid_error = norms_of(bent);
   return result;
 }
 
@@ -247,8 +340,7 @@ ExportedSkin export_skin(const Binding<3>& binding, const Surface& surface,
   const auto bones = skin(binding.weights, skeleton.weights);
   const auto stored =
       to_joint_weights(skin(binding.weights, skeleton.weights, options.max_influences));
-  auto scene =
-      make_scene<3>(binding.cage.points, points, stored, surface, {}, Vector<3>::Zero(), true);
+  auto scene = make_scene<3>(points, stored, surface, Vector<3>::Zero(), true);
   scene.name = options.name;
   scene.skeleton = &skeleton;
   std::vector<double> skinned, corrected;  // distances

@@ -28,6 +28,10 @@ struct SkinOptions {
   Index max_influences = 8;    //!< per point, 4 or 8
   std::string name = "model";  //!< of the mesh, in .glb
   SkinFormat format = SkinFormat::kGlb;
+  //! Whether each solid region of the binding is one joint more, which turns and moves it without
+  //! distortion. A pose gives it the rotation and translation that are nearest to the affine map of
+  //! the region, in the sense of least squares over its points.
+  bool rigid = false;
   //! Rotation about the origin from the model to y up, for readers. The root has it; coordinates
   //! stay as they are.
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
@@ -50,7 +54,7 @@ struct ExportedSkin {
   std::string content{};                //!< of the file
   Index vertices = 0;                   //!< S
   Index triangles = 0;                  //!< T
-  Index joints = 0;                     //!< n, or J of a skeleton
+  Index joints = 0;                     //!< n, with those of solid regions, or J of a skeleton
   Index moving_joints = 0;              //!< joints with an animation channel
   Index influences = 0;                 //!< maximum per vertex
   Index given_influences = 0;           //!< maximum per vertex of the given weights
@@ -59,6 +63,9 @@ struct ExportedSkin {
   //! Distances between vertices deformed by the given weights and by those in the file, over the
   //! poses of the animation, or over smooth_poses() if there is none.
   ErrorNorms deformation_error{};
+  //! With SkinOptions::rigid: the same between points of solid regions moved by the cage and by
+  //! their joints.
+  std::optional<ErrorNorms> rigid_error{};
   //! With a skeleton: distances between points deformed by the cage and by its joints over the keys
   //! of the clips, and the same with morph targets.
   std::optional<ErrorNorms> skeleton_error{}, corrected_error{};

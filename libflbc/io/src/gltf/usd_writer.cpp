@@ -60,9 +60,8 @@ Eigen::Matrix3Xf with_root(const Eigen::Matrix3Xf& joints) {
 }
 
 std::string joint_names(const GlbScene& scene) {
-  return list(kRoots + scene.joints.cols(), [](Eigen::Index j) -> std::string {
-    if (j < kRoots) return "\"cage\"";
-    return "\"cage/control_point_" + std::to_string(j - kRoots) + '"';
+  return list(kRoots + scene.joints.cols(), [&](Eigen::Index j) -> std::string {
+    return j < kRoots ? "\"cage\"" : "\"cage/" + joint_name(scene, j - kRoots) + '"';
   });
 }
 
@@ -84,22 +83,44 @@ void write_skeleton(std::ostream& text, const GlbScene& scene) {
   text << "    }\n";
 }
 
+// \param pose(k)  the list of a property of all joints at time k
+template <class PoseAt>
+void write_samples(std::ostream& text, const GlbScene& scene, const char* property,
+                   const PoseAt& pose) {
+  text << "        " << property << ".timeSamples = {\n";
+  for (std::size_t k = 0; k < scene.times.size(); ++k) {
+    text << "            " << kFrames * scene.times[k] << ": " << pose(static_cast<Eigen::Index>(k))
+         << ",\n";
+  }
+  text << "        }\n";
+}
+
 void write_animation(std::ostream& text, const GlbScene& scene) {
   if (scene.channels.empty()) return;
   const auto count = kRoots + scene.joints.cols();
   text << "    def SkelAnimation \"poses\"\n    {\n"
-       << "        uniform token[] joints = " << joint_names(scene) << '\n'
-       << "        quatf[] rotations = " << repeated(count, "(1, 0, 0, 0)") << '\n'
-       << "        half3[] scales = " << repeated(count, "(1, 1, 1)") << '\n'
-       << "        float3[] translations.timeSamples = {\n";
-  for (std::size_t k = 0; k < scene.times.size(); ++k) {
-    Eigen::Matrix3Xf pose = scene.joints;
-    for (const auto& channel : scene.channels) {
-      pose.col(channel.joint) = channel.translations.col(static_cast<Eigen::Index>(k));
-    }
-    text << "            " << kFrames * scene.times[k] << ": " << columns(with_root(pose)) << ",\n";
+       << "        uniform token[] joints = " << joint_names(scene) << '\n';
+  if (scene.solid_regions > 0) {
+    write_samples(text, scene, "quatf[] rotations", [&](Eigen::Index k) {
+      Eigen::Matrix4Xf turns(4, count);  // w, x, y, z
+      turns.colwise() = Eigen::Vector4f::UnitX();
+      for (const auto& channel : scene.channels) {
+        if (channel.rotations.cols() == 0) continue;
+        turns.col(kRoots + channel.joint) = channel.rotations({3, 0, 1, 2}, k);
+      }
+      return columns(turns);
+    });
+  } else {
+    text << "        quatf[] rotations = " << repeated(count, "(1, 0, 0, 0)") << '\n';
   }
-  text << "        }\n    }\n";
+  text << "        half3[] scales = " << repeated(count, "(1, 1, 1)") << '\n';
+  write_samples(text, scene, "float3[] translations", [&](Eigen::Index k) {
+    Eigen::Matrix3Xf pose = scene.joints;
+    for (const auto& channel : scene.channels)
+      pose.col(channel.joint) = channel.translations.col(k);
+    return columns(with_root(pose));
+  });
+  text << "    }\n";
 }
 
 void write_surface(std::ostream& text, const GlbScene& scene) {
