@@ -4,6 +4,7 @@
   blender --background --python blender.py -- FLBC MESHES moved PICTURE.png
 """
 import os
+import subprocess
 import sys
 from pathlib import Path
 
@@ -158,8 +159,8 @@ def take_panel():
     with bpy.context.temp_override(**scene.viewport()):
         bpy.ops.view3d.view_all(center=True)
     yield from scene.show_panel()
-    with bpy.context.temp_override(**scene.viewport()):
-        bpy.ops.screen.screenshot(filepath=PICTURE)
+    # Blender 4.3 takes black pictures of itself there.
+    subprocess.run(['import', '-window', 'root', PICTURE], check=True)
     os._exit(0)
 
 

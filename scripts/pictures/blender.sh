@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Makes docs/images/blender_panel.png and blender_moved.png: blender.sh [panel|moved ...]
-# Needs Blender, Xvfb, and libgl1-mesa-dri.
+# Needs Blender, xvfb, xauth, imagemagick, and libgl1-mesa-dri; for the panel of Blender 4.3
+#   FLBC=/flbc/build/release/flbc scripts/in_debian.sh trixie scripts/pictures/blender.sh
 set -euo pipefail
 cd "$(dirname "$0")"
 flbc=${FLBC:-$PWD/../../build/release/flbc}

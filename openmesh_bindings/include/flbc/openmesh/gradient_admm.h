@@ -221,11 +221,12 @@ class GradientAdmm {
           "GradientAdmm: invalid option; use a penalty >= 0, a relaxation in (0, 2), a "
           "smoothness >= 0");
     }
-    resumed_ = attach<CellRows>(gradient_, kGradient, kDim) &
-               attach<CellRows>(extrapolated_, kExtrapolated, kDim) &
-               attach<CellRows>(cell_dual_, kCellDual, kDim) &
-               attach<FacetRows>(facet_dual_, kFacetDual, kDim) &
-               attach<MeshRows>(period_dual_, kPeriodDual, problem_.periods.size());
+    const bool attached[] = {attach<CellRows>(gradient_, kGradient, kDim),
+                             attach<CellRows>(extrapolated_, kExtrapolated, kDim),
+                             attach<CellRows>(cell_dual_, kCellDual, kDim),
+                             attach<FacetRows>(facet_dual_, kFacetDual, kDim),
+                             attach<MeshRows>(period_dual_, kPeriodDual, problem_.periods.size())};
+    resumed_ = std::find(std::begin(attached), std::end(attached), false) == std::end(attached);
     if (!resumed_) restart();
   }
 
