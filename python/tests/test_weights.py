@@ -105,8 +105,9 @@ def test_cages_around_models(name):
     assert len(cage) <= 40 and flbc.check(cage, vertices) == []
     along = vertices[:, 0] - vertices[:, 0].mean()
     dense = flbc.make_cage(vertices, faces, control_points=40, density=np.where(along > 0, 6, 1))
-    shares = [np.mean(made.points[:, 0] > vertices[:, 0].mean()) for made in (cage, dense)]
-    assert shares[1] > 1.3 * shares[0] and flbc.check(dense, vertices) == []
+    shares = np.array([np.mean(made.points[:, 0] > vertices[:, 0].mean()) for made in (cage, dense)])
+    odds = shares / (1 - shares)
+    assert odds[1] > 1.5 * odds[0] and flbc.check(dense, vertices) == []
     for density, words in (([1, 2], "2 densities"), (-np.ones(len(vertices)), "from 0.01 to 100")):
         with pytest.raises(flbc.InputError, match=words):
             flbc.make_cage(vertices, faces, density=density)
