@@ -27,6 +27,8 @@ QUALITIES = {
 POSE = 'Pose'
 LOCK = 'lock.'  # begins the names of vertex groups that protect; bones have groups as well
 SOLID = 'solid.'  # begins those of vertex groups that move by one affine map
+DENSITY = 'density'  # vertex group whose weights make cages denser
+MOST_DENSE = 16  # times as many control points at weight 1
 # Modifiers that change the number of vertices.
 GENERATORS = {'ARRAY', 'BEVEL', 'BOOLEAN', 'BUILD', 'DECIMATE', 'EDGE_SPLIT', 'MASK', 'MIRROR',
               'MULTIRES', 'NODES', 'REMESH', 'SCREW', 'SKIN', 'SOLIDIFY', 'SUBSURF', 'WELD',
@@ -339,8 +341,12 @@ def make_cage(models, active, program, control_points):
         model, cage = Path(folder, 'model.ply'), Path(folder, 'cage.obj')
         turn = _turn_to_files(active)
         files.write_ply(model, *shape._replace(points=shape.points @ turn.T))
-        count = ['--control-points', control_points] if control_points else []
-        yield Command([program, 'cage', model, '-o', cage, *count], {model: active_name})
+        options = ['--control-points', control_points] if control_points else []
+        weights = np.concatenate([mesh.group_weights(item, DENSITY) for item in models])
+        if weights.any():
+            np.savetxt(Path(folder, 'density.csv'), MOST_DENSE**weights)
+            options += ['--density', Path(folder, 'density.csv')]
+        yield Command([program, 'cage', model, '-o', cage, *options], {model: active_name})
         points, faces = files.read_obj(cage)
         _add_cage(active_name, points @ turn, faces)
 

@@ -47,13 +47,19 @@ def shape_of(mesh):
                  numbers(mesh.polygons, 'loop_total', np.int32))
 
 
+def group_weights(item, group):
+    """The weight of each vertex in a vertex group, which need not exist."""
+    weights = np.zeros(len(item.data.vertices))
+    if group in item.vertex_groups:
+        number = item.vertex_groups[group].index
+        for vertex in item.data.vertices:
+            weights[vertex.index] = sum(part.weight for part in vertex.groups if part.group == number)
+    return weights
+
+
 def members(item, group):
     """Numbers of the vertices with at least half the weight in a vertex group, if it exists."""
-    if group not in item.vertex_groups:
-        return []
-    number = item.vertex_groups[group].index
-    return [vertex.index for vertex in item.data.vertices
-            if any(part.group == number and part.weight >= 0.5 for part in vertex.groups)]
+    return np.flatnonzero(group_weights(item, group) >= 0.5).tolist()
 
 
 def joined(shapes):

@@ -121,9 +121,11 @@ def _settings(context):
 
 
 class FLBC_OT_make_cage(_InBackground, bpy.types.Operator):
-    """Make a cage around the selected meshes"""
     bl_idname = 'flbc.make_cage'
     bl_label = 'Make a Cage'
+    bl_description = (
+        'Make a cage around the selected meshes. Weights of a vertex group named '
+        f'"{binding.DENSITY}" add control points: at weight 1, {binding.MOST_DENSE} times as many')
 
     @classmethod
     def poll(cls, context):

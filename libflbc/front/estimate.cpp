@@ -11,10 +11,10 @@ namespace {
 
 // Least squares of logarithms on docs/results: seconds are 0.4 to 2 times, and bytes 0.7 to 1.4
 // times those of models.csv, speed.csv, and many.csv.
-constexpr double kSecondsPerPair2D = 4.4e-7, kSecondsPerPair3D = 3.4e-7;
+constexpr double kSecondsPerPair2D = 4.5e-7, kSecondsPerPair3D = 3.4e-7;
 constexpr double kBytesPerPair2D = 83, kBytesPerPair3D = 105;
 // On an active set, of the pairs in it.
-constexpr double kSecondsPerActivePair = 1.6e-6, kBytesPerActivePair = 213;
+constexpr double kSecondsPerActivePair = 1.6e-6, kBytesPerActivePair = 225;
 constexpr double kSecondsPerDistance = 2.6e-8, kBytesPerDistance = 8;  // of all pairs
 constexpr double kBase = 25e6;  // bytes of the program itself
 

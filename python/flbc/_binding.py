@@ -390,7 +390,8 @@ class Binding:
 
         `poses`, arrays of shape (n, d), become an animation at `times` in seconds, ascending, or 24
         per second. `name` is that of the mesh in the file. Raises IoError if the file cannot be
-        written, and OptionError for another extension or number of influences."""
+        written, OptionError for another extension or number of influences, and InputError if there
+        is no solid region to be `rigid`."""
         moved = self._poses(poses)
         seconds = [k / 24 for k in range(len(moved))] if times is None else list(times)
         polygons = as_polygons(faces, "faces", len(self.points))

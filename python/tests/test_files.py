@@ -94,6 +94,8 @@ def test_skins(tmp_path, limb, solid, moved):
     assert (tmp_path / "model.usda").read_text().startswith("#usda")
     with pytest.raises(flbc.OptionError, match=".glb or .usda"):
         binding.export(tmp_path / "model.fbx", faces)
+    with pytest.raises(flbc.InputError, match="no region is solid"):
+        binding.export(tmp_path / "model.glb", faces, rigid=True)
 
 
 def test_pages(tmp_path, limb, solid, flat):

@@ -80,6 +80,9 @@ TEST_F(LocalityCommand, SolidRegionsStaySolidInTheFile) {
   expect("export 3d/limb_model.obj --weights b.npz --rigid -o rigid.glb", 0,
          "rigid regions instead of affine ones");
   EXPECT_NE(slurp("rigid.glb").find("\"solid_0\""), std::string::npos);
+  expect("solve 3d/limb_cage.obj --model 3d/limb_model.obj --vertices 1500 -q -o free.npz");
+  expect("export 3d/limb_model.obj --weights free.npz --rigid -o rigid.glb", 2,
+         "3d/limb_model.obj: no region is solid, so none can be rigid");
   const auto refused = [&](const std::string& content, const std::string& words) {
     expect("solve 3d/limb_cage.obj --model 3d/limb_model.obj -o w.npy --locality " +
                file("bad.json", content),

@@ -578,6 +578,20 @@ class AddonTest(unittest.TestCase):
         pose = self.pose(0.01)
         self.require_follows(pose)
 
+    def test_a_vertex_group_makes_a_cage_denser(self):
+        half = np.median(base(self.model)[:, 0])
+        odds = []
+        for weight in (0, 1):
+            group = self.model.vertex_groups.new(name='density')
+            group.add(np.flatnonzero(base(self.model)[:, 0] > half).tolist(), weight, 'REPLACE')
+            select(self.model)
+            bpy.context.scene.flbc.control_points = 60
+            self.assertEqual(bpy.ops.flbc.make_cage(), {'FINISHED'})
+            share = (base(bpy.context.scene.flbc.cage)[:, 0] > half).mean()
+            odds.append(share / (1 - share))
+            self.model.vertex_groups.remove(group)
+        self.assertGreater(odds[1], 2 * odds[0])
+
     def test_a_model_gets_the_cage_of_its_file(self):
         """Importers turn the mesh or the matrix, and separate vertices at seams."""
         from local_barycentric_cage import files, mesh

@@ -172,10 +172,10 @@ TEST(SvgDocumentTest, EveryShapeBecomesAPathOfItsOutline) {
 
 // SVG 1.1, F.6.2, for a radius of zero; radii at the ends of the range of numbers overflow.
 TEST(SvgDocumentTest, ArcsWithoutUsableRadiiAreLines) {
-  for (const char* arc : {"M10 20a0 5 0 0 0 30 40", "M10 20a5 0 30 1 0 30 40",
-                          "M10 20a0 0 0 0 1 30 40", "M10 20a1e-320 5 0 0 0 30 40",
-                          "M10 20a1e-320 1e-320 0 1 1 30 40", "M10 20a5 1e308 0 0 0 30 40",
-                          "M10 20a1e308 1e308 0 0 1 30 40"}) {
+  for (const char* arc :
+       {"M10 20a0 5 0 0 0 30 40", "M10 20a5 0 30 1 0 30 40", "M10 20a0 0 0 0 1 30 40",
+        "M10 20a1e-320 5 0 0 0 30 40", "M10 20a1e-320 1e-320 0 1 1 30 40",
+        "M10 20a5 1e308 0 0 0 30 40", "M10 20a1e308 1e308 0 0 1 30 40"}) {
     bool is_whole = false;
     const auto path = parse_path(arc, is_whole);
     ASSERT_EQ(count_cubics(path), 1U) << arc;

@@ -98,7 +98,7 @@ void finish(const Task& task, const Binding<Dim>& binding, const Shape<Dim>& mod
     options.max_influences = 4;
     std::ofstream(task.path("result.glb"), std::ios::binary)
         << gltf::export_skin(binding, surface, options).content;
-    options.rigid = true;
+    options.rigid = task.method == "solid";
     std::ofstream(task.path("rigid.glb"), std::ios::binary)
         << gltf::export_skin(binding, surface, options).content;
   }

@@ -162,7 +162,7 @@ class Program:
         if operation.startswith("reduce"):
             flbc("sparsify", bound, "-k", operation[-1], "-o", result)
         if operation == "export":
-            for name, rigid in (("result.glb", []), ("rigid.glb", ["--rigid"])):
+            for name, rigid in (("result.glb", []), ("rigid.glb", ["--rigid"] * (method == "solid"))):
                 flbc("export", model, "--weights", bound, "-k", 4, *rigid, "-o", folder / name)
         if operation == "transfer":
             flbc("transfer", bound, "--to", folder / "other.obj", "--outside", "keep", "-o", result)
@@ -209,7 +209,7 @@ class Python:
             binding = binding.reduced(int(operation[-1]))
         if operation == "export":
             binding.export(folder / "result.glb", faces, max_influences=4)
-            binding.export(folder / "rigid.glb", faces, max_influences=4, rigid=True)
+            binding.export(folder / "rigid.glb", faces, max_influences=4, rigid=method == "solid")
         if operation == "transfer":
             binding = binding.transferred(*read("other.obj"), outside="keep")
         if operation == "transfer_nearest":

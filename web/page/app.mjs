@@ -436,7 +436,7 @@ class App {
     const points = inFile(editor.points, content.dim);
     const { title, poses } = content;
     const { name: modelName, picture, drawing, photo } = this.model;
-    const { checked: rigid } = element("rigid");
+    const rigid = element("rigid").checked && !element("rigidParts").hidden;
     const moved = async (places, options) => this.flbc.picture(
       { pixels: await wholePicture(photo), size: photo.size, poses: places.map((each) => inFile(each, content.dim)), ...options });
     // The points of the frames of the animation.

@@ -3,27 +3,14 @@
 // painted by a brush, and the reach of control points. Weights are solved for the latest stroke, one at
 // a time.
 import { element, tell } from "../../libflbc/front/page/panel.mjs";
+import { surfaceAt } from "../../libflbc/front/page/picking.mjs";
 import { download } from "../../libflbc/front/page/saving.mjs";
-import { add, length, pointAt } from "../../libflbc/front/page/vectors.mjs";
+import { add, length, pointAt, subtract } from "../../libflbc/front/page/vectors.mjs";
 
 const kMostRegions = 50;     // that can be undone
 const kMostConflicts = 300;  // that are drawn
 const kDenser = 4, kMostDense = 16;  // factor of a stroke, and of all
 const kOrigin = [0, 0, 0];
-
-// Where points appear: pixels from the upper left corner, and depth.
-function seenPlaces(points, camera, center) {
-  const m = camera.matrix(center);
-  const places = new Float64Array(points.length);
-  for (let p = 0; p < points.length; p += 3) {
-    const row = (r) => m[r] * points[p] + m[4 + r] * points[p + 1] + m[8 + r] * points[p + 2] + m[12 + r];
-    const w = row(3);
-    places[p] = (1 + row(0) / w) * camera.width / 2;
-    places[p + 1] = (1 - row(1) / w) * camera.height / 2;
-    places[p + 2] = row(2) / w;
-  }
-  return places;
-}
 
 // Lists of control points as text, which serve as keys.
 function listed(key) {
@@ -140,8 +127,7 @@ export class Protector {
 
   // \return whether the pointer is on the model
   begin(spot, erases) {
-    const { deformer, camera, content, editor: { selection } } = this.viewer;
-    this.seen = seenPlaces(deformer.points, camera, content.center);
+    const { selection } = this.viewer.editor;
     if (!this.placeAt(spot)) return false;
     if (selection.size === 0 && !this.paints) {
       this.tell("First select the control points that must not move the region");
@@ -177,23 +163,10 @@ export class Protector {
     this.solve();
   }
 
-  // The front of the model under the pointer, seen from its center; null where there is none.
-  placeAt({ x, y }) {
-    const { deformer: { points }, content: { surface: { triangles, sources } } } = this.viewer;
-    const { seen } = this;
-    const start = (corner) => 3 * (sources ? sources[corner] : corner);
-    let place = null, depth = Infinity;
-    for (let t = 0; t < triangles.length; t += 3) {
-      const a = start(triangles[t]), b = start(triangles[t + 1]), c = start(triangles[t + 2]);
-      const ax = seen[a] - x, ay = seen[a + 1] - y, bx = seen[b] - x, by = seen[b + 1] - y, cx = seen[c] - x, cy = seen[c + 1] - y;
-      const u = bx * cy - by * cx, v = cx * ay - cy * ax, w = ax * by - ay * bx, sum = u + v + w;
-      if (sum === 0 || u * sum < 0 || v * sum < 0 || w * sum < 0) continue;
-      const mean = (values, k) => (u * values[a + k] + v * values[b + k] + w * values[c + k]) / sum;
-      if (mean(seen, 2) >= depth) continue;
-      depth = mean(seen, 2);
-      place = [mean(points, 0), mean(points, 1), mean(points, 2)];
-    }
-    return place;
+  // The place of the model under the pointer, or undefined.
+  placeAt(spot) {
+    const { deformer, camera, content } = this.viewer;
+    return surfaceAt(deformer.points, content.surface, camera, content.center, spot)?.place;
   }
 
   // Paints the vertices around the place under the pointer.
@@ -201,9 +174,9 @@ export class Protector {
     const { deformer: { points }, camera, content } = this.viewer;
     const place = this.placeAt(spot);
     if (!place) return;
-    const reach = length(camera.step(add(place, content.center), this.radius, 0));
+    const reach = length(camera.step(place, this.radius, 0)), [x, y, z] = subtract(place, content.center);
     for (let p = 0; p < points.length; p += 3) {
-      if (Math.hypot(points[p] - place[0], points[p + 1] - place[1], points[p + 2] - place[2]) <= reach) this.paint(p / 3);
+      if (Math.hypot(points[p] - x, points[p + 1] - y, points[p + 2] - z) <= reach) this.paint(p / 3);
     }
   }
 

@@ -301,6 +301,12 @@ ExportedSkin export_skin(const Binding<Dim>& binding, const Surface& surface,
   const auto& control_points = binding.cage.points;
   const PointList<Dim> points = binding.rest();
   const auto& weights = binding.weights;
+  if (options.rigid && binding.solid.empty()) {
+    throw InputError(
+        "no region is solid, so none can be rigid; bind with solid regions (\"solid\" in a "
+        "locality "
+        "file)");
+  }
   const std::vector<std::vector<Index>> none, &solid = options.rigid ? binding.solid : none;
   check(control_points, points, weights, surface, options, solid.size());
   validate(animation, control_points.cols());

@@ -76,8 +76,8 @@ struct ExportedSkin {
 //! with at most `max_influences` influences are unchanged.
 //! \param binding  of P points \param surface  of these points; in 2D it lies in the plane z = 0
 //! \throws OptionError for another number of influences; InputError if sizes do not match, there
-//! are more than 65535 control points, or a coordinate is too large for single precision, and as
-//! validate() and sparsify()
+//! are more than 65535 joints, none of the regions is to be rigid because there are none, or a
+//! coordinate is too large for single precision, and as validate() and sparsify()
 template <int Dim>
 ExportedSkin export_skin(const Binding<Dim>& binding, const Surface& surface,
                          const SkinOptions& options = {}, const Animation<Dim>& animation = {});
