@@ -16,6 +16,7 @@ const { poseText, readPose } = await load("obj");
 const { interpolatePoses, playedTime, straightKeys } = await load("poses");
 const { edgesOf, sumNormals } = await load("surface_normals");
 const { principalAxes, rotate, scale, translate } = await load("transforms");
+const { pointAt } = await load("vectors");
 const { pick, pointsInside, rectangle, surfaceAt } = await load("picking");
 const { CageGraph } = await load("rings");
 const { leastMoves, ModelDrag, ToolDrag } = await load("actions");
@@ -812,4 +813,49 @@ test("edges of a cage become curves: what is solved lies on them, and straight o
   editor.select([9]);
   assert.deepEqual([...editor.shares().keys()], [9]);
   assert.deepEqual(editor.withHandles([1, 12]), [1, 9, 10, 12]);
+});
+
+test("handles of curves that are in line stay in line", () => {
+  // A corner in the middle of a straight side, at (3, 0).
+  const curved = curvedCage({ points: [0, 0, 3, 0, 6, 0, 6, 6, 0, 6], facets: [0, 1, 1, 2, 2, 3, 3, 4, 4, 0] });
+  const curves = curvesOf(curved.facets, curved.points.length / 2);
+  const editor = new Editor(inSpace(Float64Array.from(curved.points), 2), 2, curved.facets, { poses: [], curves });
+  const [before, after] = [curves[0][2], curves[1][1]];
+  const drag = (i, step) => {
+    editor.select([i]);
+    editor.change([i], (start, indices, result) => translate(start, indices, step, result));
+    editor.end();
+  };
+  const changed = () => [...Array(editor.size).keys()].filter((i) => [0, 1].some((c) => editor.points[3 * i + c] !== editor.rest[3 * i + c]));
+  near(pointAt(editor.points, before), [2, 0, 0]);
+  near(pointAt(editor.points, after), [4, 0, 0]);
+  drag(before, [0, -1, 0]);
+  near(pointAt(editor.points, before), [2, -1, 0]);
+  near(pointAt(editor.points, after), [3 + Math.SQRT1_2, Math.SQRT1_2, 0], 1e-12);  // as long as before
+  assert.deepEqual(changed(), [before, after]);
+  editor.undo();
+  assert.deepEqual(changed(), []);
+  editor.keepsLine = false;
+  drag(before, [0, -1, 0]);
+  editor.keepsLine = true;
+  drag(after, [0, 1, 0]);  // they are in line no more
+  near(pointAt(editor.points, before), [2, -1, 0]);
+  editor.undo();
+  editor.undo();
+  // Handles at a corner, and those that move with their corner or with each other, are not turned.
+  drag(curves[0][1], [0, 1, 0]);
+  assert.deepEqual(changed(), [curves[0][1]]);
+  editor.undo();
+  for (const all of [[1, before, after], [before, after]]) {
+    editor.change(all, (start, indices, result) => translate(start, indices, [0, 1, 0], result));
+    editor.end();
+    assert.deepEqual(changed(), all);
+    editor.undo();
+  }
+  // The mirror image of a handle turns its own opposite one.
+  editor.setMirror(0);
+  drag(curves[0][1], [0, 1, 0]);
+  assert.equal(changed().length, 2);
+  drag(before, [0, -0.5, 0]);
+  near(pointAt(editor.points, after), [4, -0.5, 0], 1e-12);
 });

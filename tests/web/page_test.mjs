@@ -450,7 +450,8 @@ async function testCurves() {
   });
   assert.ok(least >= 0 && most < 1e-5, `${least}, ${most}`);
 
-  // A handle is dragged alone. Its curve is drawn where Bezier says, and the drawing bends.
+  // A handle is dragged, and takes the opposite one along only where both are in line. Its curve is
+  // drawn where Bezier says, and the drawing bends.
   await app.ask("select", []);
   const handle = await app.touchable((i) => i >= corners);
   const curve = curves.find((each) => each.includes(handle));
@@ -467,7 +468,14 @@ async function testCurves() {
   const before = await app.picture();
   await app.drag(await app.ask("spot", handle), away[0], away[1]);
   const after = await pointsOfCage(tab);
-  assert.deepEqual(after.flatMap((value, k) => (value !== rest[k] && k % 3 === 0 ? [k / 3] : [])).filter((i) => i !== handle), []);
+  const hub = curve[1] === handle ? curve[0] : curve[3];
+  const opposite = curves.flatMap(([a, first, second, b]) => [[a, first], [b, second]]).find(([i, own]) => i === hub && own !== handle)[1];
+  const arms = (all) => [handle, opposite].map((i) => [0, 1].map((c) => all[3 * i + c] - all[3 * hub + c]));
+  const sine = ([[ax, ay], [bx, by]]) => (ax * by - ay * bx) / Math.hypot(ax, ay) / Math.hypot(bx, by);
+  const isInLine = Math.abs(sine(arms(rest))) < 1e-3;
+  const others = Array.from({ length: count }, (_, i) => i).filter((i) => i !== handle && [0, 1].some((c) => after[3 * i + c] !== rest[3 * i + c]));
+  assert.deepEqual(others, isInLine ? [opposite] : []);
+  if (isInLine) assert.ok(Math.abs(sine(arms(after))) < 1e-9);
   assert.ok(largestDifference(after, rest) > 0);
   await app.shot("curve_bent");
   const moved = await app.points();

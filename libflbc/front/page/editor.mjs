@@ -4,9 +4,10 @@
 // stroke, which is undone at once.
 import { mirrorMoves, mirrorPairs } from "./mirror.mjs";
 import { CageGraph } from "./rings.mjs";
-import { boundingSphere, centroid, pointAt, setPoint } from "./vectors.mjs";
+import { boundingSphere, centroid, cross, dot, length, pointAt, setPoint, subtract, times } from "./vectors.mjs";
 
 const kMostStrokes = 200;
+const kInLine = 1e-3;  // sine of the angle between handles that are in line
 
 function areEqual(a, b) {
   return a.every((value, k) => Object.is(value, b[k]));
@@ -22,6 +23,7 @@ export class Editor {
       for (const [corner, handle] of [[a, first], [b, second]]) this.handles.set(corner, [...this.handles.get(corner) ?? [], handle]);
     }
     this.graph = new CageGraph(facets, dim, rest.length / 3);
+    this.keepsLine = true;  // whether handles that are in line stay so
     this.softness = 0;  // radius of the soft selection, 0: none
     this.pivotPoints = null;  // around whose center the selection is rotated and scaled, null: its own
     this.rest = rest;
@@ -97,6 +99,20 @@ export class Editor {
     return [...indices].flatMap((i) => [i, ...this.handles.get(i) ?? []]);
   }
 
+  // A handle that moves alone turns the one on the other side of its corner if both were in line.
+  keepInLine(result) {
+    for (const [corner, handles] of this.handles) {
+      const arms = handles.map((i) => subtract(pointAt(this.start, i), pointAt(this.start, corner)));
+      const place = pointAt(result, corner), moved = handles.map((i) => subtract(pointAt(result, i), place));
+      const held = moved.map((arm, k) => arm.some((value, c) => value !== arms[k][c]));
+      if (handles.length !== 2 || held[0] === held[1] || dot(...arms) >= 0) continue;
+      if (length(cross(...arms)) > kInLine * length(arms[0]) * length(arms[1])) continue;
+      const [turns, other] = held[0] ? [1, 0] : [0, 1];
+      const factor = length(arms[turns]) / length(moved[other]);
+      if (Number.isFinite(factor)) setPoint(result, handles[turns], subtract(place, times(factor, moved[other])));
+    }
+  }
+
   // Which share of a step control points take: within the radius it falls smoothly to 0. Corners take
   // their handles along.
   shares() {
@@ -136,6 +152,7 @@ export class Editor {
     const result = this.start.slice();
     move(this.start, indices, result);
     if (this.pairs) mirrorMoves(this.start, result, indices, this.pairs, this.mirrorAxis);
+    if (this.keepsLine) this.keepInLine(result);
     if (this.dim === 2) for (let i = 0; i < this.size; ++i) result[3 * i + 2] = 0;
     this.setPoints(result);
   }

@@ -55,7 +55,9 @@ export class Interaction {
     const hit = event.button === 0 ? this.pickAt(spot, event) : -1;
     const handle = this.handleAt(spot, event);
     if (handle) return this.hold(handle, hit);
-    if (hit >= 0 && event.altKey) return view.editor.setPivot([hit]);
+    // With Alt the pivot is set, or a handle leaves the line with the opposite one.
+    view.editor.keepsLine = !event.altKey;
+    if (hit >= 0 && event.altKey && !view.editor.isHandle(hit)) return view.editor.setPivot([hit]);
     this.mode = hit >= 0 ? this.grab(hit) : this.modeOfEmptySpot(event);
   }
 
@@ -93,6 +95,7 @@ export class Interaction {
     view.update();
     const grip = surfaceAt(deformer.points, content.surface, camera, content.center, this.from);
     if (!grip) return false;
+    editor.keepsLine = false;  // or the place does not follow
     this.beginDrag = () => {
       view.drag = new ModelDrag(editor, camera, axis, grip.place, deformer.weightsAt(grip.shares), this.from, axes);
     };

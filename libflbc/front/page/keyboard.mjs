@@ -21,6 +21,7 @@ export const kHelp = [
   ["G  R  S, number, Enter", "move by units of length, rotate by degrees, scale by a factor; also during a drag"],
   ["X  Y  Z", "along or around one axis only; again: freely"],
   [",", "axes along the selection, instead of those of the model"],
+  ["Alt+drag a handle", "of a curve: it leaves the line with the opposite one, which otherwise turns along"],
   ["Alt+click, P", "pivot of R and S: a control point, the center of the selection; P again: none"],
   ["O", "soft selection: neighbors follow; the slider is its radius"],
   ["Arrows, Space", "walk from control point to control point along the cage; Space selects, one more or one less"],
