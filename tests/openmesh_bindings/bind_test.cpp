@@ -279,8 +279,10 @@ TYPED_TEST(Bind, AKeptVertexAtTheOriginIsBound) {
     this->model_.set_point(v, point);
   }
   cage.points.colwise() -= origin;
+  auto mesh = this->sample_.mesh;
+  mesh.points.colwise() -= origin;
   this->options_.outside = openmesh::OutsidePoints::kKeep;
-  openmesh::bind(this->model_, cage, this->options_);
+  openmesh::bind(this->model_, cage, mesh, this->options_);
   EXPECT_TRUE(this->points().col(kVertex).isZero(0));
   EXPECT_EQ(openmesh::deform(this->model_, cage), 0);
   EXPECT_EQ(openmesh::bind_new_vertices(this->model_), 0);
