@@ -109,7 +109,8 @@ Joints<Dim> joints_of(const Binding<Dim>& binding, const std::vector<std::vector
   }
   Eigen::Matrix4Xf turns = Eigen::Vector4f::UnitW().replicate(1, num_regions);
   for (const auto& pose : poses) {
-    const auto moved = solid.empty() ? points : binding.deform(pose);
+    PointList<Dim> moved;
+    if (num_regions > 0) moved = binding.deform(pose);
     auto places = joints.rest;
     places.leftCols(pose.cols()) = pose;
     for (Eigen::Index r = 0; r < num_regions; ++r) {
