@@ -15,13 +15,13 @@ set(shared_libraries flbc flbc_io flbc_cgal flbc_caging flbc_tetgen flbc_netgen 
 # Internal headers of the core that the other libraries use.
 set(shared_inside
   base/team_size cage/close_points cage/oriented_cage cage/point_in_cage coordinates/poisson_weights linear/dense
-  mesh/cell_geometry problem/barycentric_constraints problem/laplacian solver/methods/method_run
+  mesh/cell_geometry problem/barycentric_constraints problem/laplacian solver/methods/method_run solver/plan/choices
   meshing/cgal/exact_predicates meshing/isolated_process
   meshing/meshing_common meshing/surface_subdivision meshing/vertex_count_search)
 # Internal headers of the file formats that skins and programs use.
 set(shared_inside_io
-  model/following_normals model/gltf_document model/gltf_edit model/gltf_writer model/surface
-  weights/npy_header)
+  model/bitmap model/following_normals model/gltf_document model/gltf_edit model/gltf_writer model/surface
+  model/svg_document weights/npy_header weights/npz)
 
 # What matches an expression in headers, as mangled names: length, word. Comments do not count.
 function(flbc_names_in headers expression result)
