@@ -821,9 +821,9 @@ test("handles of curves that are in line stay in line", () => {
   const curves = curvesOf(curved.facets, curved.points.length / 2);
   const editor = new Editor(inSpace(Float64Array.from(curved.points), 2), 2, curved.facets, { poses: [], curves });
   const [before, after] = [curves[0][2], curves[1][1]];
-  const drag = (i, step) => {
+  const drag = (i, step, keepsLine) => {
     editor.select([i]);
-    editor.change([i], (start, indices, result) => translate(start, indices, step, result));
+    editor.change([i], (start, indices, result) => translate(start, indices, step, result), keepsLine);
     editor.end();
   };
   const changed = () => [...Array(editor.size).keys()].filter((i) => [0, 1].some((c) => editor.points[3 * i + c] !== editor.rest[3 * i + c]));
@@ -835,12 +835,19 @@ test("handles of curves that are in line stay in line", () => {
   assert.deepEqual(changed(), [before, after]);
   editor.undo();
   assert.deepEqual(changed(), []);
-  editor.keepsLine = false;
-  drag(before, [0, -1, 0]);
-  editor.keepsLine = true;
+  drag(before, [0, -1, 0], false);
   drag(after, [0, 1, 0]);  // they are in line no more
   near(pointAt(editor.points, before), [2, -1, 0]);
   editor.undo();
+  editor.undo();
+  // A place of the model that one handle moves follows the pointer, and a tool goes on as before.
+  const camera = cameraOf(2), by = (tool) => { tool.by(1); editor.end(); };
+  by(new ModelDrag(editor, camera, "y", pointAt(editor.points, before), new Map([[before, 1]]), { x: 0, y: 0 }));
+  assert.deepEqual(changed(), [before]);
+  editor.undo();
+  editor.select([before]);
+  by(new ToolDrag(editor, camera, "move", "y", before, { x: 0, y: 0 }));
+  assert.deepEqual(changed(), [before, after]);
   editor.undo();
   // Handles at a corner, and those that move with their corner or with each other, are not turned.
   drag(curves[0][1], [0, 1, 0]);

@@ -43,6 +43,7 @@ export class ToolDrag {
     this.center = editor.pivot ?? centroid(editor.start, [...editor.selection]);
     this.anchor = grabbed === null ? this.center : pointAt(editor.start, grabbed);
     this.amounts = [0];
+    this.keepsLine = true;
   }
 
   // To where the pointer is. \param snaps  in round steps
@@ -74,7 +75,7 @@ export class ToolDrag {
   }
 
   change(move) {
-    this.editor.change([...this.shares.keys()], move);
+    this.editor.change([...this.shares.keys()], move, this.keepsLine);
   }
 
   translate(step) {
@@ -158,6 +159,6 @@ export class ModelDrag extends ToolDrag {
   translate(step) {
     this.editor.change([...this.factors.keys()], (start, listed, result) => {
       for (const [i, factor] of this.factors) setPoint(result, i, pointAt(start, i).map((value, k) => value + factor[k] * step[k]));
-    });
+    }, false);  // or the place would not follow
   }
 }

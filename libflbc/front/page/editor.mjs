@@ -23,7 +23,6 @@ export class Editor {
       for (const [corner, handle] of [[a, first], [b, second]]) this.handles.set(corner, [...this.handles.get(corner) ?? [], handle]);
     }
     this.graph = new CageGraph(facets, dim, rest.length / 3);
-    this.keepsLine = true;  // whether handles that are in line stay so
     this.softness = 0;  // radius of the soft selection, 0: none
     this.pivotPoints = null;  // around whose center the selection is rotated and scaled, null: its own
     this.rest = rest;
@@ -147,12 +146,13 @@ export class Editor {
   }
 
   // Moves control points from where the stroke began: move(start, indices, result).
-  change(indices, move) {
+  // \param keepsLine  whether handles that are in line stay so
+  change(indices, move, keepsLine = true) {
     this.begin();
     const result = this.start.slice();
     move(this.start, indices, result);
     if (this.pairs) mirrorMoves(this.start, result, indices, this.pairs, this.mirrorAxis);
-    if (this.keepsLine) this.keepInLine(result);
+    if (keepsLine) this.keepInLine(result);
     if (this.dim === 2) for (let i = 0; i < this.size; ++i) result[3 * i + 2] = 0;
     this.setPoints(result);
   }

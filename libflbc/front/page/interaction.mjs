@@ -56,9 +56,8 @@ export class Interaction {
     const handle = this.handleAt(spot, event);
     if (handle) return this.hold(handle, hit);
     // With Alt the pivot is set, or a handle leaves the line with the opposite one.
-    view.editor.keepsLine = !event.altKey;
     if (hit >= 0 && event.altKey && !view.editor.isHandle(hit)) return view.editor.setPivot([hit]);
-    this.mode = hit >= 0 ? this.grab(hit) : this.modeOfEmptySpot(event);
+    this.mode = hit >= 0 ? this.grab(hit, !event.altKey) : this.modeOfEmptySpot(event);
   }
 
   // With Shift, dragging is for selecting, and with Alt for the pivot.
@@ -76,7 +75,7 @@ export class Interaction {
 
   // A control point under the pointer is selected, and moves with all that are. The first drag of
   // all takes the limb beyond it with its ring, because one control point alone makes a dent.
-  grab(hit) {
+  grab(hit, keepsLine) {
     const { editor } = this.view;
     const isFirst = !editor.isHandle(hit) && editor.selection.size === 0 && !editor.canUndo && !editor.canRedo && !this.adds;
     if (this.adds || !editor.selection.has(hit)) editor.click(hit, this.adds);
@@ -84,7 +83,7 @@ export class Interaction {
     this.beginDrag = () => {
       if (isFirst) editor.selectRings();
       if (isFirst) editor.selectLimb();
-      this.view.drag = this.newDrag(hit);
+      this.view.drag = Object.assign(this.newDrag(hit), { keepsLine });
     };
     return "edit";
   }
@@ -95,7 +94,6 @@ export class Interaction {
     view.update();
     const grip = surfaceAt(deformer.points, content.surface, camera, content.center, this.from);
     if (!grip) return false;
-    editor.keepsLine = false;  // or the place does not follow
     this.beginDrag = () => {
       view.drag = new ModelDrag(editor, camera, axis, grip.place, deformer.weightsAt(grip.shares), this.from, axes);
     };

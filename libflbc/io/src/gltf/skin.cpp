@@ -305,8 +305,7 @@ ExportedSkin export_skin(const Binding<Dim>& binding, const Surface& surface,
   if (options.rigid && binding.solid.empty()) {
     throw InputError(
         "no region is solid, so none can be rigid; bind with solid regions (\"solid\" in a "
-        "locality "
-        "file)");
+        "locality file)");
   }
   const std::vector<std::vector<Index>> none, &solid = options.rigid ? binding.solid : none;
   check(control_points, points, weights, surface, options, solid.size());
