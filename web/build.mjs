@@ -24,16 +24,17 @@ function sources() {
   return `the Debian packages ${found.replace(/, $/, "")}`;
 }
 
-// The modules in one scope, without import and export, and without lines of comments.
+// The modules in one scope, without import and export, comments, and indentation.
 function joined(paths) {
-  return paths.map(read).join("").replace(/^import .*$/gm, "").replace(/^export /gm, "").replace(/^\s*\/\/.*\n/gm, "");
+  return paths.map(read).join("").replace(/^import .*$/gm, "").replace(/^export /gm, "")
+    .replace(/^\s*\/\/.*\n/gm, "").replace(/ +\/\/ [^"'`\n]*$/gm, "").replace(/^ +/gm, "");
 }
 
 // Zopfli makes 5% fewer bytes of gzip than zlib.
 function packed(bytes) {
   const file = fileURLToPath(new URL("unpacked", dist));
   writeFileSync(file, bytes);
-  const made = execFileSync("zopfli", ["--i5", "-c", file], { maxBuffer: 2 ** 28 });
+  const made = execFileSync("zopfli", ["--i15", "-c", file], { maxBuffer: 2 ** 28 });
   rmSync(file);
   return made.toString("base64");
 }
@@ -45,9 +46,16 @@ function assetsOf(name) {
   };
 }
 
+// The viewer, whose modules are in flbc.html once, and the page around it that page() saves.
+const names = /set\(page_modules\s+([^)]*)\)/.exec(read("../libflbc/front/CMakeLists.txt"))[1].trim().split(/\s+/);
+const pageParts = {
+  shell: packed(read(`${view}page.html`).replace("{{style}}", () => read(`${view}page.css`))),
+  viewer: packed(joined(names.map((name) => `${view}${name}.mjs`))),
+};
+
 function module(assets, license) {
   const text = `// ${license}\n${joined(["js/unpacked.mjs"])}${read("js/flbc.mjs").replace(/import [^\n]*\n/, "")}`;
-  return text.replace("/*{{assets}}*/ {}", () => JSON.stringify(assets));
+  return text.replace("/*{{assets}}*/ {}", () => JSON.stringify({ ...assets, page: pageParts }));
 }
 
 function decoders() {
@@ -57,9 +65,7 @@ function decoders() {
 }
 
 function page(assets) {
-  const names = /set\(page_modules\s+([^)]*)\)/.exec(read("../libflbc/front/CMakeLists.txt"))[1].trim().split(/\s+/);
-  const program = packed(joined([...names.map((name) => `${view}${name}.mjs`), "js/unpacked.mjs", "js/flbc.mjs",
-                                 "page/reshaping.mjs", "page/protecting.mjs", "page/shapes.mjs", "page/frames.mjs", "page/cage_edits.mjs", "page/decoding.mjs", "page/app.mjs"]));
+  const program = packed(joined(["js/unpacked.mjs", "js/flbc.mjs", "page/reshaping.mjs", "page/protecting.mjs", "page/shapes.mjs", "page/frames.mjs", "page/cage_edits.mjs", "page/decoding.mjs", "page/app.mjs"]));
   const kSamples = { Character: "3d/character", Limb: "3d/limb", Torus: "3d/torus", "Figure, in 2D": "2d/figure" };
   const samples = {};
   let buttons = "";
@@ -73,7 +79,7 @@ function page(assets) {
   const app = read("page/app.html").replace("{{version}}", version).replace("{{source}}", source)
     .replace("{{samples}}", buttons).replace("{{moving}}", read("../meshes/pictures/figure_moving.svg"));
   // Base64 has no "<". It comes last, and is read after the page has been drawn.
-  const late = `<script type="application/json" id="assets">${JSON.stringify({ program, ...assets, samples, decoders: decoders() })}</script>\n`;
+  const late = `<script type="application/json" id="assets">${JSON.stringify({ program, page: pageParts, ...assets, samples, decoders: decoders() })}</script>\n`;
   const parts = { style: read(`${view}page.css`) + read("page/app.css"), data: "null",
                   script: joined(["js/unpacked.mjs", "page/loading.mjs"]) };
   return read(`${view}page.html`)

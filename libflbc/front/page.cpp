@@ -252,19 +252,22 @@ std::vector<std::array<Index, 2>> edges_of_cage(const std::vector<std::vector<In
 template <int Dim>
 std::string make_content(const PageContent<Dim>& content) {
   check(content);
-  return to_json(content).dump(-1, ' ', false, Json::error_handler_t::replace);
+  const auto text = to_json(content).dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string result;  // may be large
+  result.reserve(text.size());
+  for (const char c : text) c == '<' ? result += "\\u003c" : result += c;
+  return result;
 }
 
 template <int Dim>
 std::string make_page(const PageContent<Dim>& content) {
-  const auto data = make_content(content);  // may be large
+  const auto data = make_content(content);
   const std::string_view page = kPageTemplate, place = "{{data}}";
   const auto begin = page.find(place);
   std::string result;
   result.reserve(page.size() + data.size());
   result += page.substr(0, begin);
-  // Nothing in a text may end the script element that holds it.
-  for (const char c : data) c == '<' ? result += "\\u003c" : result += c;
+  result += data;
   result += page.substr(begin + place.size());
   return result;
 }

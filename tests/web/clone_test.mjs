@@ -8,6 +8,7 @@ import { largestDifference, launch, Page } from "../browser/page.mjs";
 const [executablePath, path, version] = process.argv.slice(2);
 const text = readFileSync(path, "utf8");
 assert.ok(text.includes(`libflbc ${version}.`), `${path} is not of version ${version}; make it by scripts/web.sh`);
+assert.ok(text.length <= 2.6e6, `${path} has ${text.length} bytes, more than 2.6 MB`);
 for (const name of ["tetgen", "cgal", "eigen3", "nlohmann-json3", "pugixml"]) assert.match(text, new RegExp(`${name} \\d`));
 
 class Clone extends Page {

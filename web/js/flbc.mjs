@@ -30,8 +30,10 @@ export class Flbc {
 
   // \param wasm  bytes, a Response or an address of the module, where it is not inside this file
   // \param worker  bytes of the worker's script, likewise
-  static async start({ wasm, worker } = {}) {
+  // \param page  what page() needs, packed: { shell, viewer }
+  static async start({ wasm, worker, page = assets.page } = {}) {
     const flbc = new Flbc();
+    flbc.pageParts = page;
     const given = typeof wasm === "string" || wasm instanceof URL ? await fetch(wasm) : await wasm;
     const bytes = given?.arrayBuffer ? await given.arrayBuffer() : given ?? await unpacked(assets.wasm);
     flbc.compiled = await WebAssembly.compile(bytes);
@@ -115,13 +117,20 @@ export class Flbc {
   deform(points) { return this.call("deform", { points }); }
   modelFile(points, extension) { return this.call("modelFile", { points, extension }); }
   drawing(text, placing, points) { return this.call("drawing", { text, placing, points }); }
+
+  async page(options = {}) {
+    const content = await this.content(options);
+    const shell = new TextDecoder().decode(await unpacked(this.pageParts.shell));
+    const [begin, middle, end] = shell.split(/\{\{data\}\}|\{\{script\}\}/);
+    return new Uint8Array(await new Blob([begin, content, middle, await unpacked(this.pageParts.viewer), end]).arrayBuffer());
+  }
 }
 
 // The others take an object of these options. Other options are misspelled.
 const kOptions = {
   makeCage: "controlPoints offset symmetry density", repairCage: "", compose: "points facets starts controlPoints values isCurved", makeMesh: "vertices", solve: "smoothness tolerance distances precision",
   solution: "", setSolution: "points cells starts controlPoints values options", reduce: "influences", move: "points refine seconds",
-  points: "", cage: "", weights: "", harmonicWeights: "", content: "picture", page: "picture", glb: "influences rigid times poses",
+  points: "", cage: "", weights: "", harmonicWeights: "", content: "picture", glb: "influences rigid times poses",
   picture: "pixels size poses scale sheet fps", weightFile: "format of", cageFile: "", meshFile: "", memory: "", version: "",
 };
 

@@ -58,8 +58,8 @@ class App {
   }
 
   async start() {
-    const { wasm, worker, samples } = globalThis.flbcAssets;
-    this.flbc = await Flbc.start({ wasm: wasm ? await unpacked(wasm) : "flbc.wasm", worker: await unpacked(worker) });
+    const { wasm, worker, page, samples } = globalThis.flbcAssets;
+    this.flbc = await Flbc.start({ wasm: wasm ? await unpacked(wasm) : "flbc.wasm", worker: await unpacked(worker), page });
     // While the visitor looks for a file, the browser compiles what it will need.
     unpacked(samples["limb.obj"]).then((limb) => this.flbc.warmUp("limb.obj", limb)).catch(() => { /* a visitor was faster */ });
   }

@@ -13,7 +13,8 @@ for (const name of ["dragover", "drop"]) {
 const loaded = new Promise((done) => { new PerformanceObserver(done).observe({ type: "paint", buffered: true }); }).then(async () => {
   const { program, ...assets } = JSON.parse(document.getElementById("assets").textContent);
   globalThis.flbcAssets = assets;
-  const text = new TextDecoder().decode(await unpacked(program));
+  const parts = await Promise.all([assets.page.viewer, program].map(unpacked));
+  const text = parts.map((bytes) => new TextDecoder().decode(bytes)).join("");
   document.getElementById("assets").replaceWith(Object.assign(document.createElement("script"), { type: "module", text }));
 });
 loaded.catch(({ message }) => {

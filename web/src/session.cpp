@@ -261,7 +261,6 @@ class Work {
     if (name == "harmonicWeights") return weight_arrays(harmonic());
     if (name == "deform") return array_of(binding().deform(pose()));
     if (name == "content") return bytes_of(view::make_content(content(text("picture"))));
-    if (name == "page") return bytes_of(view::make_page(content(text("picture"))));
     if (name == "glb") return glb(given);
     if (name == "weightFile") return weight_file(text("of"), text("format", "npy"));
     if (name == "cageFile") return cage_file();
