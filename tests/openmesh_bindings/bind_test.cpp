@@ -318,16 +318,27 @@ TYPED_TEST(Bind, NormalsFollowOnRequest) {
   openmesh::bind(this->model_, this->sample_.cage, this->sample_.mesh, this->options_);
   auto& model = this->model_;
   model.request_vertex_normals();
+  model.request_halfedge_normals();
   openmesh::DeformOptions options;
   options.normals = true;
-  openmesh::deform(model, this->random_pose(7), options);
+  const auto pose = this->random_pose(7);
+  openmesh::deform(model, pose, options);
   EXPECT_FALSE(model.has_face_normals());
   auto copy = model;
   copy.request_face_normals();
   copy.update_normals();
   for (const auto v : model.vertices()) {
-    EXPECT_EQ(model.normal(v), copy.normal(v));
+    EXPECT_NEAR((model.normal(v) - copy.normal(v)).norm(), 0, 1e-5);
     EXPECT_NEAR(model.normal(v).norm(), 1, 1e-5);
+  }
+  for (const auto h : model.halfedges()) {
+    EXPECT_NEAR((model.normal(h) - copy.normal(h)).norm(), 0, 1e-5);
+  }
+
+  model.request_face_normals();
+  openmesh::deform(model, pose, options);
+  for (const auto f : model.faces()) {
+    EXPECT_NEAR((model.normal(f) - copy.normal(f)).norm(), 0, 1e-5);
   }
 }
 

@@ -3,9 +3,12 @@
 //! Moves a mesh with its cage by the weights of its vertices.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "flbc/cage.h"
 #include "flbc/openmesh/convert.h"
@@ -64,14 +67,62 @@ template <class Block, class Scalar, int Dim>
 Index move_points(const Block& weights, const PointList<Dim>& control_points,
                   const RowBlock<double>* offsets, int threads, const PointsView<Scalar>& points);
 
+//! \return a unit vector; zero for zero
+template <class Normal>
+Normal normalized(const Normal& n) {
+  const auto length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  return length > 0 ? Normal(n[0] / length, n[1] / length, n[2] / length) : n;
+}
+
+//! Normal of a triangle, as long as twice its area.
+template <class Normal, class Scalar>
+Normal triangle_normal(const Scalar* a, const Scalar* b, const Scalar* c) {
+  const Scalar x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2];
+  const Scalar u = c[0] - a[0], v = c[1] - a[1], w = c[2] - a[2];
+  return Normal(y * w - z * v, z * u - x * w, x * v - y * u);
+}
+
+//! The normals of OpenMesh's update_normals() in half the time: each face is added to its vertices,
+//! where OpenMesh walks around each vertex.
 template <class Mesh>
 void update_normals(Mesh& mesh) {
   if constexpr (!std::is_same_v<Mesh, TetMesh> && kPointSize<Mesh> == 3) {
-    const bool has_face_normals = mesh.has_face_normals();
-    // OpenMesh computes all other normals from them.
-    if (!has_face_normals) mesh.request_face_normals();
-    mesh.update_normals();
-    if (!has_face_normals) mesh.release_face_normals();
+    using Normal = typename Mesh::Normal;
+    const auto points = view_points(mesh);
+    const auto place = [&](int v) { return points.data + v * points.stride; };
+    const auto corner = [&](auto halfedge) { return mesh.to_vertex_handle(halfedge).idx(); };
+    const bool requests_face_normals = mesh.has_halfedge_normals() && !mesh.has_face_normals();
+    if (requests_face_normals) mesh.request_face_normals();
+    std::vector<Normal> none;
+    auto& of_faces =
+        mesh.has_face_normals() ? mesh.property(mesh.face_normals_pph()).data_vector() : none;
+    auto& of_vertices =
+        mesh.has_vertex_normals() ? mesh.property(mesh.vertex_normals_pph()).data_vector() : none;
+    std::fill(of_vertices.begin(), of_vertices.end(), Normal(0, 0, 0));
+    for (const auto face : mesh.faces()) {
+      const auto first = mesh.halfedge_handle(face), second = mesh.next_halfedge_handle(first);
+      const auto third = mesh.next_halfedge_handle(second);
+      const int a = corner(first), b = corner(second), c = corner(third);
+      const auto each_other = [&](auto take) {  // corner of a polygon
+        for (auto h = mesh.next_halfedge_handle(third); h != first;
+             h = mesh.next_halfedge_handle(h)) {
+          take(corner(h));
+        }
+      };
+      auto normal = triangle_normal<Normal>(place(a), place(b), place(c));
+      each_other([&, last = c](int d) mutable {
+        normal += triangle_normal<Normal>(place(a), place(last), place(d));
+        last = d;
+      });
+      normal = normalized(normal);
+      if (!of_faces.empty()) of_faces[face.idx()] = normal;
+      if (of_vertices.empty()) continue;
+      for (const int v : {a, b, c}) of_vertices[v] += normal;
+      each_other([&](int v) { of_vertices[v] += normal; });
+    }
+    for (auto& normal : of_vertices) normal = normalized(normal);
+    if (mesh.has_halfedge_normals()) mesh.update_halfedge_normals();
+    if (requests_face_normals) mesh.release_face_normals();
   }
 }
 
