@@ -104,7 +104,7 @@ void update_normals(Mesh& mesh) {
       const auto third = mesh.next_halfedge_handle(second);
       const int a = corner(first), b = corner(second), c = corner(third);
       const auto each_other = [&](auto take) {  // corner of a polygon
-        if (Mesh::is_trimesh()) return;  // a tenth faster
+        if (Mesh::is_trimesh()) return;         // a tenth faster
         for (auto h = mesh.next_halfedge_handle(third); h != first;
              h = mesh.next_halfedge_handle(h)) {
           take(corner(h));
