@@ -285,6 +285,55 @@ TEST(RepairCage3Test, DecompositionsIntoHullsAreUnited) {
   }
 }
 
+// Of height 1 over a convex outline.
+Cage<3> prism_over(const Cage<2>& outline) {
+  const Index n = outline.size();
+  Cage<3> prism{PointList<3>::Zero(3, 2 * n), FacetList<3>(3, 4 * n - 4)};
+  prism.points.leftCols(n).topRows<2>() = outline.points;
+  prism.points.rightCols(n).topRows<2>() = outline.points;
+  prism.points.rightCols(n).row(2).setOnes();
+  Index next = 0;
+  for (Index j = 0; j < n; ++j) {
+    const Index k = (j + 1) % n;
+    prism.facets.col(next++) << j, k, k + n;
+    prism.facets.col(next++) << j, k + n, j + n;
+    if (j == 0 || k == 0) continue;
+    prism.facets.col(next++) << 0, k, j;
+    prism.facets.col(next++) << n, j + n, k + n;
+  }
+  return prism;
+}
+
+// Prisms whose ends lie in two planes, in any direction, with coordinates of six digits.
+TEST(RepairCage3Test, RoundedPrismsAreUnited) {
+  constexpr int kSides = 10;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Cage<2> outlines;
+  Cage<3> prisms;
+  for (int k = 0; k < 6; ++k) {
+    const Eigen::Vector2d center = 0.6 * Eigen::Vector2d(uniform(random), uniform(random));
+    const double radius = 0.4 + 0.1 * uniform(random), start = uniform(random);
+    Cage<2> outline{PointList<2>(2, kSides), FacetList<2>(2, kSides)};
+    for (int j = 0; j < kSides; ++j) {
+      const double angle = start + 2 * std::acos(-1.0) * j / kSides;
+      outline.points.col(j) = center + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      outline.facets.col(j) << j, (j + 1) % kSides;
+    }
+    outlines = join(outlines, outline);
+    prisms = join(prisms, prism_over(outline));
+  }
+  const double area = measure_cage(repair(outlines).cage).measure;
+  for (int k = 0; k < 16; ++k) {
+    const Eigen::Vector4d turn =
+        Eigen::Vector4d::NullaryExpr([&] { return uniform(random); }).normalized();
+    auto turned = prisms;
+    turned.points = Eigen::Quaterniond(turn).toRotationMatrix() * prisms.points;
+    turned.points = (1e6 * turned.points).array().round() / 1e6;
+    expect_united(repair(turned), area, 1e-4);
+  }
+}
+
 // 82 bricks in a running bond touch with parts of their sides.
 TEST(RepairCage3Test, WallsOfBricksAreUnited) {
   Boxes<3> bricks;

@@ -103,7 +103,8 @@ class Cells {
   bool is_complete() const { return is_complete_; }
 
   //! Per side: whether the facets of a part separate it from infinity. \param parts_of  per facet
-  std::vector<bool> enclosed_by(Index part, const std::vector<std::set<Index>>& parts_of) const {
+  std::vector<bool> enclosed_by(Index part,
+                                const std::vector<std::multiset<Index>>& parts_of) const {
     UnionFind cells(infinity_ + 1);
     for (const auto& [a, b] : adjacent_) cells.unite(a, b);
     for (Index f = 0; f < count(); ++f) {
@@ -114,6 +115,20 @@ class Cells {
       is_enclosed[side] = cells.find(side) != cells.find(infinity_);
     }
     return is_enclosed;
+  }
+
+  //! Whether every path from infinity and back crosses the part an even number of times.
+  //! \param parts_of  per facet
+  bool has_inside(Index part, const std::vector<std::multiset<Index>>& parts_of) const {
+    const Side all = infinity_ + 1;
+    UnionFind cells(2 * all);  // after an even number of crossings, and after an odd one
+    const auto unite = [&](Side a, Side b, bool crosses) {
+      cells.unite(a, crosses ? b + all : b);
+      cells.unite(a + all, crosses ? b : b + all);
+    };
+    for (const auto& [a, b] : adjacent_) unite(a, b, false);
+    for (Index f = 0; f < count(); ++f) unite(2 * f, 2 * f + 1, parts_of[f].count(part) % 2 == 1);
+    return cells.find(infinity_) != cells.find(infinity_ + all);
   }
 
   //! Whether a path leads from one side of the facet to the other.
@@ -172,11 +187,12 @@ class Cells {
   bool is_complete_ = true;
 };
 
-// Of facets with the same corners one remains. \return per facet: the parts that it belongs to
+// Of facets with the same corners one remains. \return per facet: the parts that it belongs to,
+// each as often as it has such a facet
 template <int Dim>
-std::vector<std::set<Index>> merge_equal(CageDraft<Dim>& draft) {
+std::vector<std::multiset<Index>> merge_equal(CageDraft<Dim>& draft) {
   std::map<std::array<Index, Dim>, std::size_t> first_with;
-  std::vector<std::set<Index>> parts_of;
+  std::vector<std::multiset<Index>> parts_of;
   std::size_t kept = 0;
   for (const auto& facet : draft.facets) {
     std::array<Index, Dim> corners;
@@ -187,7 +203,7 @@ std::vector<std::set<Index>> merge_equal(CageDraft<Dim>& draft) {
       draft.facets[kept++] = facet;
       parts_of.emplace_back();
     }
-    parts_of[entry->second].insert(facet.part);
+    for (int k = 0; k < (facet.is_double ? 2 : 1); ++k) parts_of[entry->second].insert(facet.part);
   }
   draft.facets.resize(kept);
   return parts_of;
@@ -196,7 +212,7 @@ std::vector<std::set<Index>> merge_equal(CageDraft<Dim>& draft) {
 // Per side: whether it is inside the union of all parts.
 template <int Dim>
 std::vector<bool> sides_inside(const CageDraft<Dim>& draft, const Cells<Dim>& cells,
-                               const std::vector<std::set<Index>>& parts_of,
+                               const std::vector<std::multiset<Index>>& parts_of,
                                const std::map<Index, double>& measures) {
   std::set<Index> parts;
   for (const auto& own : parts_of) parts.insert(own.begin(), own.end());
@@ -267,10 +283,14 @@ std::map<Index, double> number_parts(CageDraft<Dim>& draft, const std::vector<In
 }
 
 template <int Dim>
-bool keep_boundary(CageDraft<Dim>& draft, const std::map<Index, double>& measures) {
+bool keep_boundary(CageDraft<Dim>& draft, const std::map<Index, double>& measures,
+                   const std::set<Index>& open) {
   const auto parts_of = merge_equal(draft);
   Cells<Dim> cells(draft);
   if (!cells.is_complete()) return false;
+  for (const auto& [part, measure] : measures) {
+    if (open.count(part) == 0 && !cells.has_inside(part, parts_of)) return false;
+  }
   const auto is_inside = sides_inside(draft, cells, parts_of, measures);
   std::vector<typename CageDraft<Dim>::Facet> kept;
   std::map<Index, std::string> dropped;

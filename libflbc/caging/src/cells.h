@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <vector>
 
 #include "caging/repair_steps.h"
@@ -30,9 +31,13 @@ std::map<Index, double> number_parts(CageDraft<Dim>& draft, const std::vector<In
 //! inside of a part is what it separates from infinity. A part inside another one is its cavity,
 //! unless it touches it from within and is oriented alike; otherwise parts are united.
 //! \param draft  its facets meet only at common corners and edges \param measures  of its parts
-//! \return false if a facet has the outside on both sides, because it belongs to an open part
+//! \param open  the parts that need not be closed
+//! \return false if a facet has the outside on both sides, because it belongs to an open part, or if
+//! another part is not closed, because cleaning has opened it, or rounding has put facets in
+//! another order around a ridge
 template <int Dim>
-bool keep_boundary(CageDraft<Dim>& draft, const std::map<Index, double>& measures);
+bool keep_boundary(CageDraft<Dim>& draft, const std::map<Index, double>& measures,
+                   const std::set<Index>& open);
 
 //! Control points at which the solid only touches itself get a copy for each of its corners there,
 //! at a distance that is visible to meshers.

@@ -153,17 +153,34 @@ void drop_sheets(CageDraft<Dim>& draft) {
   drop_flaps(draft, true);
 }
 
+// The parts that have an odd number of facets at a ridge: a border, or a wall.
+template <int Dim>
+std::set<Index> odd_parts(const CageDraft<Dim>& draft) {
+  std::set<Index> odd;
+  for (const auto& [ridge, facets] : collect_ridges(draft)) {
+    std::multiset<Index> parts;
+    for (const Index f : facets) parts.insert(draft.facets[f].part);
+    for (const Index part : parts) {
+      if (parts.count(part) % 2 == 1) odd.insert(part);
+    }
+  }
+  return odd;
+}
+
 // The union of all parts, without walls inside. \return none if an open part remains, or if
 // rounding of crossings leaves a defect
 template <int Dim>
 std::optional<RepairedCage<Dim>> unite(const CageDraft<Dim>& parts,
                                        const std::vector<Index>& shells, double& measure) {
   const bool are_closed = is_closed(parts);
-  // Facets may cross where close points have been merged, so the second attempt merges none.
-  for (const double tolerance : {kMergeTolerance, 0.0}) {
+  // Coordinates of six digits have errors as large as the usual tolerance. Facets may cross where
+  // close points have been merged, so the last attempt merges none.
+  for (const double tolerance :
+       {kMergeTolerance, 10 * kMergeTolerance, 100 * kMergeTolerance, 0.0}) {
     auto draft = parts;
     draft.tolerance = tolerance;
     const auto measures = number_parts(draft, shells);
+    const auto odd = odd_parts(draft);
     // Overlaps first, because their facets need not be exactly in one plane. The pieces are no
     // facets of the original, so what happens to them is not reported.
     for (const bool only_overlaps : {true, false}) {
@@ -173,7 +190,7 @@ std::optional<RepairedCage<Dim>> unite(const CageDraft<Dim>& parts,
       draft.changes = std::move(changes);
     }
     if (are_closed) drop_sheets(draft);
-    if (!keep_boundary(draft, measures) || draft.facets.empty()) continue;
+    if (!keep_boundary(draft, measures, odd) || draft.facets.empty()) continue;
     split_touching_corners(draft);
     auto united = finish(draft);
     measure = signed_measure<Dim>(united.cage, united.cage.points.col(0));

@@ -50,23 +50,6 @@ bool is_between(const Vector<Dim>& p, const Vector<Dim>& a, const Vector<Dim>& b
   return place > 0 && place < (b - a).norm() && (p - a - place * along).norm() <= tolerance;
 }
 
-bool is_flat(const CageDraft<3>& draft, const FacetCorners<3>& corners) {
-  for (int k = 0; k < 3; ++k) {
-    if (is_between<3>(draft.points.col(corners(k)), draft.points.col(corners((k + 1) % 3)),
-                      draft.points.col(corners((k + 2) % 3)), tolerance_of(draft))) {
-      return true;
-    }
-  }
-  return false;
-}
-
-template <int Dim>
-double size_of(const CageDraft<Dim>& draft, const FacetCorners<Dim>& corners) {
-  Eigen::Matrix<double, Dim, Dim> points;
-  for (int k = 0; k < Dim; ++k) points.col(k) = draft.points.col(corners(k));
-  return facet_normal<Dim>(points).norm();
-}
-
 // Finds control points on edges.
 template <int Dim>
 class PointsOnEdges {
@@ -74,9 +57,8 @@ class PointsOnEdges {
   explicit PointsOnEdges(const CageDraft<Dim>& draft)
       : draft_(draft), used_(used_points(draft)), tree_(boxes(draft, used_)) {}
 
-  // The first control point between the ends that is not a given one; -1: none. The same for both
-  // directions of the edge, so that neighbors are split alike.
-  Index first_between(Index from, Index to, Index excluded) const {
+  // The first control point between the ends; -1: none.
+  Index first_between(Index from, Index to) const {
     const Vector<Dim> a = draft_.points.col(from), b = draft_.points.col(to);
     const double tolerance = tolerance_of(draft_);
     typename BoxTree<Dim>::Box around(a.cwiseMin(b).array() - tolerance,
@@ -84,7 +66,7 @@ class PointsOnEdges {
     Index first = -1;
     tree_.any_of(around, [&](Index k) {
       const Index v = used_[k];
-      if (v == from || v == to || v == excluded || (first >= 0 && v > first)) return false;
+      if (v == from || v == to || (first >= 0 && v > first)) return false;
       if (is_between<Dim>(draft_.points.col(v), a, b, tolerance)) first = v;
       return false;
     });
@@ -108,6 +90,13 @@ class PointsOnEdges {
   std::vector<Index> used_;
   BoxTree<Dim> tree_;
 };
+
+template <int Dim>
+void report_split(CageDraft<Dim>& draft, Index facet, Index point) {
+  draft.changes.push_back(name_of_facet<Dim>(facet) + " is split at " +
+                          describe_control_point<Dim>(draft.points, point) + ", which lies on " +
+                          (Dim == 2 ? "it" : "its edge"));
+}
 
 // The smallest patch that has an open border and meets two other patches elsewhere; -1: none.
 template <int Dim>
@@ -163,31 +152,72 @@ void merge_close_points(CageDraft<Dim>& draft) {
   }
 }
 
-template <int Dim>
-void split_at_points(CageDraft<Dim>& draft) {
-  const PointsOnEdges<Dim> points(draft);
+void split_at_points(CageDraft<2>& draft) {
+  const PointsOnEdges<2> points(draft);
   for (std::size_t f = 0; f < draft.facets.size(); ++f) {
-    // The edge opposite to corner k. In 2D, the facet itself.
-    for (int k = Dim == 2 ? 1 : 0; k < Dim; ++k) {
+    while (true) {
       auto& facet = draft.facets[f];
-      const int from = (k + 1) % Dim, to = (k + 2) % Dim;
-      const Index between =
-          points.first_between(facet.corners(from), facet.corners(to), facet.corners(k));
-      if (between < 0) continue;
-      auto first = facet, rest = facet;
-      first.corners(to) = between;
-      rest.corners(from) = between;
-      // Halves of a thin triangle may be larger than it, and would be split forever.
-      const double size = size_of(draft, facet.corners);
-      if (!(size_of(draft, first.corners) < size && size_of(draft, rest.corners) < size)) continue;
-      draft.changes.push_back(name_of_facet<Dim>(facet.number) + " is split at " +
-                              describe_control_point<Dim>(draft.points, between) +
-                              ", which lies on " + (Dim == 2 ? "it" : "its edge"));
-      facet = first;
+      const Index between = points.first_between(facet.corners(0), facet.corners(1));
+      if (between < 0) break;
+      report_split(draft, facet.number, between);
+      auto rest = facet;
+      rest.corners(0) = between;
+      facet.corners(1) = between;
       draft.facets.push_back(rest);
-      k = Dim == 2 ? 0 : -1;  // the first half may be split again
     }
   }
+}
+
+// All triangles at an edge are split alike, so that a closed surface stays closed. Those whose
+// third corner is the control point on the edge have no area, and are removed.
+void split_at_points(CageDraft<3>& draft) {
+  const PointsOnEdges<3> points(draft);
+  auto ridges = collect_ridges(draft);
+  std::vector<Ridge<3>> to_do;
+  for (const auto& [ridge, facets] : ridges) to_do.push_back(ridge);
+  std::vector<bool> is_dropped(draft.facets.size(), false);
+  const auto enter = [&](Index f) {
+    for (int k = 0; k < 3; ++k) {
+      const auto ridge = ridge_of<3>(draft.facets[f].corners, k);
+      ridges[ridge].push_back(f);
+      to_do.push_back(ridge);
+    }
+  };
+  const auto leave = [&](Index f) {
+    for (int k = 0; k < 3; ++k) {
+      auto& facets = ridges[ridge_of<3>(draft.facets[f].corners, k)];
+      facets.erase(std::find(facets.begin(), facets.end(), f));
+    }
+  };
+  // Heaps of points that are closer than the tolerance to many edges could be split forever.
+  const std::size_t most = 4 * draft.facets.size() + 100;
+  while (!to_do.empty() && draft.facets.size() < most) {
+    const auto [from, to] = to_do.back();
+    to_do.pop_back();
+    const auto facets = ridges[{from, to}];  // a copy
+    if (from == to || facets.empty()) continue;
+    const Index between = points.first_between(from, to);
+    if (between < 0) continue;
+    for (const Index f : facets) {
+      auto& facet = draft.facets[f];
+      if (has_repeated_corner<3>(facet.corners)) continue;
+      leave(f);
+      if ((facet.corners.array() == between).any()) {
+        is_dropped[f] = true;
+        draft.changes.push_back(name_of_facet<3>(facet.number) + " has no area and is removed");
+        continue;
+      }
+      report_split(draft, facet.number, between);
+      auto rest = facet;
+      for (Index& v : rest.corners) v = v == from ? between : v;
+      for (Index& v : facet.corners) v = v == to ? between : v;
+      draft.facets.push_back(rest);
+      is_dropped.push_back(false);
+      enter(f);
+      enter(static_cast<Index>(draft.facets.size()) - 1);
+    }
+  }
+  drop(draft, is_dropped);
 }
 
 template <int Dim>
@@ -195,15 +225,10 @@ void drop_degenerate_facets(CageDraft<Dim>& draft) {
   std::vector<bool> is_dropped(draft.facets.size(), false);
   for (std::size_t f = 0; f < draft.facets.size(); ++f) {
     const auto& facet = draft.facets[f];
-    std::string reason;
-    if (has_repeated_corner<Dim>(facet.corners)) reason = " has the same corner twice";
-    if constexpr (Dim == 3) {
-      if (reason.empty() && is_flat(draft, facet.corners)) reason = " has no area";
-    }
-    is_dropped[f] = !reason.empty();
-    if (is_dropped[f]) {
-      draft.changes.push_back(name_of_facet<Dim>(facet.number) + reason + " and is removed");
-    }
+    is_dropped[f] = has_repeated_corner<Dim>(facet.corners);
+    if (!is_dropped[f]) continue;
+    draft.changes.push_back(name_of_facet<Dim>(facet.number) +
+                            " has the same corner twice and is removed");
   }
   drop(draft, is_dropped);
 }
@@ -248,7 +273,6 @@ void drop_flaps(CageDraft<Dim>& draft, bool only_double) {
 
 FLBC_INSTANTIATE_FUNCTION(draft_of)
 FLBC_INSTANTIATE_FUNCTION(merge_close_points)
-FLBC_INSTANTIATE_FUNCTION(split_at_points)
 FLBC_INSTANTIATE_FUNCTION(drop_degenerate_facets)
 FLBC_INSTANTIATE_FUNCTION(drop_repeated_facets)
 FLBC_INSTANTIATE_FUNCTION(drop_flaps)

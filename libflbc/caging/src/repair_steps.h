@@ -43,11 +43,11 @@ template <int Dim>
 void merge_close_points(CageDraft<Dim>& draft);
 
 //! Splits facets at control points that lie on their edges (2D: on them), within the tolerance.
-template <int Dim>
-void split_at_points(CageDraft<Dim>& draft);
+//! Triangles without area go.
+void split_at_points(CageDraft<2>& draft);
+void split_at_points(CageDraft<3>& draft);
 
-//! Removes facets with repeated corners, and triangles with collinear corners. Neighbors have been
-//! split at those corners.
+//! Removes facets with repeated corners.
 template <int Dim>
 void drop_degenerate_facets(CageDraft<Dim>& draft);
 
