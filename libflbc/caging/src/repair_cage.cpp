@@ -167,12 +167,14 @@ std::set<Index> odd_parts(const CageDraft<Dim>& draft) {
   return odd;
 }
 
-// The union of all parts, without walls inside. \return none if an open part remains, or if
-// rounding of crossings leaves a defect
+// The union of all parts, without walls inside. If rounding of crossings leaves a place that
+// meshers cannot fill, others are tried. \return none if an open part or a defect remains
 template <int Dim>
 std::optional<RepairedCage<Dim>> unite(const CageDraft<Dim>& parts,
                                        const std::vector<Index>& shells, double& measure) {
   const bool are_closed = is_closed(parts);
+  std::optional<RepairedCage<Dim>> best;
+  double thickest = 0;
   // Coordinates of six digits have errors as large as the usual tolerance. Facets may cross where
   // close points have been merged, so the last attempt merges none.
   for (const double tolerance :
@@ -193,10 +195,17 @@ std::optional<RepairedCage<Dim>> unite(const CageDraft<Dim>& parts,
     if (!keep_boundary(draft, measures, odd) || draft.facets.empty()) continue;
     split_touching_corners(draft);
     auto united = finish(draft);
-    measure = signed_measure<Dim>(united.cage, united.cage.points.col(0));
-    if (first_defect(united.cage).empty()) return united;
+    const double own = signed_measure<Dim>(united.cage, united.cage.points.col(0));
+    if (!best) measure = own;
+    if (!first_defect(united.cage).empty()) continue;
+    const double thickness = thinnest_place(united.cage).distance;
+    if (thickness <= thickest) continue;
+    thickest = thickness;
+    measure = own;
+    best = std::move(united);
+    if (thickest > kMergeTolerance * bounding_box_diagonal<Dim>(parts.points)) break;
   }
-  return {};
+  return best;
 }
 
 // Per facet: the closed shell that it belongs to; -1: an open one.
