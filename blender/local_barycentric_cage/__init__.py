@@ -9,7 +9,7 @@ from . import binding, operators, panel, preferences
 bl_info = {  # for Blender before 4.2; later versions read blender_manifest.toml
     'name': 'Local Barycentric Cage',
     'description': 'Deform meshes with cages: local, exact at rest, few influences',
-    'version': (0, 3, 0),
+    'version': (0, 3, 1),
     'blender': (3, 4, 0),
     'location': '3D Viewport > Sidebar > Cage',
     'category': 'Rigging',
