@@ -173,16 +173,17 @@ template <int Dim>
 std::optional<RepairedCage<Dim>> unite(const CageDraft<Dim>& parts,
                                        const std::vector<Index>& shells, double& measure) {
   const bool are_closed = is_closed(parts);
+  auto numbered = parts;
+  const auto measures = number_parts(numbered, shells);
+  const auto odd = odd_parts(numbered);
   std::optional<RepairedCage<Dim>> best;
   double thickest = 0;
   // Coordinates of six digits have errors as large as the usual tolerance. Facets may cross where
   // close points have been merged, so the last attempt merges none.
   for (const double tolerance :
        {kMergeTolerance, 10 * kMergeTolerance, 100 * kMergeTolerance, 0.0}) {
-    auto draft = parts;
+    auto draft = numbered;
     draft.tolerance = tolerance;
-    const auto measures = number_parts(draft, shells);
-    const auto odd = odd_parts(draft);
     // Overlaps first, because their facets need not be exactly in one plane. The pieces are no
     // facets of the original, so what happens to them is not reported.
     for (const bool only_overlaps : {true, false}) {

@@ -12,7 +12,6 @@
 #include "cage/close_points.h"
 #include "caging/enclosure.h"
 #include "caging/ridges.h"
-#include "caging/surface_tools.h"
 #include "flbc/bounding_box.h"
 
 namespace flbc {
