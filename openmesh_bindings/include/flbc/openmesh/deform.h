@@ -69,17 +69,9 @@ Index move_points(const Block& weights, const PointList<Dim>& control_points,
 
 //! \return a unit vector; zero for zero
 template <class Normal>
-Normal normalized(const Normal& n) {
-  const auto length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  return length > 0 ? Normal(n[0] / length, n[1] / length, n[2] / length) : n;
-}
-
-//! Normal of a triangle, as long as twice its area.
-template <class Normal, class Scalar>
-Normal triangle_normal(const Scalar* a, const Scalar* b, const Scalar* c) {
-  const Scalar x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2];
-  const Scalar u = c[0] - a[0], v = c[1] - a[1], w = c[2] - a[2];
-  return Normal(y * w - z * v, z * u - x * w, x * v - y * u);
+Normal normalized(const Normal& normal) {
+  const auto length = norm(normal);
+  return length > 0 ? Normal(normal / length) : normal;
 }
 
 //! The normals of OpenMesh's update_normals() in half the time: each face is added to its vertices,
@@ -88,9 +80,12 @@ template <class Mesh>
 void update_normals(Mesh& mesh) {
   if constexpr (!std::is_same_v<Mesh, TetMesh> && kPointSize<Mesh> == 3) {
     using Normal = typename Mesh::Normal;
-    const auto points = view_points(mesh);
-    const auto place = [&](int v) { return points.data + v * points.stride; };
-    const auto corner = [&](auto halfedge) { return mesh.to_vertex_handle(halfedge).idx(); };
+    const auto corner = [&](auto halfedge) { return mesh.to_vertex_handle(halfedge); };
+    // As long as twice the area of the triangle.
+    const auto normal_of = [&](auto a, auto b, auto c) {
+      return OpenMesh::vector_cast<Normal>(
+          cross(mesh.point(b) - mesh.point(a), mesh.point(c) - mesh.point(a)));
+    };
     const bool requests_face_normals = mesh.has_halfedge_normals() && !mesh.has_face_normals();
     if (requests_face_normals) mesh.request_face_normals();
     std::vector<Normal> none;
@@ -102,24 +97,24 @@ void update_normals(Mesh& mesh) {
     for (const auto face : mesh.faces()) {
       const auto first = mesh.halfedge_handle(face), second = mesh.next_halfedge_handle(first);
       const auto third = mesh.next_halfedge_handle(second);
-      const int a = corner(first), b = corner(second), c = corner(third);
-      const auto each_other = [&](auto take) {  // corner of a polygon
-        if (Mesh::is_trimesh()) return;         // a tenth faster
+      const auto a = corner(first), b = corner(second), c = corner(third);
+      const auto each_other_corner = [&](auto take) {
+        if (Mesh::is_trimesh()) return;  // saves a tenth of the time
         for (auto h = mesh.next_halfedge_handle(third); h != first;
              h = mesh.next_halfedge_handle(h)) {
           take(corner(h));
         }
       };
-      auto normal = triangle_normal<Normal>(place(a), place(b), place(c));
-      each_other([&, last = c](int d) mutable {
-        normal += triangle_normal<Normal>(place(a), place(last), place(d));
+      auto normal = normal_of(a, b, c);
+      each_other_corner([&, last = c](auto d) mutable {
+        normal += normal_of(a, last, d);
         last = d;
       });
       normal = normalized(normal);
       if (!of_faces.empty()) of_faces[face.idx()] = normal;
       if (of_vertices.empty()) continue;
-      for (const int v : {a, b, c}) of_vertices[v] += normal;
-      each_other([&](int v) { of_vertices[v] += normal; });
+      for (const auto v : {a, b, c}) of_vertices[v.idx()] += normal;
+      each_other_corner([&](auto v) { of_vertices[v.idx()] += normal; });
     }
     for (auto& normal : of_vertices) normal = normalized(normal);
     if (mesh.has_halfedge_normals()) mesh.update_halfedge_normals();
